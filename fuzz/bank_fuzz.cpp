@@ -64,11 +64,8 @@ void act_on_chain(wisp::ChainFacet& chain, wisp::InstanceId id, Source& source) 
     case 3:
       chain.set_ground({});
       break;
-    case 4:
-      chain.set_history(source.take<std::int8_t>());
-      break;
     default:
-      chain.set_temperature(number);
+      chain.release(id);
   }
 }
 

@@ -182,12 +182,8 @@ void drive(Host& host, Source& source) {
       wisp_bank_set_ground(host.bank, source.take<float>());
       break;
     case 12:
-      wisp_bank_set_history(host.bank, source.take<std::int32_t>());
-      wisp_bank_set_temperature(host.bank, source.take<float>());
-      break;
     case 13:
       wisp_bank_clear_ground(host.bank);
-      wisp_bank_clear_temperature(host.bank);
       break;
     case 14:
       wisp_bank_reset_instance(host.bank, id);

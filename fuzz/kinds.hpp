@@ -21,13 +21,9 @@ inline const std::vector<Model>& kinds() {
                               sample_model(),
                               sample_switched(),
                               sample_chain(ChainMotion::kPosition),
-                              weighted_chain(),
                               steered_chain(),
                               unblended(),
                               windy_chain(),
-                              system_chain(1),
-                              system_chain(2),
-                              spline_chain(),
                               bounded_chain()};
   }();
   return all;

@@ -87,11 +87,10 @@ class Segments:
 
 class Walk:  # what comes next: a mode by what came before, then a segment of it
     def __init__(self, d, noise):
-        self.noise, self.breadth, self.follow, self.onward = noise, d["best_of"], d["follow"], d["successor_weights"]
+        self.noise, self.breadth, self.follow = noise, d["best_of"], d["follow"]
         self.modes = len(d["initial"])
-        self.states = {tuple(c["history"]): k + 1 for k, c in enumerate(d["contexts"])}
-        self.histories = [()] + [tuple(c["history"]) for c in d["contexts"]]
-        self.tops = [self.thresholds(d["initial"])] + [self.thresholds(c["probability"]) for c in d["contexts"]]
+        self.history = d["history"]
+        self.tops = [self.thresholds(row) for row in [d["initial"]] + d["probabilities"]]
         self.first = [sum(m < mode for m in d["segment_modes"]) for mode in range(self.modes + 1)]
         self.state = 0
 
@@ -104,24 +103,17 @@ class Walk:  # what comes next: a mode by what came before, then a segment of it
         count = self.first[mode + 1] - self.first[mode]
         return self.first[mode] + (share_of(word, count) if self.noise else 0)
 
-    def mode(self, before, word):
+    def mode(self, word):
         tops = self.tops[self.state]
-        widths = [top - below for top, below in zip(tops, [0] + tops)]
-        if before is not None and self.onward:
-            widths = [(width >> 16) * weight for width, weight in zip(widths, self.onward[before])]
         if not self.noise:
+            widths = [top - below for top, below in zip(tops, [0] + tops)]
             return max(range(self.modes), key=lambda k: (widths[k], -k))
-        if before is None or not self.onward:
-            return next((k for k, top in enumerate(tops[:-1]) if word < top), self.modes - 1)
-        rest, sums = word * sum(widths) >> 32, list(itertools.accumulate(widths))
-        return next((k for k, s in enumerate(sums[:-1]) if rest < s), self.modes - 1)
+        return next((k for k, top in enumerate(tops[:-1]) if word < top), self.modes - 1)
 
     def draw(self, before, w):
-        mode = self.mode(before, w[0])
-        history = self.histories[self.state] + (mode,)
-        while history not in self.states:
-            history = history[1:]
-        self.state = self.states[history]
+        mode = self.mode(w[0])
+        last = (self.state - 1) % self.modes  # rows: the beginning, after one mode, and after two
+        self.state = 1 + mode + (self.modes * (1 + last) if self.history > 1 and self.state > 0 else 0)
         if before is None or self.breadth == 0:
             return self.any(mode, w[1])
         best = self.follow[before * self.modes + mode]
@@ -160,9 +152,8 @@ class Gust:  # what the wind has changed of the velocity
 def play_chain(model, winds, seed=1, noise=True):
     """Yields position and orientation of every frame."""
     d = model["dynamics"]
-    if d["motion"] != "pose" or d["systems"] or d["height"]:
-        sys.exit("play.py: the chain moves a point, its modes are systems, or its height is bounded; expected one of poses that plays "
-                 "segments or splines from where it is")
+    if d["motion"] != "pose" or d["height"]:
+        sys.exit("play.py: the chain moves a point, or its height is bounded; expected one of poses that goes on from where it is")
     of, walk, gust = Segments(model), Walk(d, noise), Gust(d, model) if d["gust"] else None
     blend, none = of.blend, (np.zeros(4, F), np.zeros(4, F), np.zeros(3, F))
     w = words(seed, 0, 1)

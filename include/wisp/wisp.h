@@ -202,11 +202,9 @@ typedef struct wisp_chain_facts {
   uint32_t size;         /* sizeof(wisp_chain_facts), set by the caller */
   uint32_t modes;        /* kinds of motion */
   uint32_t segments;     /* pieces of recorded motion */
-  uint32_t contexts;     /* histories of modes that say what may follow */
-  uint32_t history;      /* modes of the longest of them */
+  uint32_t history;      /* modes that the next one depends on */
   uint32_t gust_order;   /* of the response to wind; 0: wind does nothing */
   uint32_t heading_free; /* 1 when segments are turned about the vertical to join */
-  uint32_t reserved;
 } wisp_chain_facts;
 
 WISP_API wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts);
@@ -365,20 +363,8 @@ WISP_API wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, co
 WISP_API wisp_status wisp_bank_set_ground(wisp_bank* bank, float height);
 WISP_API wisp_status wisp_bank_clear_ground(wisp_bank* bank);
 
-/* How many modes back a chain looks when it chooses the next one, from the next join on; 0, as at first: as many as it
- * has learned to. Below 0 is 0. */
-WISP_API wisp_status wisp_bank_set_history(wisp_bank* bank, int32_t longest);
-
-/* How a chain chooses among the segments of a mode: 0: always the one that joins best, infinity: any alike; or, as at
- * first, as learned. Below 0 and what is not a number are 0. */
-WISP_API wisp_status wisp_bank_set_temperature(wisp_bank* bank, float temperature);
-WISP_API wisp_status wisp_bank_clear_temperature(wisp_bank* bank);
-
 typedef struct wisp_chain_settings {
   uint32_t size;            /* sizeof(wisp_chain_settings), set by the caller */
-  int32_t history;          /* 0: as learned */
-  uint32_t has_temperature; /* 0: as learned */
-  float temperature;
   uint32_t has_ground; /* 0: none */
   float ground;
 } wisp_chain_settings;

@@ -81,40 +81,13 @@ wisp_status wisp_bank_clear_ground(wisp_bank* bank) {
   return WISP_OK;
 }
 
-wisp_status wisp_bank_set_history(wisp_bank* bank, int32_t longest) {
-  if (!bank) return null_argument(__func__);
-  wisp::ChainFacet* chain = chain_of(__func__, bank);
-  if (!chain) return WISP_BAD_ARGUMENT;
-  chain->set_history(longest);
-  return WISP_OK;
-}
-
-wisp_status wisp_bank_set_temperature(wisp_bank* bank, float temperature) {
-  if (!bank) return null_argument(__func__);
-  wisp::ChainFacet* chain = chain_of(__func__, bank);
-  if (!chain) return WISP_BAD_ARGUMENT;
-  chain->set_temperature(temperature);
-  return WISP_OK;
-}
-
-wisp_status wisp_bank_clear_temperature(wisp_bank* bank) {
-  if (!bank) return null_argument(__func__);
-  wisp::ChainFacet* chain = chain_of(__func__, bank);
-  if (!chain) return WISP_BAD_ARGUMENT;
-  chain->set_temperature({});
-  return WISP_OK;
-}
-
 wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings) {
   if (!bank || !settings) return null_argument(__func__);
   if (!size_is_right(__func__, settings->size)) return WISP_BAD_ARGUMENT;
   const wisp::ChainFacet* chain = chain_of(__func__, bank);
   if (!chain) return WISP_BAD_ARGUMENT;
-  const auto temperature = chain->temperature(), ground = chain->ground();
+  const auto ground = chain->ground();
   wisp_chain_settings filled{};
-  filled.history = chain->history();
-  filled.has_temperature = temperature ? 1 : 0;
-  filled.temperature = temperature.value_or(0.0f);
   filled.has_ground = ground ? 1 : 0;
   filled.ground = ground.value_or(0.0f);
   hand_out(filled, settings);

@@ -214,8 +214,7 @@ wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* fact
   wisp_chain_facts filled{};
   filled.modes = static_cast<uint32_t>(chain->modes);
   filled.segments = static_cast<uint32_t>(chain->segments.size());
-  filled.contexts = static_cast<uint32_t>(chain->contexts.size());
-  filled.history = static_cast<uint32_t>(chain->history());
+  filled.history = static_cast<uint32_t>(chain->history);
   filled.gust_order = chain->gust ? static_cast<uint32_t>(chain->gust->order()) : 0;
   filled.heading_free = chain->heading_free ? 1 : 0;
   hand_out(filled, facts);

@@ -150,11 +150,6 @@ Result<Take> shape_take(const Model& model, const ShapeComponents& shape, const 
 }
 
 Result<Take> walk_take(const Model& model, const TakeOptions& options, Take taken) {
-  if (std::get<ChainModel>(model.dynamics).systems) {
-    return Error{
-        "a chain whose modes are systems never comes back to where it was; learn it as segments "
-        "for a loop, or export without one"};
-  }
   const std::size_t width = taken.instances * taken.outputs;
   taken.values.resize(taken.frames * width);
   for (std::size_t k = 0; k < taken.instances; ++k) {

@@ -81,27 +81,6 @@ void add_drift(const ChainDrift& drift, ReportSection& section) {
   add(section, "dynamics.drift.memory_seconds", drift.memory_seconds);
 }
 
-void add_systems(const ModeSystems& systems, ReportSection& section) {
-  add(section, "dynamics.systems.degree", systems.degree);
-  ReportTable table{"dynamics.systems.modes",
-                    "",
-                    {{"coefficient", ""}, {"noise", ""}, {"lowest", ""}, {"highest", ""}, {"steps", ""}},
-                    {}};
-  for (const ModeSystem& mode : systems.modes) {
-    table.rows.push_back({rows(mode.coefficient, system_terms(systems.degree)), rows(mode.noise, kSystemStates),
-                          list(mode.lowest), list(mode.highest), list(mode.steps)});
-  }
-  section.tables.push_back(std::move(table));
-}
-
-void add_splines(const ModeSplines& splines, ReportSection& section) {
-  add(section, "dynamics.splines.control_points", splines.control_points);
-  add(section, "dynamics.splines.components", splines.components);
-  add(section, "dynamics.splines.mean", list(splines.mean));
-  add(section, "dynamics.splines.component", list(splines.component));
-  add(section, "dynamics.splines.score", list(splines.score));
-}
-
 void add_contents(const ChainModel& chain, ReportSection& section) {
   const ChainSegments& segments = chain.segments;
   const std::string id = "dynamics.";
@@ -113,18 +92,11 @@ void add_contents(const ChainModel& chain, ReportSection& section) {
   add(section, id + "rates", rows(segments.rates, static_cast<std::size_t>(rate_count(chain.motion))));
   add(section, id + "rate_scale", segments.rate_scale);
   add(section, id + "follow", rows(segments.follow, static_cast<std::size_t>(segments.breadth)));
-  add(section, id + "successor_weights", rows(segments.successor_weights, static_cast<std::size_t>(chain.modes)));
   add(section, id + "height", list(segments.height));
   add(section, id + "height_scale", segments.height_scale);
-  ReportTable contexts{"dynamics.contexts", "", {{"history", ""}, {"probability", ""}}, {}};
-  for (const ChainContext& context : chain.contexts) {
-    contexts.rows.push_back({list(context.history), context.probability});
-  }
-  section.tables.push_back(std::move(contexts));
+  add(section, id + "probabilities", rows(chain.probabilities, static_cast<std::size_t>(chain.modes)));
   chain.gust ? add_gust(*chain.gust, section) : add(section, id + "gust", {});
   chain.drift ? add_drift(*chain.drift, section) : add(section, id + "drift", {});
-  chain.systems ? add_systems(*chain.systems, section) : add(section, id + "systems", {});
-  chain.splines ? add_splines(*chain.splines, section) : add(section, id + "splines", {});
 }
 
 const char* form_of(InputShape shape) {

@@ -88,11 +88,6 @@ void add_dynamics(const SwitchedArxModel& switching, ReportSection& section) {
   markov::describe(switching, "dynamics.", section);
 }
 
-const char* realisation_of(const ChainModel& chain) {
-  if (chain.splines) return "splines";
-  return chain.systems ? "systems" : "segments";
-}
-
 void add_shape(const ShapeComponents& shape, ReportSection& section) {
   if (shape.empty()) return add(section, "view.shape", {});
   const auto ends = [](const std::vector<ValueRange>& ranges) {
@@ -110,19 +105,19 @@ void add_shape(const ShapeComponents& shape, ReportSection& section) {
 
 void add_dynamics(const ChainModel& chain, ReportSection& section) {
   add(section, "dynamics.kind", "chain");
-  add(section, "dynamics.played_as", realisation_of(chain));
   add(section, "dynamics.segments", chain.segments.size());
   add(section, "dynamics.modes", chain.modes);
-  add(section, "dynamics.history", chain.history());
-  add(section, "dynamics.histories", chain.contexts.size());
+  add(section, "dynamics.history", chain.history);
   add(section, "dynamics.heading_free", chain.heading_free);
   add(section, "dynamics.best_of", chain.segments.breadth);
   add(section, "dynamics.blend_steps", chain.blend_steps);
   add(section, "dynamics.initial", chain.initial);
   add(section, "dynamics.transitions", arx::matrix_of(chain.transitions(), static_cast<std::size_t>(chain.modes)));
   add(section, "",
-      "chain of " + std::to_string(chain.segments.size()) + " segments in " + std::to_string(chain.modes) +
-          " modes, histories of up to " + std::to_string(chain.history()),
+      "chain of " + std::to_string(chain.segments.size()) + " segments" +
+          (chain.modes > 1 ? " in " + std::to_string(chain.modes) + " modes, each by the last " +
+                                 std::to_string(chain.history)
+                           : ""),
       "dynamics");
 }
 

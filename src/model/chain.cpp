@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
+#include <span>
 #include <string>
 
 namespace wisp {
@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kMaxRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
 constexpr double kMaxStretch = 0.005;  // of a quaternion's length: what rounding to 16 bits makes of it, hundredfold
-constexpr std::size_t kMaxContexts = 65535;
-constexpr std::size_t kMaxHistory = 64;
 constexpr double kLargestScale = 1e9;
 constexpr int kMaxBlendSteps = 4096;
 
@@ -25,8 +23,7 @@ Result<void> check_size(std::size_t size, std::size_t expected, const std::strin
   return Error{"the chain's " + what + " hold " + found(size, std::to_string(expected)) + " values"};
 }
 
-Result<void> check_row(const std::vector<double>& row, int modes, const std::string& what) {
-  if (auto ok = check_size(row.size(), static_cast<std::size_t>(modes), what); !ok) return ok;
+Result<void> check_row(std::span<const double> row, const std::string& what) {
   double sum = 0;
   for (double p : row) {
     if (!(p >= 0 && p <= 1)) return Error{"the chain's " + what + " hold a number that is not a probability"};
@@ -81,18 +78,6 @@ Result<void> check_follow(const ChainModel& model) {
   return {};
 }
 
-Result<void> check_successor_weights(const ChainModel& model) {
-  const ChainSegments& segments = model.segments;
-  if (segments.successor_weights.empty()) return {};
-  const std::size_t expected = segments.size() * static_cast<std::size_t>(model.modes);
-  if (auto ok = check_size(segments.successor_weights.size(), expected, "shares of what follows a segment"); !ok)
-    return ok;
-  for (std::uint16_t share : segments.successor_weights) {
-    if (share == 0) return Error{"a share of what follows a segment of the chain is 0, expected 1 to 65535"};
-  }
-  return {};
-}
-
 Result<void> check_heights(const ChainSegments& segments) {
   if (segments.height.empty()) return {};
   if (auto ok = check_size(segments.height.size(), segments.size(), "heights"); !ok) return ok;
@@ -130,40 +115,23 @@ Result<void> check_segments(const ChainModel& model) {
   if (model.motion == ChainMotion::kPose) {
     if (auto ok = check_orientations(segments); !ok) return ok;
   }
-  if (auto ok = check_successor_weights(model); !ok) return ok;
   if (auto ok = check_heights(segments); !ok) return ok;
   return check_follow(model);
 }
 
-std::string name_of(const std::vector<std::uint16_t>& history) {
-  std::string name = "probabilities after";
-  for (std::uint16_t mode : history) name += " " + std::to_string(mode);
-  return name;
-}
-
-Result<void> check_contexts(const ChainModel& model) {
-  if (model.contexts.size() > kMaxContexts) {
-    return Error{"a chain has " + std::to_string(model.contexts.size()) + " histories, expected at most 65535"};
+Result<void> check_probabilities(const ChainModel& model) {
+  const auto modes = static_cast<std::size_t>(model.modes);
+  if (auto ok = check_size(model.initial.size(), modes, "initial probabilities"); !ok) return ok;
+  if (auto ok = check_row(model.initial, "initial probabilities"); !ok) return ok;
+  if (model.history < 1 || model.history > 2) {
+    return Error{"a chain looks " + std::to_string(model.history) + " modes back, expected 1 or 2"};
   }
-  std::set<std::vector<std::uint16_t>> seen;
-  for (const ChainContext& context : model.contexts) {
-    const std::size_t length = context.history.size();
-    if (length == 0 || length > kMaxHistory) {
-      return Error{"a history of the chain has " + std::to_string(length) + " modes, expected 1 to 64"};
-    }
-    for (std::uint16_t mode : context.history) {
-      if (mode >= model.modes) {
-        return Error{"a history of the chain has mode " + found(mode, "below " + std::to_string(model.modes))};
-      }
-    }
-    const std::string name = name_of(context.history);
-    if (!seen.insert(context.history).second) return Error{"the chain holds its " + name + " twice"};
-    if (auto ok = check_row(context.probability, model.modes, name); !ok) return ok;
-  }
-  for (int mode = 0; mode < model.modes; ++mode) {
-    if (!seen.count({static_cast<std::uint16_t>(mode)})) {
-      return Error{"the chain does not say what follows mode " + std::to_string(mode)};
-    }
+  const std::size_t rows = model.history > 1 ? modes + modes * modes : modes;
+  if (auto ok = check_size(model.probabilities.size(), rows * modes, "probabilities"); !ok) return ok;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::string before = row < modes ? "" : " " + std::to_string(row / modes - 1);
+    const std::string name = "probabilities after" + before + " " + std::to_string(row % modes);
+    if (auto ok = check_row(std::span(model.probabilities).subspan(row * modes, modes), name); !ok) return ok;
   }
   return {};
 }
@@ -218,24 +186,6 @@ Result<void> check_drift(const ChainModel& model) {
   return {};
 }
 
-Result<void> check_systems(const ChainModel& model) {
-  if (model.motion != ChainMotion::kPose) return Error{"a chain without orientation has systems, which need one"};
-  if (model.segments.size() != static_cast<std::size_t>(model.modes)) {
-    return Error{"a chain whose modes are systems has " + found(model.segments.size(), "one for each mode") +
-                 " segments"};
-  }
-  if (model.drift) return Error{"a chain whose modes are systems says how it is steered, which it can't be"};
-  return check(*model.systems, model.modes);
-}
-
-Result<void> check_splines(const ChainModel& model) {
-  const int channels = channel_count(model.motion);
-  if (model.systems) return Error{"a chain's modes are systems and splines, expected one of them"};
-  if (auto ok = check(*model.splines, model.segments, model.modes, channels); !ok) return ok;
-  if (rows_of(*model.splines, model.segments, channels) == model.segments.rows) return {};
-  return Error{"the rows of a chain's segments are not those that the splines of its modes make"};
-}
-
 }  // namespace
 
 int channel_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 7 : 3; }
@@ -244,21 +194,8 @@ int rate_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 6 : 3
 
 int scale_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 2 : 1; }
 
-int ChainModel::history() const {
-  std::size_t longest = 0;
-  for (const ChainContext& context : contexts) longest = std::max(longest, context.history.size());
-  return static_cast<int>(longest);
-}
-
 std::vector<double> ChainModel::transitions() const {
-  const auto count = static_cast<std::size_t>(modes);
-  std::vector<double> matrix(count * count);
-  for (const ChainContext& context : contexts) {
-    if (context.history.size() == 1) {
-      std::copy_n(context.probability.begin(), count, matrix.begin() + static_cast<long>(context.history[0] * count));
-    }
-  }
-  return matrix;
+  return {probabilities.begin(), probabilities.begin() + static_cast<long>(modes) * modes};
 }
 
 std::vector<std::uint32_t> segment_rows(const ChainSegments& segments) {
@@ -272,22 +209,15 @@ Result<void> check(const ChainModel& model) {
     return Error{"a chain has a kind of motion that this program does not know"};
   }
   if (model.modes < 1 || static_cast<std::size_t>(model.modes) > kMaxModes) {
-    return Error{"a chain has " + std::to_string(model.modes) + " modes, expected 1 to 256"};
+    return Error{"a chain has " + std::to_string(model.modes) + " modes, expected 1 to 64"};
   }
   if (auto ok = check_segments(model); !ok) return ok;
-  if (auto ok = check_row(model.initial, model.modes, "initial probabilities"); !ok) return ok;
-  if (auto ok = check_contexts(model); !ok) return ok;
+  if (auto ok = check_probabilities(model); !ok) return ok;
   if (model.blend_steps < 0 || model.blend_steps > kMaxBlendSteps) {
     return Error{"a chain spreads joins over " + std::to_string(model.blend_steps) + " steps, expected 0 to 4096"};
   }
   if (model.gust) {
     if (auto ok = check_gust(*model.gust); !ok) return ok;
-  }
-  if (model.systems) {
-    if (auto ok = check_systems(model); !ok) return ok;
-  }
-  if (model.splines) {
-    if (auto ok = check_splines(model); !ok) return ok;
   }
   if (model.drift) {
     if (auto ok = check_drift(model); !ok) return ok;

@@ -143,7 +143,7 @@ void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
   const auto axes = static_cast<std::size_t>(rate_count(chain.motion));
   for (std::uint16_t steps : chain.segments.steps) {
-    for (std::size_t row = 0; row <= steps && !chain.splines; ++row) {
+    for (std::size_t row = 0; row <= steps; ++row) {
       const std::size_t order = std::min(row, kOrders - 1);
       for (std::size_t channel = 0; channel < channels; ++channel) {
         std::int16_t* at = rows + row * channels + channel;
@@ -152,11 +152,11 @@ void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int
     }
     for (bool end : {false, true}) {
       for (std::size_t axis = 0; axis < axes; ++axis) {
-        const std::int32_t prediction = chain.splines ? 0 : predicted_rate({rows, steps, channels}, end, axis, factors);
+        const std::int32_t prediction = predicted_rate({rows, steps, channels}, end, axis, factors);
         use(*rates++, prediction, channels * kOrders + axis);
       }
     }
-    if (!chain.splines) rows += (steps + std::size_t{1}) * channels;
+    rows += (steps + std::size_t{1}) * channels;
   }
 }
 
@@ -201,7 +201,7 @@ int bits_for(std::size_t count) { return std::max(1, static_cast<int>(std::bit_w
 std::vector<std::uint8_t> packed_segments(const ChainModel& chain) {
   auto rows = chain.segments.rows;
   auto rates = chain.segments.rates;
-  const RateFactors factors = chain.splines ? RateFactors{} : factors_of(chain);
+  const RateFactors factors = factors_of(chain);
   constexpr int kLengths = 16;
   std::vector<std::array<std::uint64_t, kLengths>> bits(kinds_of(chain));
   visit_numbers(
@@ -231,12 +231,12 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   ChainSegments& segments = chain.segments;
   // So many are counted in 32 bits.
   if (segments.steps.size() != segments.size() || segments.size() > kMaxSegments) return damaged;
-  const std::size_t rows = chain.splines ? 0 : std::size_t{segment_rows(segments).back()} * channels;
+  const std::size_t rows = std::size_t{segment_rows(segments).back()} * channels;
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
   // A number takes a bit at least: what can't be there takes no memory.
   if (rows + rates > 8 * bytes.size()) return damaged;
   segments.rates.assign(rates, 0);
-  if (!chain.splines) segments.rows.assign(rows, 0);
+  segments.rows.assign(rows, 0);
   BitReader in(bytes);
   RateFactors factors{};
   for (std::int32_t& factor : factors) {

@@ -15,7 +15,7 @@
 
 namespace wisp {
 
-/// The rows and rates of a chain, as bytes. Rows that splines make are left out.
+/// The rows and rates of a chain, as bytes.
 std::vector<std::uint8_t> packed_segments(const ChainModel& chain);
 
 /// Reads them into a chain of which all else is known.

@@ -34,12 +34,6 @@ struct GustResponseBuilder;
 struct ChainDrift;
 struct ChainDriftBuilder;
 
-struct ModeSystems;
-struct ModeSystemsBuilder;
-
-struct ModeSplines;
-struct ModeSplinesBuilder;
-
 struct Chain;
 struct ChainBuilder;
 
@@ -1206,232 +1200,6 @@ inline flatbuffers::Offset<ChainDrift> CreateChainDriftDirect(
       memory_seconds);
 }
 
-struct ModeSystems FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
-  typedef ModeSystemsBuilder Builder;
-  struct Traits;
-  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
-    VT_DEGREE = 4,
-    VT_COEFFICIENTS = 6,
-    VT_NOISE = 8,
-    VT_RANGES = 10,
-    VT_STEPS = 12
-  };
-  uint8_t degree() const {
-    return GetField<uint8_t>(VT_DEGREE, 0);
-  }
-  const flatbuffers::Vector<double> *coefficients() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_COEFFICIENTS);
-  }
-  const flatbuffers::Vector<double> *noise() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_NOISE);
-  }
-  const flatbuffers::Vector<double> *ranges() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_RANGES);
-  }
-  const flatbuffers::Vector<uint16_t> *steps() const {
-    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_STEPS);
-  }
-  bool Verify(flatbuffers::Verifier &verifier) const {
-    return VerifyTableStart(verifier) &&
-           VerifyField<uint8_t>(verifier, VT_DEGREE, 1) &&
-           VerifyOffsetRequired(verifier, VT_COEFFICIENTS) &&
-           verifier.VerifyVector(coefficients()) &&
-           VerifyOffset(verifier, VT_NOISE) &&
-           verifier.VerifyVector(noise()) &&
-           VerifyOffsetRequired(verifier, VT_RANGES) &&
-           verifier.VerifyVector(ranges()) &&
-           VerifyOffsetRequired(verifier, VT_STEPS) &&
-           verifier.VerifyVector(steps()) &&
-           verifier.EndTable();
-  }
-};
-
-struct ModeSystemsBuilder {
-  typedef ModeSystems Table;
-  flatbuffers::FlatBufferBuilder &fbb_;
-  flatbuffers::uoffset_t start_;
-  void add_degree(uint8_t degree) {
-    fbb_.AddElement<uint8_t>(ModeSystems::VT_DEGREE, degree, 0);
-  }
-  void add_coefficients(flatbuffers::Offset<flatbuffers::Vector<double>> coefficients) {
-    fbb_.AddOffset(ModeSystems::VT_COEFFICIENTS, coefficients);
-  }
-  void add_noise(flatbuffers::Offset<flatbuffers::Vector<double>> noise) {
-    fbb_.AddOffset(ModeSystems::VT_NOISE, noise);
-  }
-  void add_ranges(flatbuffers::Offset<flatbuffers::Vector<double>> ranges) {
-    fbb_.AddOffset(ModeSystems::VT_RANGES, ranges);
-  }
-  void add_steps(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> steps) {
-    fbb_.AddOffset(ModeSystems::VT_STEPS, steps);
-  }
-  explicit ModeSystemsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
-        : fbb_(_fbb) {
-    start_ = fbb_.StartTable();
-  }
-  flatbuffers::Offset<ModeSystems> Finish() {
-    const auto end = fbb_.EndTable(start_);
-    auto o = flatbuffers::Offset<ModeSystems>(end);
-    fbb_.Required(o, ModeSystems::VT_COEFFICIENTS);
-    fbb_.Required(o, ModeSystems::VT_RANGES);
-    fbb_.Required(o, ModeSystems::VT_STEPS);
-    return o;
-  }
-};
-
-inline flatbuffers::Offset<ModeSystems> CreateModeSystems(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    uint8_t degree = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> coefficients = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> noise = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> ranges = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> steps = 0) {
-  ModeSystemsBuilder builder_(_fbb);
-  builder_.add_steps(steps);
-  builder_.add_ranges(ranges);
-  builder_.add_noise(noise);
-  builder_.add_coefficients(coefficients);
-  builder_.add_degree(degree);
-  return builder_.Finish();
-}
-
-struct ModeSystems::Traits {
-  using type = ModeSystems;
-  static auto constexpr Create = CreateModeSystems;
-};
-
-inline flatbuffers::Offset<ModeSystems> CreateModeSystemsDirect(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    uint8_t degree = 0,
-    const std::vector<double> *coefficients = nullptr,
-    const std::vector<double> *noise = nullptr,
-    const std::vector<double> *ranges = nullptr,
-    const std::vector<uint16_t> *steps = nullptr) {
-  auto coefficients__ = coefficients ? _fbb.CreateVector<double>(*coefficients) : 0;
-  auto noise__ = noise ? _fbb.CreateVector<double>(*noise) : 0;
-  auto ranges__ = ranges ? _fbb.CreateVector<double>(*ranges) : 0;
-  auto steps__ = steps ? _fbb.CreateVector<uint16_t>(*steps) : 0;
-  return wisp::file::CreateModeSystems(
-      _fbb,
-      degree,
-      coefficients__,
-      noise__,
-      ranges__,
-      steps__);
-}
-
-struct ModeSplines FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
-  typedef ModeSplinesBuilder Builder;
-  struct Traits;
-  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
-    VT_CONTROL_POINTS = 4,
-    VT_COMPONENTS = 6,
-    VT_MEAN = 8,
-    VT_COMPONENT = 10,
-    VT_SCORE = 12
-  };
-  uint8_t control_points() const {
-    return GetField<uint8_t>(VT_CONTROL_POINTS, 0);
-  }
-  uint8_t components() const {
-    return GetField<uint8_t>(VT_COMPONENTS, 0);
-  }
-  const flatbuffers::Vector<float> *mean() const {
-    return GetPointer<const flatbuffers::Vector<float> *>(VT_MEAN);
-  }
-  const flatbuffers::Vector<float> *component() const {
-    return GetPointer<const flatbuffers::Vector<float> *>(VT_COMPONENT);
-  }
-  const flatbuffers::Vector<int16_t> *score() const {
-    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_SCORE);
-  }
-  bool Verify(flatbuffers::Verifier &verifier) const {
-    return VerifyTableStart(verifier) &&
-           VerifyField<uint8_t>(verifier, VT_CONTROL_POINTS, 1) &&
-           VerifyField<uint8_t>(verifier, VT_COMPONENTS, 1) &&
-           VerifyOffsetRequired(verifier, VT_MEAN) &&
-           verifier.VerifyVector(mean()) &&
-           VerifyOffsetRequired(verifier, VT_COMPONENT) &&
-           verifier.VerifyVector(component()) &&
-           VerifyOffsetRequired(verifier, VT_SCORE) &&
-           verifier.VerifyVector(score()) &&
-           verifier.EndTable();
-  }
-};
-
-struct ModeSplinesBuilder {
-  typedef ModeSplines Table;
-  flatbuffers::FlatBufferBuilder &fbb_;
-  flatbuffers::uoffset_t start_;
-  void add_control_points(uint8_t control_points) {
-    fbb_.AddElement<uint8_t>(ModeSplines::VT_CONTROL_POINTS, control_points, 0);
-  }
-  void add_components(uint8_t components) {
-    fbb_.AddElement<uint8_t>(ModeSplines::VT_COMPONENTS, components, 0);
-  }
-  void add_mean(flatbuffers::Offset<flatbuffers::Vector<float>> mean) {
-    fbb_.AddOffset(ModeSplines::VT_MEAN, mean);
-  }
-  void add_component(flatbuffers::Offset<flatbuffers::Vector<float>> component) {
-    fbb_.AddOffset(ModeSplines::VT_COMPONENT, component);
-  }
-  void add_score(flatbuffers::Offset<flatbuffers::Vector<int16_t>> score) {
-    fbb_.AddOffset(ModeSplines::VT_SCORE, score);
-  }
-  explicit ModeSplinesBuilder(flatbuffers::FlatBufferBuilder &_fbb)
-        : fbb_(_fbb) {
-    start_ = fbb_.StartTable();
-  }
-  flatbuffers::Offset<ModeSplines> Finish() {
-    const auto end = fbb_.EndTable(start_);
-    auto o = flatbuffers::Offset<ModeSplines>(end);
-    fbb_.Required(o, ModeSplines::VT_MEAN);
-    fbb_.Required(o, ModeSplines::VT_COMPONENT);
-    fbb_.Required(o, ModeSplines::VT_SCORE);
-    return o;
-  }
-};
-
-inline flatbuffers::Offset<ModeSplines> CreateModeSplines(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    uint8_t control_points = 0,
-    uint8_t components = 0,
-    flatbuffers::Offset<flatbuffers::Vector<float>> mean = 0,
-    flatbuffers::Offset<flatbuffers::Vector<float>> component = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> score = 0) {
-  ModeSplinesBuilder builder_(_fbb);
-  builder_.add_score(score);
-  builder_.add_component(component);
-  builder_.add_mean(mean);
-  builder_.add_components(components);
-  builder_.add_control_points(control_points);
-  return builder_.Finish();
-}
-
-struct ModeSplines::Traits {
-  using type = ModeSplines;
-  static auto constexpr Create = CreateModeSplines;
-};
-
-inline flatbuffers::Offset<ModeSplines> CreateModeSplinesDirect(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    uint8_t control_points = 0,
-    uint8_t components = 0,
-    const std::vector<float> *mean = nullptr,
-    const std::vector<float> *component = nullptr,
-    const std::vector<int16_t> *score = nullptr) {
-  auto mean__ = mean ? _fbb.CreateVector<float>(*mean) : 0;
-  auto component__ = component ? _fbb.CreateVector<float>(*component) : 0;
-  auto score__ = score ? _fbb.CreateVector<int16_t>(*score) : 0;
-  return wisp::file::CreateModeSplines(
-      _fbb,
-      control_points,
-      components,
-      mean__,
-      component__,
-      score__);
-}
-
 struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef ChainBuilder Builder;
   struct Traits;
@@ -1447,17 +1215,13 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_FOLLOW = 20,
     VT_BREADTH = 22,
     VT_INITIAL = 24,
-    VT_HISTORY_LENGTHS = 26,
-    VT_HISTORIES = 28,
-    VT_PROBABILITIES = 30,
-    VT_BLEND_STEPS = 32,
-    VT_GUST = 34,
-    VT_DRIFT = 36,
-    VT_SYSTEMS = 38,
-    VT_SPLINES = 40,
-    VT_SUCCESSOR_WEIGHTS = 42,
-    VT_HEIGHT = 44,
-    VT_HEIGHT_SCALE = 46
+    VT_HISTORY = 26,
+    VT_PROBABILITIES = 28,
+    VT_BLEND_STEPS = 30,
+    VT_GUST = 32,
+    VT_DRIFT = 34,
+    VT_HEIGHT = 36,
+    VT_HEIGHT_SCALE = 38
   };
   wisp::file::ChainMotion motion() const {
     return static_cast<wisp::file::ChainMotion>(GetField<uint8_t>(VT_MOTION, 0));
@@ -1492,11 +1256,8 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *initial() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_INITIAL);
   }
-  const flatbuffers::Vector<uint8_t> *history_lengths() const {
-    return GetPointer<const flatbuffers::Vector<uint8_t> *>(VT_HISTORY_LENGTHS);
-  }
-  const flatbuffers::Vector<uint16_t> *histories() const {
-    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_HISTORIES);
+  uint8_t history() const {
+    return GetField<uint8_t>(VT_HISTORY, 0);
   }
   const flatbuffers::Vector<double> *probabilities() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_PROBABILITIES);
@@ -1509,15 +1270,6 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   }
   const wisp::file::ChainDrift *drift() const {
     return GetPointer<const wisp::file::ChainDrift *>(VT_DRIFT);
-  }
-  const wisp::file::ModeSystems *systems() const {
-    return GetPointer<const wisp::file::ModeSystems *>(VT_SYSTEMS);
-  }
-  const wisp::file::ModeSplines *splines() const {
-    return GetPointer<const wisp::file::ModeSplines *>(VT_SPLINES);
-  }
-  const flatbuffers::Vector<uint16_t> *successor_weights() const {
-    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_SUCCESSOR_WEIGHTS);
   }
   const flatbuffers::Vector<int16_t> *height() const {
     return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_HEIGHT);
@@ -1545,10 +1297,7 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<uint16_t>(verifier, VT_BREADTH, 2) &&
            VerifyOffsetRequired(verifier, VT_INITIAL) &&
            verifier.VerifyVector(initial()) &&
-           VerifyOffsetRequired(verifier, VT_HISTORY_LENGTHS) &&
-           verifier.VerifyVector(history_lengths()) &&
-           VerifyOffsetRequired(verifier, VT_HISTORIES) &&
-           verifier.VerifyVector(histories()) &&
+           VerifyField<uint8_t>(verifier, VT_HISTORY, 1) &&
            VerifyOffsetRequired(verifier, VT_PROBABILITIES) &&
            verifier.VerifyVector(probabilities()) &&
            VerifyField<uint16_t>(verifier, VT_BLEND_STEPS, 2) &&
@@ -1556,12 +1305,6 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyTable(gust()) &&
            VerifyOffset(verifier, VT_DRIFT) &&
            verifier.VerifyTable(drift()) &&
-           VerifyOffset(verifier, VT_SYSTEMS) &&
-           verifier.VerifyTable(systems()) &&
-           VerifyOffset(verifier, VT_SPLINES) &&
-           verifier.VerifyTable(splines()) &&
-           VerifyOffset(verifier, VT_SUCCESSOR_WEIGHTS) &&
-           verifier.VerifyVector(successor_weights()) &&
            VerifyOffset(verifier, VT_HEIGHT) &&
            verifier.VerifyVector(height()) &&
            VerifyField<double>(verifier, VT_HEIGHT_SCALE, 8) &&
@@ -1606,11 +1349,8 @@ struct ChainBuilder {
   void add_initial(flatbuffers::Offset<flatbuffers::Vector<double>> initial) {
     fbb_.AddOffset(Chain::VT_INITIAL, initial);
   }
-  void add_history_lengths(flatbuffers::Offset<flatbuffers::Vector<uint8_t>> history_lengths) {
-    fbb_.AddOffset(Chain::VT_HISTORY_LENGTHS, history_lengths);
-  }
-  void add_histories(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> histories) {
-    fbb_.AddOffset(Chain::VT_HISTORIES, histories);
+  void add_history(uint8_t history) {
+    fbb_.AddElement<uint8_t>(Chain::VT_HISTORY, history, 0);
   }
   void add_probabilities(flatbuffers::Offset<flatbuffers::Vector<double>> probabilities) {
     fbb_.AddOffset(Chain::VT_PROBABILITIES, probabilities);
@@ -1623,15 +1363,6 @@ struct ChainBuilder {
   }
   void add_drift(flatbuffers::Offset<wisp::file::ChainDrift> drift) {
     fbb_.AddOffset(Chain::VT_DRIFT, drift);
-  }
-  void add_systems(flatbuffers::Offset<wisp::file::ModeSystems> systems) {
-    fbb_.AddOffset(Chain::VT_SYSTEMS, systems);
-  }
-  void add_splines(flatbuffers::Offset<wisp::file::ModeSplines> splines) {
-    fbb_.AddOffset(Chain::VT_SPLINES, splines);
-  }
-  void add_successor_weights(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights) {
-    fbb_.AddOffset(Chain::VT_SUCCESSOR_WEIGHTS, successor_weights);
   }
   void add_height(flatbuffers::Offset<flatbuffers::Vector<int16_t>> height) {
     fbb_.AddOffset(Chain::VT_HEIGHT, height);
@@ -1652,8 +1383,6 @@ struct ChainBuilder {
     fbb_.Required(o, Chain::VT_ROW_SCALE);
     fbb_.Required(o, Chain::VT_RATE_SCALE);
     fbb_.Required(o, Chain::VT_INITIAL);
-    fbb_.Required(o, Chain::VT_HISTORY_LENGTHS);
-    fbb_.Required(o, Chain::VT_HISTORIES);
     fbb_.Required(o, Chain::VT_PROBABILITIES);
     return o;
   }
@@ -1672,28 +1401,19 @@ inline flatbuffers::Offset<Chain> CreateChain(
     flatbuffers::Offset<flatbuffers::Vector<uint8_t>> follow = 0,
     uint16_t breadth = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> initial = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint8_t>> history_lengths = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> histories = 0,
+    uint8_t history = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> probabilities = 0,
     uint16_t blend_steps = 0,
     flatbuffers::Offset<wisp::file::GustResponse> gust = 0,
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
-    flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
-    flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights = 0,
     flatbuffers::Offset<flatbuffers::Vector<int16_t>> height = 0,
     double height_scale = 0.0) {
   ChainBuilder builder_(_fbb);
   builder_.add_height_scale(height_scale);
   builder_.add_height(height);
-  builder_.add_successor_weights(successor_weights);
-  builder_.add_splines(splines);
-  builder_.add_systems(systems);
   builder_.add_drift(drift);
   builder_.add_gust(gust);
   builder_.add_probabilities(probabilities);
-  builder_.add_histories(histories);
-  builder_.add_history_lengths(history_lengths);
   builder_.add_initial(initial);
   builder_.add_follow(follow);
   builder_.add_rate_scale(rate_scale);
@@ -1704,6 +1424,7 @@ inline flatbuffers::Offset<Chain> CreateChain(
   builder_.add_blend_steps(blend_steps);
   builder_.add_breadth(breadth);
   builder_.add_modes(modes);
+  builder_.add_history(history);
   builder_.add_heading_free(heading_free);
   builder_.add_motion(motion);
   return builder_.Finish();
@@ -1727,15 +1448,11 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
     const std::vector<uint8_t> *follow = nullptr,
     uint16_t breadth = 0,
     const std::vector<double> *initial = nullptr,
-    const std::vector<uint8_t> *history_lengths = nullptr,
-    const std::vector<uint16_t> *histories = nullptr,
+    uint8_t history = 0,
     const std::vector<double> *probabilities = nullptr,
     uint16_t blend_steps = 0,
     flatbuffers::Offset<wisp::file::GustResponse> gust = 0,
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
-    flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
-    flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
-    const std::vector<uint16_t> *successor_weights = nullptr,
     const std::vector<int16_t> *height = nullptr,
     double height_scale = 0.0) {
   auto segment_mode__ = segment_mode ? _fbb.CreateVector<uint16_t>(*segment_mode) : 0;
@@ -1745,10 +1462,7 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
   auto rate_scale__ = rate_scale ? _fbb.CreateVector<double>(*rate_scale) : 0;
   auto follow__ = follow ? _fbb.CreateVector<uint8_t>(*follow) : 0;
   auto initial__ = initial ? _fbb.CreateVector<double>(*initial) : 0;
-  auto history_lengths__ = history_lengths ? _fbb.CreateVector<uint8_t>(*history_lengths) : 0;
-  auto histories__ = histories ? _fbb.CreateVector<uint16_t>(*histories) : 0;
   auto probabilities__ = probabilities ? _fbb.CreateVector<double>(*probabilities) : 0;
-  auto successor_weights__ = successor_weights ? _fbb.CreateVector<uint16_t>(*successor_weights) : 0;
   auto height__ = height ? _fbb.CreateVector<int16_t>(*height) : 0;
   return wisp::file::CreateChain(
       _fbb,
@@ -1763,15 +1477,11 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
       follow__,
       breadth,
       initial__,
-      history_lengths__,
-      histories__,
+      history,
       probabilities__,
       blend_steps,
       gust,
       drift,
-      systems,
-      splines,
-      successor_weights__,
       height__,
       height_scale);
 }

@@ -88,7 +88,7 @@ const char* account_of_a_leaf(const void* bytes, size_t size) {
   EXPECT(facts.half_width == 0.0365 && facts.half_length == 0.0245 && facts.blow_out_level == 0);
   chain.size = sizeof chain;
   EXPECT(wisp_model_get_chain(model, &chain) == WISP_OK);
-  EXPECT(chain.modes == 2 && chain.segments == 3 && chain.contexts == 3 && chain.history == 2);
+  EXPECT(chain.modes == 2 && chain.segments == 3 && chain.history == 2);
   EXPECT(chain.gust_order == 2 && chain.heading_free == 1);
   EXPECT(wisp_model_chain_initial(model, initial, 2) == WISP_OK && initial[0] == 0.75 && initial[1] == 0.25);
   EXPECT(wisp_model_chain_transitions(model, transitions, 4) == WISP_OK && transitions[1] == 0.75);
@@ -109,16 +109,15 @@ static const char* settings_of_a_chain(wisp_bank* bank) {
   wisp_chain_settings settings;
   settings.size = sizeof settings;
   EXPECT(wisp_bank_get_chain_settings(bank, &settings) == WISP_OK);
-  EXPECT(settings.history == 0 && !settings.has_temperature && !settings.has_ground);
-  EXPECT(wisp_bank_set_history(bank, 1) == WISP_OK && wisp_bank_set_temperature(bank, 0.5f) == WISP_OK);
+  EXPECT(!settings.has_ground);
   EXPECT(wisp_bank_set_ground(bank, -2) == WISP_OK);
   EXPECT(wisp_bank_get_chain_settings(bank, &settings) == WISP_OK);
-  EXPECT(settings.history == 1 && settings.temperature == 0.5f && settings.ground == -2);
-  EXPECT(wisp_bank_clear_temperature(bank) == WISP_OK && wisp_bank_clear_ground(bank) == WISP_OK);
+  EXPECT(settings.has_ground && settings.ground == -2);
+  EXPECT(wisp_bank_clear_ground(bank) == WISP_OK);
   EXPECT(wisp_bank_get_chain_settings(bank, &settings) == WISP_OK);
-  EXPECT(!settings.has_temperature && !settings.has_ground);
+  EXPECT(!settings.has_ground);
   EXPECT_FAILURE(wisp_bank_set_ground(bank, INFINITY), WISP_BAD_ARGUMENT, "not finite");
-  EXPECT_FAILURE(wisp_bank_set_history(NULL, 1), WISP_BAD_ARGUMENT, "null pointer");
+  EXPECT_FAILURE(wisp_bank_set_ground(NULL, 1), WISP_BAD_ARGUMENT, "null pointer");
   EXPECT_FAILURE(wisp_bank_get_chain_settings(bank, NULL), WISP_BAD_ARGUMENT, "null pointer");
   return NULL;
 }

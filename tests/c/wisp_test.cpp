@@ -107,9 +107,6 @@ TEST(C, WhatAModelDoesNotHaveIsABadArgument) {
   EXPECT_EQ(wisp_bank_set_ground(bank, 0), WISP_BAD_ARGUMENT);
   EXPECT_STREQ(wisp_last_error(), "wisp_bank_set_ground: the model's dynamics are not a chain");
   EXPECT_EQ(wisp_bank_clear_ground(bank), WISP_BAD_ARGUMENT);
-  EXPECT_EQ(wisp_bank_set_history(bank, 1), WISP_BAD_ARGUMENT);
-  EXPECT_EQ(wisp_bank_set_temperature(bank, 1), WISP_BAD_ARGUMENT);
-  EXPECT_EQ(wisp_bank_clear_temperature(bank), WISP_BAD_ARGUMENT);
   wisp_chain_settings settings{};
   settings.size = sizeof settings;
   EXPECT_EQ(wisp_bank_get_chain_settings(bank, &settings), WISP_BAD_ARGUMENT);

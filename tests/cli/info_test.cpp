@@ -115,17 +115,6 @@ ChainDrift drift_of(const Json& json) {
   return drift;
 }
 
-ModeSystems systems_of(const Json& json) {
-  ModeSystems systems{json["degree"], {}};
-  for (const Json& mode : json["modes"]) {
-    systems.modes.push_back({flat<double>(mode["coefficient"]), flat<double>(mode["noise"])});
-    put(mode["lowest"], systems.modes.back().lowest);
-    put(mode["highest"], systems.modes.back().highest);
-    put(mode["steps"], systems.modes.back().steps);
-  }
-  return systems;
-}
-
 ChainModel chain_of(const Json& json) {
   ChainModel chain{.motion = json["motion"] == "pose" ? ChainMotion::kPose : ChainMotion::kPosition};
   put(json["heading_free"], chain.heading_free);
@@ -138,21 +127,15 @@ ChainModel chain_of(const Json& json) {
   put(json["rate_scale"], chain.segments.rate_scale);
   chain.segments.follow = flat<std::uint16_t>(json["follow"]);
   put(json["best_of"], chain.segments.breadth);
-  chain.segments.successor_weights = flat<std::uint16_t>(json["successor_weights"]);
   put(json["height"], chain.segments.height);
   put(json["height_scale"], chain.segments.height_scale);
   put(json["initial"], chain.initial);
-  for (const Json& context : json["contexts"]) chain.contexts.push_back({context["history"], context["probability"]});
+  put(json["history"], chain.history);
+  chain.probabilities = flat<double>(json["probabilities"]);
   put(json["blend_steps"], chain.blend_steps);
   const auto there = [&](const char* part) { return !json[part].is_null(); };
   if (there("gust")) chain.gust = {axis_of(json["gust"]["ground"]), axis_of(json["gust"]["vertical"])};
   if (there("drift")) chain.drift = drift_of(json["drift"]);
-  if (there("systems")) chain.systems = systems_of(json["systems"]);
-  if (there("splines")) {
-    const Json& splines = json["splines"];
-    chain.splines = {splines["control_points"], splines["components"], splines["mean"], splines["component"],
-                     splines["score"]};
-  }
   return chain;
 }
 
@@ -261,7 +244,7 @@ TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
     expect_complete(std::string(WISP_SOURCE_DIR "/apps/web/public/models/") + name + ".wisp");
   }
   const FlameOptions mirrored{.points = 4, .wind = InputShape::kSplitSign, .noise_rank = 2, .resampled_rows = 60};
-  for (const Model& model : {system_chain(2), steered_chain(), flame_model(mirrored)}) {
+  for (const Model& model : {bounded_chain(), steered_chain(), flame_model(mirrored)}) {
     ASSERT_TRUE(write_model(at("m.wisp"), model));
     expect_complete(at("m.wisp"));
   }
@@ -342,10 +325,7 @@ TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
 
 TEST_F(InfoPlayed, ChainsOfPosesAndTheirGusts) {
   const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
-  for (const char* noise : {"on", "off"}) {
-    for (const char* name : {"v1_chain.wisp", "v1_chain_spline.wisp"})
-      expect_same_bits(golden + name, noise, "0", "--frames 80");
-  }
+  for (const char* noise : {"on", "off"}) expect_same_bits(golden + "v1_chain.wisp", noise, "0", "--frames 80");
   std::ofstream table(at("wind.csv")), lines(at("wind.txt"));
   table << "# wisp-recording 1\n# rate_hz 60\nu:wind.x,u:wind.y,u:wind.z\n";
   for (int t = 0; t < 80; ++t) {

@@ -19,8 +19,6 @@ class RunChain : public InFolder {
   RunChain() {
     EXPECT_TRUE(write_model(at("leaf.wisp"), steered_chain()));
     EXPECT_TRUE(write_model(at("old.wisp"), sample_chain()));
-    EXPECT_TRUE(write_model(at("spline.wisp"), spline_chain()));
-    EXPECT_TRUE(write_model(at("linear.wisp"), system_chain()));
     EXPECT_TRUE(write_model(at("flame.wisp"), sample_model()));
   }
 
@@ -40,9 +38,7 @@ class RunChain : public InFolder {
 TEST_F(RunChain, WalksAsItIsTold) {
   ASSERT_EQ(run("").status, 0);
   const std::string plain = file_text(at("out.csv"));
-  EXPECT_EQ(run("--history none").status, 0);
-  EXPECT_EQ(file_text(at("out.csv")), plain);
-  EXPECT_EQ(run("--history 1 --temperature 0 --steer 1,-0.5,-0.4@0.5 --near 0.05").status, 0);
+  EXPECT_EQ(run("--steer 1,-0.5,-0.4@0.5 --near 0.05").status, 0);
   EXPECT_NE(file_text(at("out.csv")), plain);
 }
 
@@ -73,31 +69,12 @@ TEST_F(RunChain, WithoutNoiseItSaysHowItRepeatsItself) {
 }
 
 TEST_F(RunChain, RefusesWhatItCannotDo) {
-  EXPECT_THAT(refused("--history 0"), HasSubstr("--history is 0, expected at least 1"));
-  EXPECT_THAT(refused("--temperature=-1"), HasSubstr("--temperature is -1, expected 0 or more"));
   for (const char* target : {"1,2@3", "1,2,3", "1,2,3@0", "1,2,3@-4", "a,b,c@d", "1,2,3@4x", "1e9,2,3@4"}) {
     EXPECT_THAT(refused("--steer " + std::string(target)), HasSubstr("expected X,Y,Z@S")) << target;
   }
   EXPECT_THAT(refused("--steer 1,2,3@4 --near 0"), HasSubstr("--near is 0"));
-  EXPECT_THAT(refused("--steer 1,2,3@4", "old.wisp", 1), HasSubstr("can't be steered: an older Wisp"));
-  EXPECT_THAT(refused("--steer 1,2,3@4", "linear.wisp", 1), HasSubstr("can't be steered: its modes are systems"));
-  for (const char* flag : {"--history 1", "--temperature 1", "--steer 1,2,3@4"}) {
-    EXPECT_THAT(refused(flag, "flame.wisp"), HasSubstr("is for segment chains"));
-  }
-}
-
-TEST_F(RunChain, ModesThatAreSplinesPlayAndAreSteered) {
-  ASSERT_EQ(run("", "spline.wisp").status, 0);
-  const std::string plain = file_text(at("out.csv"));
-  // What follows is drawn a segment ahead, so that a target in half a second leaves little to choose.
-  ASSERT_EQ(run("--steer 1,-0.5,-0.4@1 --near 0.05", "spline.wisp").status, 0);
-  EXPECT_NE(file_text(at("out.csv")), plain);
-  for (const auto& [model, kind] :
-       {std::pair{"spline.wisp", "splines"}, std::pair{"linear.wisp", "systems"}, std::pair{"leaf.wisp", "segments"}}) {
-    const Said said = wisp("info " + at(model) + " --json");
-    ASSERT_EQ(said.status, 0) << said.err;
-    EXPECT_EQ(said.json()["dynamics"]["played_as"], kind);
-  }
+  EXPECT_THAT(refused("--steer 1,2,3@4", "old.wisp", 1), HasSubstr("can't be steered: it does not say where its segments lead"));
+  EXPECT_THAT(refused("--steer 1,2,3@4", "flame.wisp"), HasSubstr("is for segment chains"));
 }
 
 TEST_F(RunChain, ARealisationThatIsNoneIsAnError) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -20,7 +21,6 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1_chain.wisp";
-const std::string kGoldenSpline = WISP_SOURCE_DIR "/tests/model/golden/v1_chain_spline.wisp";
 
 ChainModel& chain(Model& model) { return std::get<ChainModel>(model.dynamics); }
 
@@ -38,15 +38,11 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(x.segments.rate_scale, y.segments.rate_scale);
   EXPECT_EQ(x.segments.follow, y.segments.follow);
   EXPECT_EQ(x.segments.breadth, y.segments.breadth);
-  EXPECT_EQ(x.segments.successor_weights, y.segments.successor_weights);
   EXPECT_EQ(x.segments.height, y.segments.height);
   EXPECT_EQ(x.segments.height_scale, y.segments.height_scale);
   EXPECT_EQ(x.initial, y.initial);
-  ASSERT_EQ(x.contexts.size(), y.contexts.size());
-  for (std::size_t k = 0; k < x.contexts.size(); ++k) {
-    EXPECT_EQ(x.contexts[k].history, y.contexts[k].history);
-    EXPECT_EQ(x.contexts[k].probability, y.contexts[k].probability);
-  }
+  EXPECT_EQ(x.history, y.history);
+  EXPECT_EQ(x.probabilities, y.probabilities);
   EXPECT_EQ(x.blend_steps, y.blend_steps);
   ASSERT_EQ(x.drift.has_value(), y.drift.has_value());
   if (x.drift) {
@@ -57,8 +53,7 @@ void expect_same(const Model& a, const Model& b) {
 }
 
 TEST(ChainModel, WhatIsWrittenIsRead) {
-  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), weighted_chain(), bounded_chain(),
-                             windy_chain(), system_chain(1), system_chain(2), spline_chain()}) {
+  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), bounded_chain(), windy_chain(), steered_chain()}) {
     const auto bytes = model_bytes(model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const auto read = parse_model(*bytes, "chain.wisp");
@@ -79,16 +74,6 @@ TEST(ChainModel, TheGoldenFileStillMeansTheSame) {
   EXPECT_EQ(std::get<PoseView>(read->view).half_width, 0.0365);
 }
 
-// Written when modes could be splines first.
-TEST(ChainModel, TheGoldenFileOfSplinesStillMeansTheSame) {
-  if (std::getenv("WISP_WRITE_GOLDEN")) {
-    ASSERT_TRUE(write_model(kGoldenSpline, spline_chain()));
-  }
-  const auto read = read_model(kGoldenSpline);
-  ASSERT_TRUE(read) << read.error().message;
-  expect_same(*read, spline_chain());
-}
-
 // A file that was made to harm has a hash that fits.
 std::vector<std::byte> mended(std::vector<std::byte> bytes) {
   const std::uint64_t hash = hash_bytes(std::span(bytes).subspan(32));
@@ -96,22 +81,19 @@ std::vector<std::byte> mended(std::vector<std::byte> bytes) {
   return bytes;
 }
 
-// A chain whose segments take a hundred times as many steps.
+// The sample's segments, each of which takes a hundred times as many steps and glides along a parabola.
 Model lengthened(Model model) {
-  ChainModel& c = chain(model);
-  for (std::uint16_t& steps : c.segments.steps) steps = static_cast<std::uint16_t>(100 * steps);
-  c.segments.rows = rows_of(*c.splines, c.segments, 7);
+  ChainSegments& segments = chain(model).segments;
+  segments.rows.clear();
+  for (std::uint16_t& steps : segments.steps) {
+    steps = static_cast<std::uint16_t>(100 * steps);
+    for (int step = 0; step <= steps; ++step) {
+      const double part = static_cast<double>(step) / steps, half = 0.4 * part;
+      for (double x : {8000 * part, 3000 * part * part, -9900 * part, 32767 * std::cos(half), 32767 * std::sin(half), 0.0, 0.0})
+        segments.rows.push_back(static_cast<std::int16_t>(std::lround(x)));
+    }
+  }
   return model;
-}
-
-TEST(ChainModel, SplinesAreStoredInThePlaceOfRows) {
-  const auto without = [](Model model) {
-    chain(model).splines.reset();
-    return model_bytes(model)->size();
-  };
-  const Model model = spline_chain(), longer = lengthened(model);
-  EXPECT_LE(model_bytes(longer)->size(), model_bytes(model)->size() + 8);
-  EXPECT_GT(without(longer), without(model) + 1000);
 }
 
 TEST(ChainModel, RowsAndRatesOfAnySizeAreReadAsWritten) {
@@ -164,13 +146,7 @@ TEST(ChainModel, FactorsOfRatesThatNoFileHasAreNotMultipliedBy) {
 }
 
 TEST(ChainModel, SmoothMotionTakesLessThanAByteANumber) {
-  Model model = spline_chain();
-  chain(model).splines.reset();
-  Model longer = [&] {
-    Model out = lengthened(spline_chain());
-    chain(out).splines.reset();
-    return out;
-  }();
+  Model model = steered_chain(), longer = lengthened(model);
   const auto more = chain(longer).segments.rows.size() - chain(model).segments.rows.size();
   EXPECT_LT(model_bytes(longer)->size() - model_bytes(model)->size(), more);
 }
@@ -196,7 +172,7 @@ TEST(ChainModel, SegmentsThatWereMadeToHarmAreReadWholeOrNotAtAll) { expect_read
 
 class ChainBytes : public testing::TestWithParam<Model (*)()> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, ChainBytes,
-                         testing::Values([] { return sample_chain(); }, [] { return spline_chain(); }));
+                         testing::Values([] { return sample_chain(); }, [] { return steered_chain(); }));
 
 TEST_P(ChainBytes, EveryTruncationAndEveryBitFlipIsAnError) { expect_damage_noticed(*model_bytes(GetParam()())); }
 
@@ -205,14 +181,14 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
   const std::vector<std::pair<std::string, std::function<void(Model&)>>> broken = {
       {"sum to",
        [](Model& m) {
-         chain(m).contexts[1].probability = {0.5, 0.4};
+         chain(m).probabilities[3] = 0.4;
        }},
       {"not a probability",
        [](Model& m) {
          chain(m).initial = {1.5, -0.5};
        }},
-      {"not a probability", [&](Model& m) { chain(m).contexts[0].probability[0] = nan; }},
-      {"probabilities after 0 hold", [](Model& m) { chain(m).contexts[0].probability.pop_back(); }},
+      {"not a probability", [&](Model& m) { chain(m).probabilities[0] = nan; }},
+      {"probabilities hold 11, expected 12", [](Model& m) { chain(m).probabilities.pop_back(); }},
       {"has mode 2", [](Model& m) { chain(m).segments.mode[2] = 2; }},
       {"order of their modes",
        [](Model& m) {
@@ -224,11 +200,6 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
       {"rates hold", [](Model& m) { chain(m).segments.rates.pop_back(); }},
       {"successor 0", [](Model& m) { chain(m).segments.follow[0] = 2; }},
       {"successor 2", [](Model& m) { chain(m).segments.follow[2] = 9; }},
-      {"shares of what follows",
-       [](Model& m) {
-         chain(m).segments.successor_weights = {1, 2, 3};
-       }},
-      {"is 0, expected 1 to 65535", [](Model& m) { chain(m).segments.successor_weights = {1, 2, 3, 4, 5, 0}; }},
       {"heights",
        [](Model& m) {
          chain(m).segments.height = {1, 2};
@@ -239,10 +210,10 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
        }},
       {"row scales", [&](Model& m) { chain(m).segments.row_scale[0] = nan; }},
       {"rate scales", [](Model& m) { chain(m).segments.rate_scale[1] = 0; }},
-      {"what follows mode 1", [](Model& m) { chain(m).contexts.erase(chain(m).contexts.begin() + 1); }},
-      {"twice", [](Model& m) { chain(m).contexts.push_back(chain(m).contexts[2]); }},
-      {"a history of the chain has mode", [](Model& m) { chain(m).contexts[2].history[0] = 7; }},
-      {"a history of the chain has 0 modes", [](Model& m) { chain(m).contexts[2].history.clear(); }},
+      {"probabilities after 1 0 sum to", [](Model& m) { chain(m).probabilities[8] = 0.5; }},
+      {"looks 0 modes back", [](Model& m) { chain(m).history = 0; }},
+      {"looks 3 modes back", [](Model& m) { chain(m).history = 3; }},
+      {"probabilities hold 12, expected 4", [](Model& m) { chain(m).history = 1; }},
       {"expected 0 to 4096", [](Model& m) { chain(m).blend_steps = 4097; }},
       {"modes", [](Model& m) { chain(m).modes = 0; }},
       {"moves 7 outputs", [](Model& m) { m.outputs.pop_back(); }},
@@ -281,7 +252,8 @@ TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
          chain(m).segments.mode = {0, 0, 0};
          chain(m).segments.follow = {1, 0, 2, 0, 1, 2};
          chain(m).initial = {1};
-         chain(m).contexts = {{{0}, {1}}};
+         chain(m).history = 1;
+         chain(m).probabilities = {1};
        }},
       {"largest scale", [](Model& m) { chain(m).segments.row_scale[0] = chain(m).segments.rate_scale[1] = 1e9; }},
       {"nothing to choose from",
@@ -300,9 +272,10 @@ TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
        [](Model& m) {
          m.view = PoseView{1e4, 0};
        }},
-      {"longest history",
+      {"shorter history",
        [](Model& m) {
-         chain(m).contexts.push_back({std::vector<std::uint16_t>(64, 1), {0.5, 0.5}});
+         chain(m).history = 1;
+         chain(m).probabilities.resize(4);
        }},
   };
   for (const auto& [what, change] : bounds) {
@@ -310,25 +283,6 @@ TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
     change(model);
     const auto ok = check(model);
     EXPECT_TRUE(ok) << what << ": " << ok.error().message;
-  }
-}
-
-TEST(ChainModel, SystemsThatAreNoneAreRefusedWithAReason) {
-  const std::vector<std::pair<std::string, std::function<void(ChainModel&)>>> broken = {
-      {"degree 3", [](ChainModel& c) { c.systems->degree = 3; }},
-      {"systems for 1", [](ChainModel& c) { c.systems->modes.pop_back(); }},
-      {"coefficients", [](ChainModel& c) { c.systems->modes[1].coefficient.pop_back(); }},
-      {"out of range", [](ChainModel& c) { c.systems->modes[1].noise[0] = std::numeric_limits<double>::quiet_NaN(); }},
-      {"not one", [](ChainModel& c) { c.systems->modes[0].lowest[2] = 100; }},
-      {"no step", [](ChainModel& c) { c.systems->modes[0].steps[3] = 0; }},
-      {"can't be", [](ChainModel& c) { c.drift = std::get<ChainModel>(steered_chain().dynamics).drift; }},
-  };
-  for (const auto& [word, harm] : broken) {
-    Model model = system_chain();
-    harm(chain(model));
-    const auto outcome = model_bytes(model);
-    ASSERT_FALSE(outcome) << word;
-    EXPECT_THAT(outcome.error().message, HasSubstr(word));
   }
 }
 
@@ -377,65 +331,9 @@ TEST(ChainModel, ResponsesToGustsThatAreNoneAreRefusedWithAReason) {
   EXPECT_TRUE(check(most));
 }
 
-TEST(ChainModel, SplinesThatWereMadeToHarmAreReadWholeOrNotAtAll) { expect_read_whole_or_not(spline_chain()); }
-
-TEST(ChainModel, SplinesThatAreNoneAreRefusedWithAReason) {
-  const std::vector<std::pair<std::string, std::function<void(ChainModel&)>>> broken = {
-      {"beyond 4 to 32", [](ChainModel& c) { c.splines->control_points = 3; }},
-      {"beyond 4 to 32", [](ChainModel& c) { c.splines->components = 65; }},
-      {"do not fit", [](ChainModel& c) { c.splines->mean.pop_back(); }},
-      {"do not fit", [](ChainModel& c) { c.splines->component.push_back(0); }},
-      {"do not fit", [](ChainModel& c) { c.splines->score.pop_back(); }},
-      {"out of range", [](ChainModel& c) { c.splines->mean[3] = std::numeric_limits<float>::quiet_NaN(); }},
-      {"out of range", [](ChainModel& c) { c.splines->component[7] = 1e7f; }},
-      {"are not those", [](ChainModel& c) { ++c.segments.rows[9]; }},
-      {"are not those", [](ChainModel& c) { c.splines->score[2] = 9000; }},
-  };
-  for (const auto& [word, harm] : broken) {
-    Model model = spline_chain();
-    harm(chain(model));
-    const auto outcome = model_bytes(model);
-    ASSERT_FALSE(outcome) << word;
-    EXPECT_THAT(outcome.error().message, HasSubstr(word));
-  }
-}
-
-TEST(ChainModel, ModesAreNotSystemsAndSplinesAtOnce) {
-  Model model = system_chain();
-  chain(model).splines = ModeSplines{4, 0, std::vector<float>(2 * 4 * 7), {}, {}};
-  const auto outcome = model_bytes(model);
-  ASSERT_FALSE(outcome);
-  EXPECT_THAT(outcome.error().message, HasSubstr("systems and splines"));
-}
-
-TEST(ChainModel, SplinesThatAskForTooManyRowsAreRefused) {
-  ChainSegments segments{
-      .mode = std::vector<std::uint16_t>(16, 0), .steps = std::vector<std::uint16_t>(16, 65535), .row_scale = {1.0}};
-  const ModeSplines splines{4, 0, std::vector<float>(12), {}, {}};
-  EXPECT_THAT(check(splines, segments, 1, 3).error().message, HasSubstr("too many rows, expected at most 1000000"));
-  segments.steps[0] = 0;
-  EXPECT_THAT(check(splines, segments, 1, 3).error().message, HasSubstr("do not fit"));
-}
-
-TEST(ChainModel, RowsOfSplinesAreTheirCurves) {
-  const Model model = spline_chain();
-  const ChainModel& c = std::get<ChainModel>(model.dynamics);
-  // Segment 1, of 5 steps, of mode 0; control points in line at equal distances are a line.
-  const std::vector<std::int16_t>& rows = c.segments.rows;
-  for (std::size_t row = 0; row <= 5; ++row) {
-    const std::int16_t* at = rows.data() + 7 * (9 + row);
-    EXPECT_NEAR(at[0], 3 * (2700 - 0.25 * 500) * static_cast<double>(row) / 5, 1);
-    double square = 0;
-    for (std::size_t k = 3; k < 7; ++k) square += static_cast<double>(at[k]) * at[k];
-    EXPECT_NEAR(square, 32767.0 * 32767.0, 1e5);
-    EXPECT_NEAR(at[4] / static_cast<double>(at[3]), (1500 + 1.5 * 3000) / 30000, 1e-3);
-  }
-}
-
 TEST(ChainModel, TransitionsAreThoseAfterOneMode) {
   Model model = sample_chain();
   EXPECT_EQ(chain(model).transitions(), (std::vector<double>{0.25, 0.75, 0.5, 0.5}));
-  EXPECT_EQ(chain(model).history(), 2);
 }
 
 }  // namespace

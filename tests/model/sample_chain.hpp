@@ -1,5 +1,5 @@
 #pragma once
-// A small chain for tests: two modes, three segments, poses, histories of one and two modes.
+// A small chain for tests: two modes, three segments, poses, a history of two modes.
 
 #include <cmath>
 
@@ -48,7 +48,8 @@ inline Model sample_chain(ChainMotion motion = ChainMotion::kPose) {
   segments.breadth = 2;
   segments.follow = {1, 0, 2, 2, 0, 1, 2, 2, 0, 1, 2, 2};
   chain.initial = {0.75, 0.25};
-  chain.contexts = {{{0}, {0.25, 0.75}}, {{1}, {0.5, 0.5}}, {{1, 0}, {0.125, 0.875}}};
+  chain.history = 2;
+  chain.probabilities = {0.25, 0.75, 0.5, 0.5, 0.25, 0.75, 0.5, 0.5, 0.125, 0.875, 0.5, 0.5};
   Model model;
   model.name = "sample chain";
   model.rate_hz = 60;
@@ -61,16 +62,6 @@ inline Model sample_chain(ChainMotion motion = ChainMotion::kPose) {
   }
   model.dynamics = chain;
   model.training = {"wisp 0.1.0", {"drops.csv"}, {{"event", "zero:forward_speed"}}, {{"segments", 3}}, {true, "yes"}};
-  return model;
-}
-
-/// The sample without long histories, whose segments say what follows them: after the first, mode 0 is five times as
-/// likely as its history has it; after the second there is mode 1.
-inline Model weighted_chain() {
-  Model model = sample_chain();
-  auto& chain = std::get<ChainModel>(model.dynamics);
-  chain.contexts.pop_back();
-  chain.segments.successor_weights = {65535, 13107, 1, 65535, 65535, 65535};
   return model;
 }
 
@@ -92,62 +83,6 @@ inline Model steered_chain() {
                                                           .spread_ground = 0.05,
                                                           .spread_height = 0.01,
                                                           .memory_seconds = 0.4};
-  return model;
-}
-
-/// Two modes that are systems: one sinks steadily, the other swings and tumbles with noise.
-inline Model system_chain(int degree = 1) {
-  Model model = sample_chain();
-  auto& chain = std::get<ChainModel>(model.dynamics);
-  ChainSegments& segments = chain.segments;
-  segments.mode = {0, 1};
-  segments.steps = {8, 5};
-  segments.rows.resize((9 + 6) * 7);
-  segments.rates.resize(2 * 12);
-  segments.breadth = 0;
-  segments.follow.clear();
-  const std::size_t terms = system_terms(degree);
-  ModeSystems systems{degree, std::vector<ModeSystem>(2)};
-  for (ModeSystem& mode : systems.modes) {
-    mode.coefficient.assign(kSystemStates * terms, 0.0);
-    mode.noise.assign(kSystemStates * kSystemStates, 0.0);
-    for (std::size_t k = 0; k < kSystemStates; ++k) {
-      mode.coefficient[k * terms + 1 + k] = 0.9;
-      mode.lowest[k] = k < 3 ? -1.5 : -8;
-      mode.highest[k] = -mode.lowest[k];
-    }
-    mode.steps = {4, 5, 5, 6, 6, 6, 7, 7, 8, 8, 9, 9, 10, 11, 12, 15};
-    // Falls along what is down for it.
-    for (std::size_t k = 0; k < 3; ++k) mode.coefficient[k * terms + 7 + k] = -0.08;
-  }
-  for (std::size_t k = 0; k < kSystemStates; ++k) systems.modes[1].noise[k * 7] = k < 3 ? 0.05 : 0.6;
-  systems.modes[1].noise[6] = -0.02;
-  if (degree == 2) systems.modes[1].coefficient[3 * terms + 20] = 0.4;
-  chain.systems = systems;
-  return model;
-}
-
-/// The sample that can be steered, its modes splines: each segment glides its own way, tilted its own way.
-inline Model spline_chain() {
-  Model model = steered_chain();
-  auto& chain = std::get<ChainModel>(model.dynamics);
-  ModeSplines splines{4, 2, {}, {}, {1000, -2000, -500, 3000, 0, 700}};
-  for (int mode = 0; mode < 2; ++mode) {
-    for (int k = 0; k < 4; ++k) {
-      const auto at = static_cast<float>(k), side = static_cast<float>(mode + 1);
-      for (float x : {2700 * at, 200 * side * at, -3300 * at, 30'000.0f, 1500 * side, 0.0f, 900 * at})
-        splines.mean.push_back(x);
-    }
-    for (int component = 0; component < 2; ++component) {
-      for (int k = 0; k < 4; ++k) {
-        const float glide = component == 0 ? 0.25f * static_cast<float>(k) : 0.0f;
-        const float tilt = component == 1 ? 1.5f : 0.0f;
-        for (float x : {glide, 0.0f, -0.5f * glide, 0.0f, tilt, 0.5f * tilt, 0.0f}) splines.component.push_back(x);
-      }
-    }
-  }
-  chain.segments.rows = rows_of(splines, chain.segments, 7);
-  chain.splines = splines;
   return model;
 }
 

@@ -21,7 +21,7 @@ int number_or_auto(const Arguments& arguments, std::string_view flag) {
 
 Result<void> check_flags(const Arguments& arguments) {
   static constexpr std::array kRanges = {
-      FlagRange{"modes", 1, 256},    FlagRange{"history", 1, 2},   FlagRange{"best-of", 0, 256},
+      FlagRange{"modes", 1, 64},     FlagRange{"history", 1, 2},   FlagRange{"best-of", 0, 256},
       FlagRange{"blend", 0, 0.5},    FlagRange{"shortest", 0, 60}, FlagRange{"debounce", 0, 100},
       FlagRange{"smooth", 0, 10001}, FlagRange{"holdout", 0, 0.9}, FlagRange{"max-bytes", 1, 1e9},
   };

@@ -78,14 +78,13 @@ class Player {
   std::size_t frame_ = 0;
 };
 
-Result<Bank> make_bank(const Play& play, const ChainWalk& walk, const Arguments& arguments) {
+Result<Bank> make_bank(const Play& play, const std::optional<SteerTarget>& target, const Arguments& arguments) {
   const int instances = arguments.integer("instances");
   auto bank = Bank::create(play.model, {.capacity = instances, .seed = play.seed, .polyline_points = 96});
   if (!bank) return bank;
   bank->set_noise(arguments.text("noise") == "on" ? 1.0F : 0.0F);
-  set_walk(walk, *bank);
   for (int k = 0; k < instances; ++k) bank->spawn();
-  steer_all(walk, *bank);
+  steer_all(target, *bank);
   return bank;
 }
 
@@ -256,17 +255,17 @@ Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("loop")) return run_loop(arguments, terminal);
   const auto play = prepare(arguments);
   if (!play) return play.error();
-  const auto walk = chain_walk_from(play->model, arguments);
-  if (!walk) return walk.error();
+  const auto target = steer_target_from(play->model, arguments);
+  if (!target) return target.error();
   warn_of_wind(*play, terminal);
-  warn_of_target(play->model, *walk, terminal);
-  auto bank = make_bank(*play, *walk, arguments);
+  warn_of_target(play->model, *target, terminal);
+  auto bank = make_bank(*play, *target, arguments);
   if (!bank) return bank.error();
   const std::string& path = arguments.text("output");
   Player player(*play, *bank);
   if (auto ok = write_run(*play, *bank, player, path, terminal); !ok) return ok;
 
-  if (bank->noise() == 0) say_chain_loop(play->model, *walk, terminal);
+  if (bank->noise() == 0) say_chain_loop(play->model, terminal);
   const auto clamped = bank->clamped();
   terminal.add("frames", play->frames);
   terminal.add("instances", bank->size());

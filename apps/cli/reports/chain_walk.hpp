@@ -13,27 +13,20 @@
 
 namespace wisp::cli {
 
-struct ChainWalk {
-  int history = 0;                   ///< as ChainFacet::set_history()
-  std::optional<float> temperature;  ///< as ChainFacet::set_temperature()
-  std::optional<SteerTarget> target;
-};
-
-/// The flags that say so.
+/// The flags of steering.
 std::vector<Flag> chain_walk_flags();
 
-/// What they say. Errors: they are given for another kind of model, or a number is out of its range.
-Result<ChainWalk> chain_walk_from(const Model& model, const Arguments& arguments);
+/// Where they say that a walk is to be, if they do.
+/// Errors: they are given for another kind of model, or a number is out of its range.
+Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const Arguments& arguments);
 
-void set_walk(const ChainWalk& walk, Bank& bank);
-
-/// Steers every instance that lives to the walk's target, if there is one.
-void steer_all(const ChainWalk& walk, Bank& bank);
+/// Steers every instance that lives to a target, if there is one.
+void steer_all(const std::optional<SteerTarget>& target, Bank& bank);
 
 /// Says, of a chain, how it repeats itself without chance.
-void say_chain_loop(const Model& model, const ChainWalk& walk, Terminal& terminal);
+void say_chain_loop(const Model& model, Terminal& terminal);
 
 /// Warns of a target that hardly any walk comes to, however it is steered.
-void warn_of_target(const Model& model, const ChainWalk& walk, Terminal& terminal);
+void warn_of_target(const Model& model, const std::optional<SteerTarget>& target, Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -14,8 +14,6 @@ export interface Settings {
   leaves: number;
   /** 0: the flame as it is learned today; else the order of the paper's point systems, one of those that are shipped */
   order: number;
-  /** longest history of the leaf's chain; 0: as learned */
-  history: number;
   /** pixels drawn for each of the screen's, 0.25 to 2; 0: as many as keep it smooth */
   detail: number;
   /** a model instead of the shipped one: an address of this origin, or the model itself (model_link.ts); '': shipped */
@@ -33,7 +31,6 @@ export const DEFAULTS: Readonly<Settings> = {
   candles: 1,
   leaves: 400,
   order: 0,
-  history: 0,
   detail: 0,
   model: '',
 };
@@ -44,7 +41,6 @@ const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model'>, readon
   candles: [1, 12, true],
   leaves: [1, MAX_LEAVES, true],
   order: [0, 6, true],
-  history: [0, 8, true],
   detail: [0, 2, false],
 };
 

@@ -83,8 +83,8 @@ export class Player {
   }
 
   private sceneSettings(tab: SceneName | null): SceneSettings {
-    const { seed, noise, history, candles, leaves } = this.settings;
-    return { seed, noise, history, count: tab === 'leaves' ? leaves : candles };
+    const { seed, noise, candles, leaves } = this.settings;
+    return { seed, noise, count: tab === 'leaves' ? leaves : candles };
   }
 
   private async play(bytes: Uint8Array, file: string, shipped: boolean, turn: number): Promise<void> {

@@ -282,14 +282,11 @@ describe('the leaves', { skip }, () => {
     await until(page, 'one leaf', () => window.wisp.leaves.count === 1);
   });
 
-  it('tell of their modes, and remember as much as they are told to', async () => {
+  it('tell of their pieces', async () => {
     await page.focus('#stage');
     await page.keyboard.press('i');
-    assert.match(await page.textContent('#drawer'), /Kinds of motion6/);
-    assert.equal(await page.locator('.matrix i').count(), 36);
-    await page.focus('[data-knob=history]');
-    await page.keyboard.press('Home');
-    assert.equal(await page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('history')), '1');
+    assert.match(await page.textContent('#drawer'), /Kinds of motion1/);
+    assert.equal(await page.locator('.matrix').count(), 0);
   });
 
   it('made no error and asked no other host', () => {

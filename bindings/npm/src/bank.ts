@@ -36,8 +36,6 @@ export interface ChainPlace {
 
 /** What was set of a chain; null: as at first. */
 export interface ChainSettings {
-  history: number;
-  temperature: number | null;
   ground: number | null;
 }
 
@@ -278,31 +276,15 @@ export class Bank {
     else this.call('wisp_bank_set_ground', height);
   }
 
-  /** How many modes back a chain looks when it chooses the next one; 0: as many as it has learned to. */
-  setHistory(longest: number): void {
-    this.call('wisp_bank_set_history', longest);
-  }
-
-  /** How a chain chooses among the segments of a mode: 0 the best, Infinity any alike, null as learned. */
-  setTemperature(temperature: number | null): void {
-    if (temperature === null) this.call('wisp_bank_clear_temperature');
-    else this.call('wisp_bank_set_temperature', temperature);
-  }
-
-  /** What `setHistory`, `setTemperature` and `setGround` have set. */
+  /** What `setGround` has set. */
   get chainSettings(): ChainSettings {
     const { native, scratch } = this;
     this.living();
     native.data.setUint32(scratch, at.chainSettings.size, true);
     this.call('wisp_bank_get_chain_settings', scratch);
     const { data } = native;
-    const optional = (has: number, value: number) =>
-      data.getUint32(scratch + has, true) === 1 ? data.getFloat32(scratch + value, true) : null;
-    return {
-      history: data.getInt32(scratch + at.chainSettings.history, true),
-      temperature: optional(at.chainSettings.hasTemperature, at.chainSettings.temperature),
-      ground: optional(at.chainSettings.hasGround, at.chainSettings.ground),
-    };
+    const has = data.getUint32(scratch + at.chainSettings.hasGround, true) === 1;
+    return { ground: has ? data.getFloat32(scratch + at.chainSettings.ground, true) : null };
   }
 
   /** Where in its chain an instance is; null where the dynamics are not a chain. */

@@ -34,13 +34,12 @@ export const figure = { size: 24, name: 8, value: 16 } as const;
 export const arxFacts = { size: 24, outputs: 4, regressors: 8, history: 12, shocks: 16, resamples: 20 } as const;
 
 export const chainFacts = {
-  size: 32,
+  size: 24,
   modes: 4,
   segments: 8,
-  contexts: 12,
-  history: 16,
-  gustOrder: 20,
-  headingFree: 24,
+  history: 12,
+  gustOrder: 16,
+  headingFree: 20,
 } as const;
 
 export const bankOptions = { size: 32, capacity: 4, polylinePoints: 8, seed: 16 } as const;
@@ -61,14 +60,7 @@ export const flameState = { size: 32, lit: 4, flameSize: 8, sinceLit: 16, sinceO
 
 export const chainPlace = { size: 16, segment: 4, step: 8, mode: 12 } as const;
 
-export const chainSettings = {
-  size: 24,
-  history: 4,
-  hasTemperature: 8,
-  temperature: 12,
-  hasGround: 16,
-  ground: 20,
-} as const;
+export const chainSettings = { size: 12, hasGround: 4, ground: 8 } as const;
 
 export const body = { size: 56, position: 4, orientation: 16, velocity: 32, spin: 44 } as const;
 

@@ -77,8 +77,7 @@ export interface ArxFacts {
 export interface ChainFacts {
   modes: number;
   segments: { mode: number; steps: number }[];
-  /** Histories of modes that say what may follow, and the length of the longest. */
-  contexts: number;
+  /** Modes that the next one depends on, 1 or 2. */
   history: number;
   /** Order of the response to wind; 0: wind does nothing. */
   gustOrder: number;
@@ -201,7 +200,6 @@ export class Model {
     const facts = this.read(at.chainFacts.size, 'wisp_model_get_chain', (data, p) => ({
       modes: data.getUint32(p + at.chainFacts.modes, true),
       segments: data.getUint32(p + at.chainFacts.segments, true),
-      contexts: data.getUint32(p + at.chainFacts.contexts, true),
       history: data.getUint32(p + at.chainFacts.history, true),
       gustOrder: data.getUint32(p + at.chainFacts.gustOrder, true),
       headingFree: data.getUint32(p + at.chainFacts.headingFree, true) === 1,

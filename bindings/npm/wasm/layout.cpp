@@ -58,13 +58,12 @@ WISP_FIELD(wisp_arx_facts, history, 12);
 WISP_FIELD(wisp_arx_facts, shocks, 16);
 WISP_FIELD(wisp_arx_facts, resamples, 20);
 
-WISP_SIZE(wisp_chain_facts, 32);
+WISP_SIZE(wisp_chain_facts, 24);
 WISP_FIELD(wisp_chain_facts, modes, 4);
 WISP_FIELD(wisp_chain_facts, segments, 8);
-WISP_FIELD(wisp_chain_facts, contexts, 12);
-WISP_FIELD(wisp_chain_facts, history, 16);
-WISP_FIELD(wisp_chain_facts, gust_order, 20);
-WISP_FIELD(wisp_chain_facts, heading_free, 24);
+WISP_FIELD(wisp_chain_facts, history, 12);
+WISP_FIELD(wisp_chain_facts, gust_order, 16);
+WISP_FIELD(wisp_chain_facts, heading_free, 20);
 
 WISP_SIZE(wisp_bank_options, 32);
 WISP_FIELD(wisp_bank_options, capacity, 4);
@@ -92,12 +91,9 @@ WISP_FIELD(wisp_chain_place, segment, 4);
 WISP_FIELD(wisp_chain_place, step, 8);
 WISP_FIELD(wisp_chain_place, mode, 12);
 
-WISP_SIZE(wisp_chain_settings, 24);
-WISP_FIELD(wisp_chain_settings, history, 4);
-WISP_FIELD(wisp_chain_settings, has_temperature, 8);
-WISP_FIELD(wisp_chain_settings, temperature, 12);
-WISP_FIELD(wisp_chain_settings, has_ground, 16);
-WISP_FIELD(wisp_chain_settings, ground, 20);
+WISP_SIZE(wisp_chain_settings, 12);
+WISP_FIELD(wisp_chain_settings, has_ground, 4);
+WISP_FIELD(wisp_chain_settings, ground, 8);
 
 WISP_SIZE(wisp_body, 56);
 WISP_FIELD(wisp_body, position, 4);

@@ -45,7 +45,7 @@ struct Take {
 /// Plays a model. A loop of an ARX model is its periodic orbit under shocks that repeat; a loop of a chain is a walk
 /// that comes back to where it was in a segment, turned evenly by what is left of its heading.
 /// Errors: an option out of range; more than 5e8 numbers; a flame goes out in that input; no loop of that length is
-/// found, or the chain's modes are systems.
+/// found.
 Result<Take> take(const Model& model, const TakeOptions& options);
 
 /// A take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with all times at the model's

@@ -1,6 +1,6 @@
 #pragma once
-// A segment chain, as a value: pieces of recorded motion between critical events, sorted into modes; a Markov chain of
-// variable order over the modes; and how one piece joins the next.
+// A segment chain, as a value: pieces of motion between critical events, sorted into modes; a Markov chain of order one
+// or two over the modes; and how one piece joins the next.
 //
 // Segments are whole numbers of 16 bits and one scale for all positions, each in a frame of its own: its
 // position begins at the origin and, in a chain that is free of heading, what "ahead" means is the segment's own
@@ -14,8 +14,6 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/model/mode_splines.hpp"
-#include "wisp/model/mode_systems.hpp"
 
 namespace wisp {
 
@@ -35,7 +33,7 @@ int scale_count(ChainMotion motion);
 int rate_count(ChainMotion motion);
 
 inline constexpr std::size_t kMaxSegments = 65535;
-inline constexpr std::size_t kMaxModes = 256;
+inline constexpr std::size_t kMaxModes = 64;
 inline constexpr std::size_t kMaxSegmentSteps = 65535;
 
 /// All segments, those of one mode together and modes in ascending order.
@@ -49,21 +47,11 @@ struct ChainSegments {
   std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the segments of that mode that join it best, best
                                       ///< first; empty where breadth is 0
   int breadth = 0;                               ///< 0: any segment of the mode follows
-  std::vector<std::uint16_t> successor_weights;  ///< segments × modes: how likely each mode is after where this segment
-                                                 ///< ends, over how likely after its mode as a whole; 65535 for the
-                                                 ///< most of them, ≥ 1. It is multiplied by what the history says,
-                                                 ///< unless a walk is steered. Empty: the history alone counts
   std::vector<std::int16_t> height;  ///< per segment z where it begins, of motion that stays between a floor and a
                                      ///< ceiling: joins lead back to it. Empty: z goes on from where it is
   double height_scale = 0;           ///< metres = scale · height; > 0 where there are heights
 
   std::size_t size() const { return mode.size(); }
-};
-
-/// What may come after a history of modes.
-struct ChainContext {
-  std::vector<std::uint16_t> history;  ///< the last modes, oldest first; not empty
-  std::vector<double> probability;     ///< per mode; sums to 1
 };
 
 /// How wind changes the velocity of what the chain moves: v_windy − v_calm = F(wind, attitude), an autoregression with
@@ -103,21 +91,16 @@ struct ChainModel {
   bool heading_free = true;  ///< segments are turned about z to join; otherwise only moved
   int modes = 0;
   ChainSegments segments;
-  std::vector<double> initial;         ///< per mode: how a recording begins; sums to 1
-  std::vector<ChainContext> contexts;  ///< every single mode, and longer histories that say more
+  std::vector<double> initial;  ///< per mode: how a recording begins; sums to 1
+  int history = 1;              ///< modes that the next one depends on, 1 or 2
+  std::vector<double> probabilities;  ///< rows of one number a mode, each of which sums to 1: what follows mode b is
+                                      ///< row b and, where the history is 2, what follows a and then b is row
+                                      ///< modes · (1 + a) + b
   int blend_steps = 30;  ///< most steps over which a join is spread, on either side of it: neighbours meet half-way in
                          ///< attitude and rates; 0 … 4096, 0 leaves joins as they are
   std::optional<GustResponse>
       gust;  ///< where there is one, the model's inputs are the wind's x, y and z, metres a second
   std::optional<ChainDrift> drift;  ///< none: it can't be steered
-  /// Where there are some, modes are played as systems; the segments, one for each mode, only say how a life begins.
-  std::optional<ModeSystems> systems;
-  /// Where there are some, the rows of the segments are those that they make, and are not stored.
-  std::optional<ModeSplines> splines;
-
-  /// Order of the longest history.
-  int history() const;
-
   /// Probabilities after exactly one mode, modes × modes, row-major.
   std::vector<double> transitions() const;
 };

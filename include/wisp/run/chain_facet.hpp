@@ -1,6 +1,5 @@
 #pragma once
-// What only a bank of a segment chain has (Bank::chain()): where its instances are in the chain and in the world, and
-// how they choose what comes next.
+// What only a bank of a segment chain has (Bank::chain()): where its instances are in the chain and in the world.
 
 #include <array>
 #include <chrono>
@@ -65,18 +64,6 @@ class ChainFacet {
   void set_ground(std::optional<float> height);
   std::optional<float> ground() const;
 
-  /// Limits how many modes back the chain looks when it chooses the next one; 0: as many as it has learned to, as at
-  /// first. Counts below 0 are 0. It acts from the next draw on, a step before a join, and may change at any time.
-  void set_history(int longest);
-  int history() const;
-
-  /// How the chain chooses among the segments of a mode: each is T / (1 + T) times as likely as the one that joins next
-  /// best, so that the one of rank T, counted from 0, is about the usual one. 0: always the best; infinity: any segment
-  /// of the mode alike. Nothing, as at first: as learned, one of the best few. What is below 0 or not a number counts
-  /// as 0. A chain that was learned without best-joining segments has one choice at every temperature.
-  void set_temperature(std::optional<float> temperature);
-  std::optional<float> temperature() const;
-
  private:
   friend struct Bank::State;  // makes it
   explicit ChainFacet(Bank::State& state) : state_(&state) {}
@@ -94,9 +81,9 @@ struct ChainLoop {
   double seconds = 0;  ///< of one round
 };
 
-/// The loop in which every instance of a chain ends that is spawned after Bank::set_noise(0) has taken its chance away,
-/// `history` as ChainFacet::set_history(). It allocates: not for every frame.
-/// Returns nothing where the dynamics are not a chain, its modes are systems, or the model is not valid (check()).
-std::optional<ChainLoop> chain_loop(const Model& model, int history = 0);
+/// The loop in which every instance of a chain ends that is spawned after Bank::set_noise(0) has taken its chance away.
+/// It allocates: not for every frame.
+/// Returns nothing where the dynamics are not a chain, or the model is not valid (check()).
+std::optional<ChainLoop> chain_loop(const Model& model);
 
 }  // namespace wisp

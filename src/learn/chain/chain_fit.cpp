@@ -133,20 +133,6 @@ ModeChain chain_of(const Cut& data, const Modes& modes, const ChainRecipe& recip
   return chain;
 }
 
-// What follows each mode and, where the history is 2, each two.
-std::vector<ChainContext> contexts_of(const ModeChain& chain, int modes) {
-  const auto count = static_cast<std::size_t>(modes);
-  std::vector<ChainContext> contexts;
-  for (std::size_t row = 0; row * count < chain.probabilities.size(); ++row) {
-    const auto last = static_cast<std::uint16_t>(row % count);
-    const auto first = chain.probabilities.begin() + static_cast<long>(row * count);
-    ChainContext context{{last}, {first, first + static_cast<long>(count)}};
-    if (row >= count) context.history.insert(context.history.begin(), static_cast<std::uint16_t>(row / count - 1));
-    contexts.push_back(std::move(context));
-  }
-  return contexts;
-}
-
 ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const ChainRecipe& recipe,
                         std::vector<std::uint64_t>& origin) {
   const bool bounded_height = height_is_bounded(from.motion, from.segments);
@@ -161,7 +147,8 @@ ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const Chain
   dynamics.modes = from.modes;
   dynamics.segments = std::move(store.segments);
   dynamics.initial = std::move(chain.initial);
-  dynamics.contexts = contexts_of(chain, from.modes);
+  dynamics.history = chain.history;
+  dynamics.probabilities = std::move(chain.probabilities);
   dynamics.blend_steps = static_cast<int>(std::lround(recipe.blend * from.motion.rate_hz));
   dynamics.drift = drift_of(dynamics, from.motion.rate_hz);
   origin.clear();

@@ -16,9 +16,9 @@ namespace wisp {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 2, kChainVersion = 4;  // of chains' banks
+constexpr std::uint32_t kVersion = 2, kChainVersion = 5;  // of chains' banks
 constexpr std::size_t kHeaderSize = 32;
-constexpr std::size_t kFieldsSize = 14 * 8;
+constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
 
 bool is_chain(const Bank::State& s) { return std::holds_alternative<ChainStepper<LiveNumbers>>(s.stepper); }
@@ -123,7 +123,7 @@ void restore_slot(Bank::State& s, int slot, ByteReader& in) {
 
 struct Fields {
   std::uint64_t model, capacity, seed, spawned, passed, between, noise, clamped, steps, reserved;
-  std::uint64_t ground, history, temperature, reserved_too;
+  std::uint64_t ground;
 };
 
 std::uint64_t bits_of(float number) { return std::bit_cast<std::uint32_t>(number); }
@@ -131,18 +131,14 @@ float float_of(std::uint64_t bits) { return std::bit_cast<float>(static_cast<std
 
 Fields read_fields(ByteReader& in) {
   return {in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
-          in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
+          in.get64(), in.get64(), in.get64(), in.get64()};
 }
 
-ChainSettings chain_settings(const Fields& fields) {
-  return {float_of(fields.ground), static_cast<std::int32_t>(fields.history), float_of(fields.temperature)};
-}
+ChainSettings chain_settings(const Fields& fields) { return {float_of(fields.ground)}; }
 
 bool chain_is_sound(const Fields& fields) {
-  const ChainSettings chain = chain_settings(fields);
-  return (fields.ground | fields.temperature) >> 32 == 0 && fields.history <= 0x7fffffff && fields.reserved_too == 0 &&
-         (chain.ground == kNoGround || within(chain.ground, -kFarthest, kFarthest)) &&
-         (chain.temperature == kAsLearned || within(chain.temperature, 0, kHottest));
+  const float ground = float_of(fields.ground);
+  return fields.ground >> 32 == 0 && (ground == kNoGround || within(ground, -kFarthest, kFarthest));
 }
 
 bool fields_are_sound(const Bank::State& s, const Fields& fields) {
@@ -202,8 +198,7 @@ void Bank::save(std::span<std::byte> bytes) const {
   for (std::uint64_t field :
        {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned, static_cast<std::uint64_t>(s.passed),
         std::uint64_t{s.between}, bits_of(s.noise), s.clamped.clamped, s.clamped.steps, std::uint64_t{0},
-        bits_of(s.chain.ground), static_cast<std::uint64_t>(s.chain.history), bits_of(s.chain.temperature),
-        std::uint64_t{0}}) {
+        bits_of(s.chain.ground)}) {
     out.put(field);
   }
   for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);

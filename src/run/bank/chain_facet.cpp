@@ -73,23 +73,4 @@ std::optional<float> ChainFacet::ground() const {
   return state_->chain.ground;
 }
 
-void ChainFacet::set_history(int longest) {
-  ChainSettings settings = state_->chain;
-  settings.history = std::max(longest, 0);
-  state_->set_chain(settings);
-}
-
-int ChainFacet::history() const { return state_->chain.history; }
-
-void ChainFacet::set_temperature(std::optional<float> temperature) {
-  ChainSettings settings = state_->chain;
-  settings.temperature = !temperature ? kAsLearned : *temperature > 0 ? std::min(*temperature, kHottest) : 0.0f;
-  state_->set_chain(settings);
-}
-
-std::optional<float> ChainFacet::temperature() const {
-  if (state_->chain.temperature == kAsLearned) return {};
-  return state_->chain.temperature;
-}
-
 }  // namespace wisp

@@ -125,14 +125,14 @@ class ChainJoining {
     const Mover mover(program());
     Segments mode{}, next{};
     std::array<bool, kMembers> steered{};
-    const auto words_of = [&](std::size_t k) { return ChainWords{words[0][k], words[1][k], words[2][k]}; };
+    const auto words_of = [&](std::size_t k) { return ChainWords{words[0][k], words[1][k]}; };
     for (std::size_t k = 0; k < party.count; ++k) {
       const int block = party.block[k], lane = party.lane[k];
       steered[k] = is_steered(mover, block, lane);
       if (steered[k]) {
         next[k] = draw_steered(mover, block, lane, words_of(k));
       } else {
-        mode[k] = mover.draw_mode(lives_.plan_of(block, lane).state, segments[k], choice_, words_of(k));
+        mode[k] = mover.draw_mode(lives_.plan_of(block, lane).state, choice_, words_of(k));
       }
     }
     for (std::size_t k = 0; k < party.count; ++k) {

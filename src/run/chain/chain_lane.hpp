@@ -171,18 +171,17 @@ class ChainMover {
     return choice.beginning(program_, mode, words);
   }
 
-  /// Draws the mode that follows a segment, and moves the history in `of_state` on.
-  std::uint32_t draw_mode(Real& of_state, std::uint32_t before, const ChainChoice& choice,
-                          const ChainWords& words) const {
+  /// Draws the mode that follows, and moves the history in `of_state` on.
+  std::uint32_t draw_mode(Real& of_state, const ChainChoice& choice, const ChainWords& words) const {
     const std::uint32_t state = index(of_state, program_.states());
-    const std::uint32_t mode = choice.mode_after(program_, state, before, words);
+    const std::uint32_t mode = choice.mode(program_, state, words);
     of_state = state_after(state, mode);
     return mode;
   }
 
   /// The same, and a segment of that mode.
   std::uint32_t draw(Real& of_state, std::uint32_t before, const ChainChoice& choice, const ChainWords& words) const {
-    const std::uint32_t mode = draw_mode(of_state, before, choice, words);
+    const std::uint32_t mode = draw_mode(of_state, choice, words);
     return choice.successor(program_, before, mode, words);
   }
 
@@ -321,7 +320,7 @@ class ChainMover {
 
  private:
   Real state_after(std::uint32_t state, std::uint32_t mode) const {
-    return Real(static_cast<float>(program_.next[state * static_cast<std::uint32_t>(program_.modes) + mode]));
+    return Real(static_cast<float>(program_.state_after(state, mode)));
   }
 
   Real height_of(std::uint32_t segment) const {

@@ -9,17 +9,16 @@
 
 namespace wisp {
 
-std::optional<ChainLoop> chain_loop(const Model& model, int history) {
+std::optional<ChainLoop> chain_loop(const Model& model) {
   const auto* chain = std::get_if<ChainModel>(&model.dynamics);
-  if (!chain || chain->systems || !check(model)) return {};
+  if (!chain || !check(model)) return {};
   Arena measured;
-  ChainChoice(make_chain_program(*chain, model.rate_hz, 1, measured), measured);
+  make_chain_program(*chain, model.rate_hz, 1, measured);
   std::vector<std::byte> memory(measured.bytes());
   Arena arena(memory);
   const ChainProgram program = make_chain_program(*chain, model.rate_hz, 1, arena);
-  ChainChoice choice(program, arena);
+  ChainChoice choice;
   choice.set_chance(false);
-  choice.set({.history = history}, program);
   const ChainMover<float> mover(program);
   float state = 0;
   std::uint32_t segment = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "run/chain/rigid.hpp"
@@ -18,7 +17,7 @@ constexpr float kMinUnit = 1e-6f;
 constexpr double kMaxStored = 32767;
 constexpr double kReturnShare = 0.2;  // of the usual speed: what leads back to a height is hardly seen beside it
 
-void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
+void fill_thresholds(std::span<const double> probability, std::span<std::uint32_t> out) {
   double sum = 0;
   std::size_t last = 0;
   for (std::size_t mode = 0; mode < out.size(); ++mode) {
@@ -28,45 +27,6 @@ void fill_thresholds(const std::vector<double>& probability, std::span<std::uint
   }
   // The highest words belong to the last mode that can come, however the sum was rounded.
   for (std::size_t mode = last; mode < out.size(); ++mode) out[mode] = 0xffffffffU;
-}
-
-using Histories = std::map<std::vector<std::uint16_t>, std::uint16_t>;
-
-std::vector<std::uint16_t> shortened(std::vector<std::uint16_t> history) {
-  history.erase(history.begin());
-  return history;
-}
-
-// The state of the longest known end of a history.
-std::uint16_t state_after(const Histories& states, std::vector<std::uint16_t> history) {
-  for (;;) {
-    const auto found = states.find(history);
-    if (found != states.end()) return found->second;
-    history = shortened(std::move(history));
-  }
-}
-
-void fill_automaton(const ChainModel& chain, ChainProgram& program) {
-  Histories states;
-  for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
-    states[chain.contexts[k].history] = static_cast<std::uint16_t>(k + 1);
-  }
-  const auto modes = static_cast<std::size_t>(chain.modes);
-  fill_thresholds(chain.initial, program.threshold.first(modes));
-  for (std::size_t mode = 0; mode < modes; ++mode) {
-    program.next[mode] = state_after(states, {static_cast<std::uint16_t>(mode)});
-  }
-  for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
-    const std::size_t row = (k + 1) * modes, length = chain.contexts[k].history.size();
-    program.length[k + 1] = static_cast<std::uint8_t>(length);
-    program.shorter[k + 1] = length > 1 ? state_after(states, shortened(chain.contexts[k].history)) : 0;
-    fill_thresholds(chain.contexts[k].probability, program.threshold.subspan(row, modes));
-    for (std::size_t mode = 0; mode < modes; ++mode) {
-      std::vector<std::uint16_t> history = chain.contexts[k].history;
-      history.push_back(static_cast<std::uint16_t>(mode));
-      program.next[row + mode] = state_after(states, std::move(history));
-    }
-  }
 }
 
 // Root-mean-square length of the vectors that begin at `offset` of each group of rates.
@@ -173,7 +133,7 @@ std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena, std::si
 
 ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena) {
   const auto modes = static_cast<std::size_t>(chain.modes);
-  const std::size_t states = chain.contexts.size() + 1;
+  const std::size_t states = chain.probabilities.size() / modes + 1;
   const ChainSegments& segments = chain.segments;
   const bool pose = chain.motion == ChainMotion::kPose;
   ChainProgram program;
@@ -181,6 +141,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.rate_count = rate_count(chain.motion);
   program.modes = chain.modes;
   program.breadth = segments.breadth;
+  program.history = chain.history;
   program.heading_free = chain.heading_free;
   program.position_scale = static_cast<float>(segments.row_scale[0]);
   program.velocity_scale = static_cast<float>(segments.rate_scale[0]);
@@ -194,10 +155,8 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.first_row = copy_of(segment_rows(segments), arena);
   program.mode = copy_of(segments.mode, arena);
   program.follow = copy_of(segments.follow, arena);
-  program.successor_weights = copy_of(segments.successor_weights, arena);
   program.height = copy_of(segments.height, arena);
   program.height_scale = static_cast<float>(segments.height_scale);
-  if (chain.systems) program.systems = make_systems_program(*chain.systems, arena);
   if (chain.drift) {
     take_drift(*chain.drift, program);
     program.lead = copy_of(chain.drift->lead, arena);
@@ -206,9 +165,6 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   }
   program.first_of_mode = arena.take<std::uint32_t>(modes + 1);
   program.threshold = arena.take<std::uint32_t>(states * modes);
-  program.next = arena.take<std::uint16_t>(states * modes);
-  program.length = arena.take<std::uint8_t>(states);
-  program.shorter = arena.take<std::uint16_t>(states);
   if (program.blend_steps > 0) program.spread = arena.take<ChainSpread>(2 * program.blend_steps + 1);
   if (pose) program.changes = arena.take<float>(8 * segments.size());
   if (arena.measures()) return program;
@@ -219,7 +175,11 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   }
   for (std::uint16_t mode : segments.mode) ++program.first_of_mode[mode + 1U];
   for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
-  fill_automaton(chain, program);
+  fill_thresholds(chain.initial, program.threshold.first(modes));
+  for (std::size_t row = 1; row < states; ++row) {
+    fill_thresholds(std::span(chain.probabilities).subspan((row - 1) * modes, modes),
+                    program.threshold.subspan(row * modes, modes));
+  }
   program.speed_unit = unit_of(program, 0, program.velocity_scale);
   program.max_return = static_cast<float>(kReturnShare * usual_step(program));
   if (pose) program.spin_unit = unit_of(program, 3, program.spin_scale);
@@ -247,19 +207,17 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
   for (std::int16_t number : program.rates)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
-  if (program.systems.used()) hash = hash_of(program.systems, hash);
   for (std::int16_t number : program.lead)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
   hash = hash_floats({program.lead_scale, program.drift[0], program.drift[1], program.drift[2], program.spread_ground,
                       program.spread_height, program.memory},
                      hash);
   for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
-  for (std::uint16_t number : program.successor_weights) hash = hash_number(std::uint32_t{number}, hash);
   for (std::int16_t number : program.height)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
   if (!program.height.empty()) hash = hash_floats({program.height_scale}, hash);
   for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
-  for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);
+  hash = hash_number(static_cast<std::uint32_t>(program.history), hash);
   return hash;
 }
 

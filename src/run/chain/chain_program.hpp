@@ -1,12 +1,10 @@
 #pragma once
-// A segment chain compiled for stepping: probabilities as thresholds of 32-bit words, histories as the states of an
-// automaton, scales in single precision.
+// A segment chain compiled for stepping: probabilities as thresholds of 32-bit words, scales in single precision.
 
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include "run/chain/systems_program.hpp"
 #include "run/state/arena.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
@@ -40,6 +38,7 @@ struct ChainProgram {
   int rate_count = 0;
   int modes = 0;
   int breadth = 0;
+  int history = 1;  ///< modes that the next one depends on
   bool heading_free = true;
   float position_scale = 1;
   float orientation_scale = 1;
@@ -60,13 +59,9 @@ struct ChainProgram {
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;
-  std::span<std::uint16_t> successor_weights;  ///< segments × modes; empty: the history alone says what follows
   std::span<std::int16_t> height;              ///< per segment; empty: height is free
   std::span<std::uint32_t> first_of_mode;      ///< per mode its first segment, and one past the last
   std::span<std::uint32_t> threshold;  ///< states × modes: the first mode whose threshold a word is below is drawn
-  std::span<std::uint16_t> next;       ///< states × modes: the state after that mode
-  std::span<std::uint8_t> length;      ///< per state how many modes it remembers
-  std::span<std::uint16_t> shorter;    ///< per state the one that remembers the longest known part of that
   std::span<std::int16_t> lead;        ///< segments × 3; empty: it can't be steered
   float lead_scale = 0;
   std::array<float, 3> drift{};  ///< metres a second
@@ -74,16 +69,20 @@ struct ChainProgram {
   float spread_height = 0;
   float mean_steps = 0;      ///< of the segments
   float memory = 0;          ///< seconds
-  SystemsProgram systems{};  ///< used where modes are systems
   float half_width = 0;      ///< of the body, along its first axis, metres; 0: a point
   float half_length = 0;     ///< and along its second
 
   std::uint32_t segments() const { return static_cast<std::uint32_t>(mode.size()); }
-  std::uint32_t states() const { return static_cast<std::uint32_t>(next.size()) / static_cast<std::uint32_t>(modes); }
+  std::uint32_t states() const { return static_cast<std::uint32_t>(threshold.size()) / static_cast<std::uint32_t>(modes); }
+  std::uint32_t state_after(std::uint32_t state, std::uint32_t drawn) const {
+    const auto count = static_cast<std::uint32_t>(modes);
+    if (history < 2 || state == 0) return 1 + drawn;
+    return 1 + count * (1 + (state - 1) % count) + drawn;
+  }
   std::uint32_t steps(std::uint32_t segment) const { return first_row[segment + 1] - first_row[segment] - 1; }
 };
 
-/// State 0 is the beginning; state k + 1 is the model's history k.
+/// State 0 is the beginning; state k + 1 is row k of the model's probabilities.
 /// `wind_unit` is what the wind of the regressors is measured in.
 ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
 

@@ -49,18 +49,17 @@ class ChainSteering {
       const float chance = choice.chance_of(program, state, mode);
       if (!(chance > 0.0f)) continue;
       for (std::uint32_t k = 0; k < per_mode_; ++k) {
-        const auto [segment, share] = choice.candidate(program, before, mode, k, words);
-        if (!(share > 0.0f)) continue;
+        const std::uint32_t segment = choice.candidate(program, before, mode, k, words);
         Candidate& one = candidates_[count];
         one = aim(mover, program, lane, body, segment, bell);
         one.mode = mode;
-        one.weight = Real(chance * share);
+        one.weight = Real(chance);
         if (count == 0 || one.miss < least) least = one.miss;
         ++count;
       }
     }
     const Candidate& drawn = candidates_[pick(choice, count, least, words)];
-    lane.state = Real(static_cast<float>(program.next[state * modes + drawn.mode]));
+    lane.state = Real(static_cast<float>(program.state_after(state, drawn.mode)));
     return drawn.segment;
   }
 

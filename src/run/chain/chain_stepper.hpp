@@ -16,7 +16,6 @@
 #include "run/chain/chain_steering.hpp"
 #include "run/chain/ground_lane.hpp"
 #include "run/chain/gust_lane.hpp"
-#include "run/chain/system_lane.hpp"
 #include "run/state/channels.hpp"
 #include "run/state/moment.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -50,29 +49,18 @@ class ChainStepper : private ChainLives<N> {
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
       : ChainLives<N>(made_program(model, chain, arena), blocks, arena),
-        choice_(program_, arena),
         steering_(program_, chain.drift.has_value(), arena) {
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
     stirred_ = arena.take<std::uint8_t>(static_cast<std::size_t>(blocks));
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
-    if (chain.systems) {
-      systems_ = arena.take<SystemLane<Real>>(lanes);
-      shocks_ = arena.take<Real>(kShocks * lanes);
-    }
     regressor_row_ = regressor_count(model.inputs) * kLanes;
     regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
   }
 
   /// A chain has no residual noise; its chance is in the walk, and there or not.
-  void set_noise(float scale) {
-    choice_.set_chance(scale > 0);
-    noisy_ = scale > 0 && !program_.systems.noise.empty();
-  }
+  void set_noise(float scale) { choice_.set_chance(scale > 0); }
 
-  void set_chain(const ChainSettings& settings) {
-    choice_.set(settings, program_);
-    ground_ = settings.ground;
-  }
+  void set_chain(const ChainSettings& settings) { ground_ = settings.ground; }
 
   void turn(int = 1) {}
 
@@ -95,10 +83,8 @@ class ChainStepper : private ChainLives<N> {
     ChainCourse<N> courses[kGroup];
     for (int b = 0; b < count; ++b) set_out(first + b, moment.later(b), courses[b]);
     Gathering gathering(*this, first, moment);
-    if (!program_.systems.used()) {
-      for (int b = 0; b < count; ++b) gathering.take(first + b, courses[b].begins, &ChainStepper::leave);
-      gathering.end(&ChainStepper::leave);
-    }
+    for (int b = 0; b < count; ++b) gathering.take(first + b, courses[b].begins, &ChainStepper::leave);
+    gathering.end(&ChainStepper::leave);
     for (int b = 0; b < count; ++b) {
       arrive(first + b, moment.later(b), courses[b]);
       gathering.take(first + b, courses[b].ends, &ChainStepper::go_on);
@@ -138,18 +124,13 @@ class ChainStepper : private ChainLives<N> {
     const Mover mover(program_);
     Lane life;
     if (program_.gust.order > 0) gust_of(block, lane) = {};
-    const std::uint32_t segment = mover.draw_first(life.state, choice_, {words[0][0], words[1][0], 0});
+    const std::uint32_t segment = mover.draw_first(life.state, choice_, {words[0][0], words[1][0]});
     const HalfTurn<Real> turn = random_turn(words[2][0], words[3][0]);
     mover.place(life, segment, mover.beginning_of(segment), turn.cos, turn.sin);
     put(block, lane, life);
     lanes_of(block).show_only(lane);
-    if (program_.systems.used()) {
-      take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
-      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][0]));
-    } else {
-      joining().prepare_one(block, lane, Joining::draw(party, block, moment, 2));
-      joining().meet_one(block, lane, {});
-    }
+    joining().prepare_one(block, lane, Joining::draw(party, block, moment, 2));
+    joining().meet_one(block, lane, {});
     begin_at(block, lane);
   }
 
@@ -157,7 +138,7 @@ class ChainStepper : private ChainLives<N> {
   ChainPlace place_of(int block, int lane) const {
     const Played& played = played_of(block);
     const std::uint32_t segment = Mover::index(played.segment[lane], program_.segments());
-    const std::uint32_t row = Mover::index(played.row[lane], program_.systems.used() ? 65536 : program_.steps(segment));
+    const std::uint32_t row = Mover::index(played.row[lane], program_.steps(segment));
     return {segment, row, program_.mode[segment]};
   }
 
@@ -183,7 +164,7 @@ class ChainStepper : private ChainLives<N> {
     Real least(3e38f);
     for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
       // A segment of one step has no time for what differs to fade.
-      if (program_.steps(segment) == 1 && !program_.systems.used()) continue;
+      if (program_.steps(segment) == 1) continue;
       const Real misfit = mover.misfit(segment, body);
       if (!(misfit < least)) continue;
       best = segment;
@@ -191,17 +172,11 @@ class ChainStepper : private ChainLives<N> {
     }
     Lane life;
     const ChainGap<Real> gap = mover.place(life, best, body);
-    life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
+    life.state = Real(static_cast<float>(program_.state_after(0, program_.mode[best])));
     put(block, lane, life);
     if (program_.gust.order > 0) gust_of(block, lane) = {};
-    if (!program_.systems.used()) joining().meet_one(block, lane, gap);
+    joining().meet_one(block, lane, gap);
     lanes_of(block).show_only(lane);
-    if (program_.systems.used()) {
-      for (int k = 0; k < 4; ++k)
-        newest_of(block)[(3 + k) * kLanes + lane] = body.orientation[static_cast<std::size_t>(k)];
-      take_rates(system_of(block, lane), body.orientation, body.rates);
-      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[best], 0x80000000U));
-    }
     begin_at(block, lane);
   }
 
@@ -210,7 +185,7 @@ class ChainStepper : private ChainLives<N> {
 
   std::size_t lane_values() const {
     return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels) +
-           9 * static_cast<std::size_t>(program_.gust.order) + (program_.systems.used() ? kSystemStates + 1 : 0);
+           9 * static_cast<std::size_t>(program_.gust.order);
   }
 
   /// Calls visit(value, low, high) for each number of one lane's state, with a step of 1 where it is a whole number.
@@ -246,10 +221,6 @@ class ChainStepper : private ChainLives<N> {
       }
       gust.press[k] = scaled(gust.press[k], Real(0.25f));
     }
-    if (program_.systems.used()) {
-      for (Real& x : system_of(block, lane).rates) visit(x, -kMaxSlip, kMaxSlip);
-      visit(system_of(block, lane).length, 1.0f, 65535.0f, 1.0f);
-    }
     for (Real* sample : {newest_of(block), previous_of(block)}) {
       for (int k = 0; k < program_.channels; ++k) {
         const float most = k < 3 ? 2 * kFarthest : kLongest;
@@ -277,7 +248,6 @@ class ChainStepper : private ChainLives<N> {
   using ChainLives<N>::put;
   using ChainLives<N>::sample_size;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
-  static constexpr std::size_t kShocks = 6;
   static constexpr float kMaxSlip = 1e12f;
   static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
 
@@ -295,10 +265,6 @@ class ChainStepper : private ChainLives<N> {
     numbers = Mover::bounded(numbers);
     for (Real& x : numbers) visit(x, -kMaxDifference, kMaxDifference);
   }
-
-  Real* shocks_of(int block) { return shocks_.data() + static_cast<std::size_t>(block) * kShocks * kLanes; }
-
-  SystemLane<Real>& system_of(int block, int lane) { return systems_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
   GustLane<Real>& gust_of(int block, int lane) { return gusts_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
@@ -355,22 +321,15 @@ class ChainStepper : private ChainLives<N> {
     std::fill_n(moment.clamped, kLanes, 0U);
     const int lanes = moment.lanes();
     if (program_.gust.order > 0) drift(block, lanes);
-    if (noisy_) draw_shocks(block, moment);
     course.use(lanes);
-    if (!program_.systems.used()) return lanes_of(block).go(course);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const bool ends = lane < lanes && falls(block, lane) && move_system(block, lane);
-      course.ends[lane] = Real(ends ? 1.0f : 0.0f);
-    }
+    lanes_of(block).go(course);
   }
 
   // Shows them where they have got to, and leaves among those that end whichever join.
   void arrive(int block, const Moment<N>& moment, ChainCourse<N>& course) {
-    if (!program_.systems.used()) {
-      ChainBlock<N> lanes = lanes_of(block);
-      lanes.move(course);
-      lanes.show(course);
-    }
+    ChainBlock<N> lanes = lanes_of(block);
+    lanes.move(course);
+    lanes.show(course);
     Real eventful[kLanes];
     if (!find_events(block, course, eventful)) return;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -466,34 +425,10 @@ class ChainStepper : private ChainLives<N> {
     const auto way = scaled(change, Real(program_.step_seconds));
     for (int k = 0; k < 3; ++k) {
       const auto axis = static_cast<std::size_t>(k);
-      // A system moves from where it is shown, a segment from where it lies.
-      Real& at_axis = program_.systems.used() ? newest_of(block)[k * kLanes + lane] : played_of(block).base[axis][lane];
+      Real& at_axis = played_of(block).base[axis][lane];
       at_axis = at_axis + way[axis];
     }
     return true;
-  }
-
-  // Six normal deviates a lane.
-  void draw_shocks(int block, const Moment<N>& moment) {
-    Words<N> counters[4], words[4];
-    random_counters<N>(moment.counters, counters);
-    random_group<N>(*moment.keys, counters, 2, words);
-    for (int k = 0; k < 3; ++k) {
-      const auto pair = normal_lanes(words[k]);
-      store(pair.first, shocks_of(block) + 2 * k * kLanes);
-      store(pair.second, shocks_of(block) + (2 * k + 1) * kLanes);
-    }
-  }
-
-  // One step of a lane whose mode is a system. Returns whether the mode has come to its end.
-  bool move_system(int block, int lane) {
-    Played& played = played_of(block);
-    SystemLane<Real>& system = system_of(block, lane);
-    const std::uint32_t mode = program_.mode[Mover::index(played.segment[lane], program_.segments())];
-    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_of(block) + lane : nullptr, system,
-                newest_of(block) + lane, kLanes);
-    played.row[lane] = Real(value_of(played.row[lane]) + 1.0f);
-    return !(played.row[lane] < system.length);
   }
 
   Quaternion<Real> shown_orientation(int block, int lane) const {
@@ -532,25 +467,7 @@ class ChainStepper : private ChainLives<N> {
   void leave(const Party& party, int, const Moment<N>&) { joining().leave(party); }
 
   // What comes after a segment's last step.
-  void go_on(const Party& party, int first, const Moment<N>& moment) {
-    if (!program_.systems.used()) return joining().follow(party, first, moment);
-    const Drawn words = Joining::draw(party, first, moment, 0);
-    for (std::size_t k = 0; k < party.count; ++k) {
-      change_system(party.block[k], party.lane[k], {words[0][k], words[1][k], words[2][k]});
-    }
-  }
-
-  // Lets the next mode of a lane begin, whose modes are systems.
-  void change_system(int block, int lane, const ChainWords& words) {
-    Lane life = lane_of(block, lane);
-    const std::uint32_t before = Mover::index(life.segment, program_.segments());
-    const std::uint32_t next = Mover(program_).draw(life.state, before, choice_, words);
-    life.segment = Real(static_cast<float>(next));
-    life.row = Real(0.0f);
-    const std::uint32_t word = choice_.has_chance() ? words.segment : 0x80000000U;
-    system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[next], word));
-    put(block, lane, life);
-  }
+  void go_on(const Party& party, int first, const Moment<N>& moment) { joining().follow(party, first, moment); }
 
   // The life of a lane begins with what is shown of it.
   void begin_at(int block, int lane) {
@@ -577,9 +494,6 @@ class ChainStepper : private ChainLives<N> {
   ChainSteering<Real> steering_;
   std::span<std::uint8_t> stirred_;  // per block: whether something may be left of a wind
   std::span<GustLane<Real>> gusts_;
-  std::span<SystemLane<Real>> systems_;
-  std::span<Real> shocks_;  // [block][deviate][lane], of one step
-  bool noisy_ = false;
   bool steered_ = false;  // now or once
   std::span<Real> regressors_;
   std::size_t regressor_row_ = 0;

@@ -31,7 +31,6 @@ std::vector<Model> models() {
           flame_model({.noise_rank = 2}),
           default_flame_model(),
           windy_chain(),
-          system_chain(1),
           sample_switched()};
 }
 

@@ -108,8 +108,6 @@ struct Stage {
     b.set_inputs(next, std::span(wind).first(model.inputs.size()));
     b.set_noise(0.9f);
     if (ChainFacet* chain = b.chain()) {
-      chain->set_history(1);
-      chain->set_temperature(0.5f);
       chain->set_ground(-0.1f);
     }
     b.step();
@@ -149,7 +147,7 @@ struct Stage {
   }
 
   // One of every kind of dynamics, and of every way to switch.
-  static std::vector<Model> models() { return {mortal_flame(), windy_chain(), system_chain(), sample_switched()}; }
+  static std::vector<Model> models() { return {mortal_flame(), windy_chain(), sample_switched()}; }
 
   Model model;
   std::vector<std::byte> memory;

@@ -21,7 +21,7 @@
 namespace wisp::hostile_state_test {
 namespace {
 
-constexpr std::size_t kHeader = 32, kFields = 14 * 8, kSlot = 24;
+constexpr std::size_t kHeader = 32, kFields = 11 * 8, kSlot = 24;
 
 struct Kind {
   const char* name;
@@ -36,13 +36,10 @@ std::vector<Kind> kinds() {
           {"Gaussian", [] { return flame_model({.points = 4, .noise_rank = 2}); }},
           {"Markov", [] { return sample_switched(); }},
           {"Positions", [] { return sample_chain(ChainMotion::kPosition); }},
-          {"Poses", [] { return weighted_chain(); }},
           {"Landing", [] { return sample_chain(); }},
           {"Steered", [] { return steered_chain(); }},
           {"Bounded", [] { return bounded_chain(); }},
-          {"Windy", [] { return windy_chain(); }},
-          {"Systems", [] { return system_chain(2); }},
-          {"Splines", [] { return spline_chain(); }}};
+          {"Windy", [] { return windy_chain(); }}};
 }
 
 class HostileState : public testing::TestWithParam<Kind> {

@@ -118,7 +118,6 @@ TEST(ModelHash, TellsChainsApart) {
   Model model = windy_chain();
   chain(model).segments.height = {20000, 19000, 18500};
   chain(model).segments.height_scale = 1e-4;
-  chain(model).segments.successor_weights = {65535, 13107, 1, 65535, 65535, 65535};
   chain(model).gust->ground.press = chain(model).gust->vertical.press = {0.2, -0.05};
   expect_others(
       model, {
@@ -130,7 +129,6 @@ TEST(ModelHash, TellsChainsApart) {
                  {"heading", [](Model& m) { chain(m).heading_free = false; }},
                  {"blend", [](Model& m) { ++chain(m).blend_steps; }},
                  {"successor", [](Model& m) { std::swap(chain(m).segments.follow[0], chain(m).segments.follow[1]); }},
-                 {"successor weight", [](Model& m) { ++chain(m).segments.successor_weights[1]; }},
                  {"height", [](Model& m) { ++chain(m).segments.height[1]; }},
                  {"height scale", [](Model& m) { chain(m).segments.height_scale *= 1.01; }},
                  {"gust's change", [](Model& m) { chain(m).gust->ground.change[1] = 0.01; }},
@@ -148,25 +146,16 @@ TEST(ModelHash, TellsChainsApart) {
                   }},
                  {"probability",
                   [](Model& m) {
-                    chain(m).contexts[2].probability = {0.5, 0.5};
+                    chain(m).probabilities[8] = chain(m).probabilities[9] = 0.5;
                   }},
                  {"history",
                   [](Model& m) {
-                    chain(m).contexts[2].history = {0, 0};
+                    chain(m).history = 1;
+                    chain(m).probabilities.resize(4);
                   }},
                  {"width", [](Model& m) { std::get<PoseView>(m.view).half_width *= 1.01; }},
                  {"length", [](Model& m) { std::get<PoseView>(m.view).half_length *= 1.01; }},
              });
-}
-
-TEST(ModelHash, TellsSystemsApart) {
-  expect_others(system_chain(),
-                {
-                    {"coefficient", [](Model& m) { chain(m).systems->modes[1].coefficient[3] += 0.01; }},
-                    {"noise", [](Model& m) { chain(m).systems->modes[1].noise[0] += 0.01; }},
-                    {"range", [](Model& m) { chain(m).systems->modes[0].highest[2] += 0.01; }},
-                    {"steps", [](Model& m) { ++chain(m).systems->modes[0].steps[15]; }},
-                });
 }
 
 }  // namespace

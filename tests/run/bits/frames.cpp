@@ -126,9 +126,6 @@ void falling_frames(std::uint64_t& hash, Model model, int capacity, int frames) 
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t k = 0; k < wind.size(); ++k) wind[k] = wind_at(frame, static_cast<int>(k));
     bank.set_inputs(wind);
-    bank.chain()->set_history(frame / 500 % 3);
-    if (frame % 400 == 0) bank.chain()->set_temperature(0.5f * static_cast<float>(frame % 5));
-    if (frame % 400 == 200) bank.chain()->set_temperature({});
     bank.set_noise(frame % 600 < 550 ? 1.0f : 0.0f);
     frame % 3 == 0 ? bank.step() : void(bank.advance(std::chrono::nanoseconds(13'333'333)));
     const int placed = frame % 97;
@@ -164,8 +161,7 @@ int main() {
   mortal_frames(hash, coupled_flame_model(), 5, 2'000);
   for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);
   falling_frames(hash, sample_chain(ChainMotion::kPosition), 5, 2'000);
-  falling_frames(hash, spline_chain(), 9, 2'000);
-  for (int degree : {1, 2}) falling_frames(hash, system_chain(degree), 9, 2'000);
+  falling_frames(hash, steered_chain(), 9, 2'000);
   step_frames(hash, sample_switched(), 3, 4'000);
   std::uint64_t flushed = hash;
   fading_frames(hash, 5'000);

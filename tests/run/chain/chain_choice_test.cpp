@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <vector>
 
 namespace wisp::chain_choice_test {
 namespace {
@@ -13,9 +12,7 @@ TEST(ChainChoice, OfModesThatAreAsLikelyTheFirstIsTaken) {
   ChainProgram program;
   program.modes = 4;
   program.threshold = threshold;
-  std::vector<std::byte> memory(256);
-  Arena arena(memory);
-  ChainChoice choice(program, arena);
+  ChainChoice choice;
   choice.set_chance(false);
   EXPECT_EQ(choice.mode(program, 0, {}), 1U);
 }

@@ -100,13 +100,10 @@ TEST(ChainCrowd, AnInstanceLivesTheSameLifeAmongManyAsAlone) {
                           in_the_world(sample_chain(ChainMotion::kPosition)),
                           bounded_chain(),
                           bounded_chain(ChainMotion::kPosition),
-                          uneven(weighted_chain()),
                           uneven(sample_chain()),
                           uneven(bounded_chain()),
                           uneven(sample_chain(ChainMotion::kPosition)),
-                          spline_chain(),
-                          windy_chain(),
-                          system_chain(1)};
+                          windy_chain()};
   for (std::size_t kind = 0; kind < std::size(models); ++kind) {
     const auto lives = lives_in_a_crowd(models[kind]);
     for (std::size_t k = 0; k < lives.size(); ++k) {

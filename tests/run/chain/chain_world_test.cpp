@@ -160,14 +160,10 @@ TEST(ChainGround, LiesDownFromTheFirstStepOn) {
 TEST(ChainGround, IsSavedAndRestored) {
   Bank bank = bank_of(sample_chain(), 2), other = bank_of(sample_chain(), 2);
   bank.chain()->set_ground(-0.5f);
-  bank.chain()->set_history(1);
-  bank.chain()->set_temperature(0.5f);
   std::vector<std::byte> saved(bank.save_bytes());
   bank.save(saved);
   ASSERT_TRUE(other.restore(saved));
   EXPECT_EQ(other.chain()->ground(), -0.5f);
-  EXPECT_EQ(other.chain()->history(), 1);
-  EXPECT_EQ(other.chain()->temperature(), 0.5f);
   for (int step = 0; step < 200; ++step) {
     bank.step();
     other.step();
@@ -342,7 +338,8 @@ TEST(ChainSteering, TakesNothingThatCannotFollow) {
   Model model = steered_chain();
   auto& chain = std::get<ChainModel>(model.dynamics);
   chain.initial = {1, 0};
-  chain.contexts = {{{0}, {1, 0}}, {{1}, {0.5, 0.5}}};
+  chain.history = 1;
+  chain.probabilities = {1, 0, 0.5, 0.5};
   Bank bank = bank_of(model);
   for (int fall = 0; fall < 20; ++fall) {
     bank.chain()->place(bank.at(0), {.velocity = {0.6f, 0, -0.7f}});

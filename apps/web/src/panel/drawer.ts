@@ -163,7 +163,6 @@ export class Drawer {
     const section = element('section', {}, element('h3', {}, 'Change it'));
     section.append(this.slider('Learned noise', 'noise', settings.noise, 0, 2, 0.05, (value) => `${Math.round(100 * value)} %`));
     if (model.view === 'outline' && shipped) section.append(this.orders(settings.order));
-    if (model.chain !== null && model.chain.history > 1) section.append(this.history(model.chain.history, settings.history));
     const again = element('button', { type: 'button', class: 'tool' }, 'Other chance');
     again.addEventListener('click', () => this.events.change({ seed: 1 + Math.floor(Math.random() * 1e6) }));
     const senses = element('button', { type: 'button', class: 'tool', 'data-knob': 'senses' }, 'Sound and touch');
@@ -175,7 +174,7 @@ export class Drawer {
 
   private slider(
     words: string,
-    name: 'noise' | 'history',
+    name: 'noise',
     value: number,
     low: number,
     high: number,
@@ -190,11 +189,6 @@ export class Drawer {
       this.events.change({ [name]: input.valueAsNumber });
     });
     return element('label', { class: 'knob', for: id }, element('span', {}, words), output, input);
-  }
-
-  private history(longest: number, now: number): HTMLElement {
-    const words = (value: number): string => (value === 1 ? '1 piece' : `${value} pieces`);
-    return this.slider('Remembers at most', 'history', now === 0 ? longest : Math.min(longest, now), 1, longest, 1, words);
   }
 
   private orders(now: number): HTMLElement {

@@ -67,7 +67,7 @@ function list(facts: readonly Fact[]): HTMLElement {
 // Which kind of motion follows which: a row for the one before, brighter where it is likelier.
 function transitions(model: Model): HTMLElement[] {
   const { chain } = model;
-  if (chain === null) return [];
+  if (chain === null || chain.modes < 2) return [];
   const grid = element('div', { class: 'matrix', role: 'img', 'aria-label': 'How likely each kind of motion follows each' });
   grid.style.gridTemplateColumns = `repeat(${chain.modes}, 1fr)`;
   chain.transitions.forEach((row, from) =>

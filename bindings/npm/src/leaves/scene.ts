@@ -99,7 +99,6 @@ export class LeavesScene implements Scene {
 
   apply(settings: SceneSettings): void {
     this.bank.setNoise(settings.noise);
-    if (this.model.kind === 'chain') this.bank.setHistory(settings.history);
     this.fall.want(settings.count);
   }
 

@@ -157,7 +157,6 @@ export abstract class SceneElement extends Base {
       seed: numberOf(this, 'seed', 0, 2 ** 32 - 1, 1),
       noise: numberOf(this, 'noise', 0, 2, calm ? 0.3 : 1),
       count: this.count(),
-      history: 0,
     };
   }
 

@@ -40,8 +40,6 @@ export interface SceneSettings {
   noise: number;
   /** how many candles, or leaves */
   count: number;
-  /** longest history of a chain; 0: as learned */
-  history: number;
 }
 
 /** How a picture is to be drawn. */
