@@ -38,7 +38,7 @@ Result<void> check_all(const Model& model, const BankOptions& options) {
 }  // namespace
 
 void Bank::Release::operator()(State* state) const {
-  static_assert(std::is_trivially_destructible_v<State>);  // its memory is all that is given back
+  static_assert(std::is_trivially_destructible_v<State>);  // freeing the bank's memory is all that a State needs
   if (owned) ::operator delete(static_cast<void*>(state), std::align_val_t(kArenaAlignment));
 }
 

@@ -37,7 +37,8 @@ std::uint64_t moment_of(std::uint64_t age, std::uint64_t now) {
   return age == kNeverInSteps ? kNeverInSteps : now - age;
 }
 
-// Of a model that goes out: the wind, harm, whether it is lit, sizes, for how long, and its last shape.
+// What is saved of an instance of a model that goes out: the wind, its harm, whether it is lit, its sizes, for how
+// long, and its last shape.
 void save_life(Bank::State& s, int slot, ByteWriter& out) {
   for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) out.put((*values)[slot]);
   for (const auto* moments : {&s.lit_at, &s.out_at}) out.put(age_of((*moments)[slot], s.steps));
@@ -66,8 +67,8 @@ void save_slot(Bank::State& s, int slot, ByteWriter& out) {
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
-// Whether a number is a whole number of steps away from another; any number is where they have no size. Numbers of a
-// bank that count or point are small enough for single precision to hold each of them.
+// Whether `value` is a whole number of steps above `low`. Where step is 0, any number is. Counters and indices in a
+// bank are small enough to be exact in single precision.
 bool on_grid(float value, float low, float step) { return !(step > 0) || std::fmod(value - low, step) == 0; }
 
 bool life_is_sound(const Bank::State& s, ByteReader& in) {

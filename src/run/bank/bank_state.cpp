@@ -83,7 +83,8 @@ void Bank::State::start(int slot) {
   show_block(block);
 }
 
-// From rest, as a newborn; the random stream goes on, so that it does not repeat its first flicker.
+// The instance starts from rest, as a new one does. Its random stream goes on, so that it does not repeat its first
+// flicker.
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;
   const int block = slot / kLanes, lane = slot % kLanes;
@@ -103,7 +104,7 @@ void Bank::State::extinguish(int slot) {
   go_out(slot, std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper), steps);
 }
 
-// What is seen of a flame that is out shrinks as it was: a wind that kills is beyond what the dynamics have learned.
+// A flame that is out is drawn as its last shape, shrinking: the dynamics have not learned wind strong enough to kill.
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   const int block = slot / kLanes, lane = slot % kLanes;
   out_at[slot] = moment;
@@ -128,7 +129,7 @@ LitState Bank::State::lit_state(int slot) const {
   const std::int64_t shown_late = between ? step_time - passed : 0;
   const auto since = [&](std::uint64_t then) {
     constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;  // so it is of kNeverInSteps
+    if (steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;  // true of kNeverInSteps too
     const auto ago = static_cast<std::int64_t>(steps - then) * step_time - shown_late;
     return std::chrono::nanoseconds(std::max<std::int64_t>(ago, 0));
   };
@@ -165,7 +166,7 @@ void Bank::State::set_chain(const ChainSettings& settings) {
   if (auto* stepped = chain_stepper()) stepped->set_chain(settings);
 }
 
-// In parts of whole groups of blocks, so that no two parts write to one cache line.
+// Work is divided into whole groups of blocks, so that no two threads write to one cache line.
 template <class Work>
 std::uint64_t Bank::State::share(Work work) {
   const bool shared = crew.run && std::visit([](const auto& dynamics) { return dynamics.can_be_shared(); }, stepper);
@@ -192,7 +193,7 @@ std::uint64_t Bank::State::share(Work work) {
   return task.sum;
 }
 
-// What is shown goes by `passed` and `between`, which are set before.
+// The outputs that are shown depend on `passed` and `between`, which the caller sets before.
 void Bank::State::step_all(const Steps& made) {
   const auto turn = [this](int samples) { std::visit([&](auto& dynamics) { dynamics.turn(samples); }, stepper); };
   turn(1);
@@ -222,13 +223,14 @@ void Bank::State::read_block(int block, float* rows_of_all) const {
   }
 }
 
-// Whether all of a block live.
+// Whether every instance of a block is alive.
 bool Bank::State::lives_whole(int block) const {
   const auto* lane = alive.data() + block * kLanes;
   return (block + 1) * kLanes <= rows && std::all_of(lane, lane + kLanes, [](std::uint8_t one) { return one != 0; });
 }
 
-// Four outputs of all lanes at once; of a number that is no multiple of four, some of the last twice.
+// Reads four outputs of all lanes at once. Where the number of outputs is no multiple of four, the last four overlap
+// those before.
 void Bank::State::read_whole_block(int block, float* rows_of_all) const {
   using Values = Reals<LiveNumbers>;
   const std::size_t count = visible;

@@ -1,5 +1,5 @@
 #pragma once
-// What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
+// The state of a bank. Everything, this struct included, lies in the bank's one piece of memory.
 
 #include "run/bank/extinction_lanes.hpp"
 #include "run/bank/frame_path.hpp"
@@ -13,13 +13,14 @@
 
 namespace wisp {
 
-// No age leads there: moments before a bank was restored lie just below 0, and so near the largest number.
+// A step number that no instance reaches. Steps from before a bank was restored wrap around to just below the largest
+// number, so "never" lies in the middle.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
-// Whether a block may make many steps before the next makes its first. A build whose size comes first has Steps of one
-// alone, and nothing goes in or out with them.
+// Whether a block may make many steps before the next block makes its first. A build for small size makes one step at a
+// time, and passes no inputs or outputs with it.
 inline constexpr bool kAhead = WISP_BLOCKS_AT_ONCE > 1;
 inline constexpr float kMaxNoise = 10.0f;
-inline constexpr float kMinNoise = 1e-6f;  // what is less is none
+inline constexpr float kMinNoise = 1e-6f;  // a smaller noise gain counts as 0
 
 struct Bank::State {
   static constexpr int kLanes = LiveNumbers::kLanes;
@@ -99,7 +100,8 @@ struct Bank::State {
   Channels channels;
   Stepper stepper;
   ShapeProgram shape;
-  std::size_t visible;  // outputs that are read: control points, where the dynamics move components of a shape
+  std::size_t
+      visible;  // number of outputs that a host reads: of control points, where the dynamics move components of a shape
   PolylineProgram polyline;
   ExtinctionProgram extinction;
 
@@ -107,17 +109,17 @@ struct Bank::State {
   std::span<std::uint8_t> alive;
   std::span<std::uint64_t> stream;
   std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
-  std::span<float> regressors;    // [block][regressor][lane]: what acts now
-  std::span<float> shown;         // [block][output][lane]: what is read
-  std::span<float> components;    // [block][component][lane]: what it was made from, where there is a shape
+  std::span<float> regressors;    // [block][regressor][lane]: inputs of the next step
+  std::span<float> shown;         // [block][output][lane]: outputs as a host reads them
+  std::span<float> components;    // [block][component][lane]: the components behind `shown`, where there is a shape
 
-  // Per slot, and empty where nothing goes out.
-  std::span<float> wind;  // strength of what acts now
+  // Per slot; empty for a model without extinction.
+  std::span<float> wind;  // strength of the wind in the next step
   std::span<float> harm;
   std::span<float> lit;  // 1 or 0
   std::span<float> size;
   std::span<float> previous_size;   // before the last step
-  std::span<float> last_shape;      // [block][output][lane]: outputs of what is out as they were when it went
+  std::span<float> last_shape;      // [block][output][lane]: outputs at the moment at which an instance went out
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
   std::span<std::uint64_t> out_at;  // and when it last went out
 
@@ -127,7 +129,7 @@ struct Bank::State {
   std::uint64_t spawned = 0;
   std::uint64_t steps = 0;  // of the bank
   std::int64_t passed = 0;  // nanoseconds since the last step
-  bool between = false;     // what is shown lies between the last two steps, by `passed`
+  bool between = false;     // whether `shown` lies between the last two steps, in proportion to `passed`
   float noise = 0.0f;
   ChainSettings chain;
   Crew crew;

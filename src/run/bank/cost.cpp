@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::byte> room_for(const Arena& measured) { return std::vector<std::byte>(measured.bytes()); }
 
-// Operations of `work`.
+// Counts the operations of `work`.
 template <class Work>
 OperationCount count(Work work) {
   operation_count = {};
@@ -23,7 +23,7 @@ OperationCount count(Work work) {
   return operation_count;
 }
 
-// Regressors while every input is at its highest: wind that blows from one side.
+// Regressors for inputs at their highest values: strong wind from one side.
 std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
   std::vector<CountingReal> values(channels.regressors.size());
   for (std::size_t k = 0; k < values.size(); ++k) {
@@ -34,20 +34,20 @@ std::vector<CountingReal> blowing_regressors(const Model& model, const Channels&
   return values;
 }
 
-// What happens while steps are counted.
+// What the inputs do while steps are counted.
 enum class Course {
   kSteady,    // every input is at its highest
-  kSwinging,  // it rises to that again and again: residuals that look back at it are searched
-  kSteered,   // as kSteady, towards a place
+  kSwinging,  // inputs rise to their highest again and again, so that resampled residuals search
+  kSteered,   // as kSteady, while a chain is steered to a place
 };
 
-// The share of the regressors that acts in a step.
+// The share of the highest inputs that acts in a step.
 float share_of(Course course, std::uint64_t step) {
   constexpr std::uint64_t kSwing = 24;
   return course == Course::kSwinging ? static_cast<float>(step % kSwing) / kSwing : 1.0f;
 }
 
-// Of one step: the mean over as many as it takes, rounded to the nearest in sum, and the most.
+// Operations of one step: the mean over kFrames steps, rounded, and the largest.
 struct StepCount {
   OperationCount mean;
   std::int64_t most = 0;
@@ -72,7 +72,7 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
     }
     stepper.step(0, {&keys, {&stream, &born, step}, &clamped});
   };
-  for (std::uint64_t step = 0; step < kFrames; ++step) play(step);  // what was before them is not counted
+  for (std::uint64_t step = 0; step < kFrames; ++step) play(step);  // warms up; not counted
   OperationCount all;
   std::int64_t most = 0;
   for (std::uint64_t step = kFrames; step < 2 * kFrames; ++step) {
@@ -104,7 +104,7 @@ OperationCount count_view(const Channels& channels, const Stepper& stepper, cons
   });
 }
 
-// Showing what lies between two steps.
+// Counts an interpolation between two steps.
 template <class Stepper>
 std::int64_t count_between(const Channels& channels, const Stepper& stepper) {
   std::vector<CountingReal> shown(channels.outputs.size());
@@ -115,7 +115,7 @@ std::int64_t count_between(const Channels& channels, const Stepper& stepper) {
 
 struct ExtinctionCount {
   std::int64_t burning = 0;    // taking in the wind, and a step
-  std::int64_t shrinking = 0;  // besides, what is shown of an instance that goes out or catches
+  std::int64_t shrinking = 0;  // in addition, for an instance that goes out or catches fire
 };
 
 ExtinctionCount count_extinction(const Model& model) {
@@ -166,7 +166,7 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   return cost;
 }
 
-// What the stepper stands on, laid out and filled: its channels, and the polyline of `points` (0: none).
+// What a stepper needs besides the model: its channels, and the polyline of `points` points (0: none).
 struct Surroundings {
   Surroundings(const Model& model, const OperatingPoint& point, int points, Arena& arena)
       : channels(make_channels(model, point, arena)), shape(make_shape_program(model, arena)) {

@@ -9,12 +9,12 @@
 namespace wisp {
 namespace {
 
-// Of a size: all of it in a step where the step is longer than the change takes.
+// The share of the full size by which it changes in a step. A step longer than the whole change takes all of it.
 float share_of_step(double step, double seconds) {
   return static_cast<float>(std::min(1.0, step / std::max(seconds, step)));
 }
 
-constexpr double kMaxHarm = 0.5;  // of a step: no single sample blows a flame out
+constexpr double kMaxHarm = 0.5;  // harm of one step: no single sample blows a flame out
 
 }  // namespace
 
@@ -25,7 +25,7 @@ ExtinctionProgram make_extinction_program(const Model& model) {
   const double step = 1.0 / model.rate_hz;
   program.present = true;
   program.input = static_cast<std::int32_t>(rule.input);
-  const double harm = std::min(step / rule.seconds, kMaxHarm);  // of a step at the level
+  const double harm = std::min(step / rule.seconds, kMaxHarm);  // harm of a step at the level
   const double most = std::min(Extinction::kMaxWind, 1 + (kMaxHarm / harm - 1) / rule.haste);
   program.level = static_cast<float>(rule.level);
   program.most = static_cast<float>((rule.haste > 0 ? most : Extinction::kMaxWind) * rule.level);

@@ -1,8 +1,8 @@
 #pragma once
 // Whether instances burn: the rule of extinction (wisp/model/extinction.hpp), block by block.
 //
-// An instance has harm, 0 … 1; whether it is lit, 1 or 0; and the size at which it is seen, 0 … 1. Four operations
-// a step, one to take in the wind, and while it shrinks or grows three, and one for each output that is shown.
+// An instance has a harm, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes four
+// operations, and one to read the wind; while the size changes, three more and one for each output that is shown.
 
 #include <cstdint>
 
@@ -11,25 +11,25 @@
 
 namespace wisp {
 
-/// A rule compiled for stepping.
+/// The rule of extinction, compiled for stepping.
 struct ExtinctionProgram {
   bool present = false;  ///< false: nothing ever goes out, and nothing below is used
   std::int32_t input = 0;
   float level = 0;
-  float most = 0;      ///< wind counts up to this
-  float base = 0;      ///< harm of a step at or above the level is base + slope · wind,
-  float slope = 0;     ///< of the two
-  float recovery = 0;  ///< harm that a step below the level takes back
-  float decay = 0;     ///< of size, a step
+  float most = 0;  ///< stronger wind counts as this
+  float base = 0;  ///< harm of a step at or above the level is base + slope · wind
+  float slope = 0;
+  float recovery = 0;  ///< by how much a step below the level reduces harm
+  float decay = 0;     ///< by how much the size falls in a step
   float re_ignition = 0;
 };
 
 ExtinctionProgram make_extinction_program(const Model& model);
 
-/// A hash of the program, over a hash of what came before: the latter itself where there is no rule.
+/// Combines the program with the hash `before`. Returns `before` where there is no rule.
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
 
-/// What the rule hears of an input: its strength; what is not a number counts as calm.
+/// The strength of the input that the rule reads. NaN counts as calm.
 template <class N>
 inline Reals<N> blowing(const ExtinctionProgram& rule, const Reals<N>& input) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -40,7 +40,7 @@ inline Reals<N> blowing(const ExtinctionProgram& rule, const Reals<N>& input) {
 /// The state of a block's instances, [lane].
 template <class Real>
 struct LifeLanes {
-  Real* wind;  ///< what acts now
+  Real* wind;  ///< strength in this step
   Real* harm;
   Real* lit;
   Real* size;
@@ -62,7 +62,7 @@ inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real
   store(hold(load<Reals<N>>(life.size) + grown, zero, one), life.size);
 }
 
-/// Shrinks shown outputs, [output][lane], to the sizes of their instances. Where there is nothing left they are 0.
+/// Scales shown outputs, [output][lane], by the sizes of their instances. Size 0 gives 0.
 template <class N>
 inline void shrink(const Reals<N>& size, std::size_t outputs, typename N::Real* shown) {
   const auto zero = all<Reals<N>>(0.0f);

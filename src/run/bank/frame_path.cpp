@@ -1,6 +1,6 @@
-// Compiled once for every width of vectors, each time with another name for what it makes. The wide ones are objects of
-// their own in which nothing but that name is seen from outside: what they have of templates and inline functions, the
-// standard library's included, is compiled for wide vectors, and must not get to where a narrow machine runs it.
+// This file is compiled once for every width of vectors, each time under another name. The wide versions are objects of
+// their own that export that name alone: the templates and inline functions in them, the standard library's included,
+// use wide vectors and must not be linked where a narrow machine would run them.
 
 #include <algorithm>
 
@@ -16,14 +16,14 @@
 namespace wisp {
 namespace {
 
-// A number in the first lane, 0 in the others; through memory it would wait until what was written there has arrived.
+// A value in the first lane and 0 in the others. Through memory, a load would have to wait for the store.
 Reals<LiveNumbers> alone(float value) {
   auto lanes = all<Reals<LiveNumbers>>(0.0f);
   first_part(value, lanes.part[0]);
   return lanes;
 }
 
-// Of a model with few regressors a call would take longer than the copy.
+// For a model with few regressors a call of memcpy takes longer than this loop.
 inline void copy_lanes(const float* from, std::size_t count, float* to) {
   constexpr int kLanes = LiveNumbers::kLanes;
   if (!kAhead) {
@@ -35,12 +35,13 @@ inline void copy_lanes(const float* from, std::size_t count, float* to) {
 
 }  // namespace
 
-// From rows of all slots. What lanes beyond them get is cleared when an instance is spawned there.
+// Reads rows of all slots. Lanes beyond the last slot get numbers too; spawning an instance there clears them.
 void Bank::State::set_inputs(int block, const float* all_rows) {
   const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
   const int count = std::min(kLanes, rows - block * kLanes);
   const auto lanes_of = [&](int input) {
-    if (inputs == 1 && count == kLanes) return load<Reals<LiveNumbers>>(values);  // they lie as lanes do
+    if (inputs == 1 && count == kLanes)
+      return load<Reals<LiveNumbers>>(values);  // memory and lanes have the same order
     if (kAhead && count == 1) return alone(values[input]);
     float lanes[kLanes] = {};
     for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
@@ -74,7 +75,7 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahe
           rows - block * kLanes};
 }
 
-// All steps of some blocks before those of the next: what they remember is then at hand.
+// Makes all steps of some blocks before those of the next, while their history is in the cache.
 std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::visit(
@@ -147,7 +148,8 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
   return count_of_clamped;
 }
 
-// Steps of the bank's only instance, of one output, with what goes in and out of as many as there are lanes at once.
+// Steps a bank of one instance with one output; inputs and outputs of as many steps as there are lanes go through one
+// vector.
 template <class Dynamics>
 std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
   const auto regressors_at = [&](int k, int first, int count, float* out) {
@@ -179,7 +181,7 @@ std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
   return count_of_clamped;
 }
 
-// Instances of a block that live, burn and had an output clamped.
+// A mask of the instances of a block that are alive and lit and had an output clamped.
 std::uint32_t Bank::State::count_clamped(int block, const std::uint32_t* flags) const {
   if (!any(load<Words<LiveNumbers>>(flags))) return 0;
   std::uint32_t count = 0;
@@ -223,7 +225,7 @@ void Bank::State::show_blocks(const Dynamics& dynamics, int first) {
   for (int block = first; block < first + kBlocks; ++block) show_life(block, share);
 }
 
-// Whether all of a block burns at full size. To shrink it to that would not change a bit.
+// Whether every instance of a block burns at full size, so that scaling would change no bit.
 bool Bank::State::is_whole(int block) const {
   bool whole = true;
   for (const auto& values : {lit, size, previous_size}) {

@@ -1,7 +1,6 @@
 #pragma once
-// What a frame computes, for all instances of a range of blocks. frame_path.cpp is compiled once for every width of
-// vectors that the machine may have (src/run/CMakeLists.txt), and a bank takes one when it is made. All give the same
-// bits.
+// The work of a frame for a range of blocks. frame_path.cpp is compiled once for every width of vectors that the
+// machine may have (src/run/CMakeLists.txt); a bank chooses one when it is made. All give the same bits.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +8,7 @@
 #include "wisp/base/result.hpp"
 #include "wisp/run/bank.hpp"
 
-// The shared library shows what begins with wisp_: not these.
+// The shared library exports symbols that begin with wisp_; these stay hidden.
 #ifdef __ELF__
 #define WISP_INSIDE __attribute__((visibility("hidden")))
 #else
@@ -23,25 +22,25 @@ struct Steps {
   int count = 1;
   const float* inputs = nullptr;  ///< rows of all slots, one set of rows a step; null: inputs stay as set
   float* outputs = nullptr;       ///< outputs after each step, in the same layout; null: not written
-  bool show = true;               ///< whether the outputs of the last step become readable
+  bool show = true;               ///< whether the outputs of the last step are made readable
 };
 
 struct FramePath {
   const char* width;
   void (*set_inputs)(Bank::State& state, const float* values);
   void (*set_common_inputs)(Bank::State& state, const float* values);
-  /// Makes new samples of blocks and, where they are to be read, shows them while they are at hand; returns in how many
-  /// steps of instances an output was clamped.
+  /// Makes the steps `made` of blocks first … last − 1 and, where asked, makes their outputs readable while they are in
+  /// the cache. Returns in how many steps of instances an output was clamped.
   std::uint64_t (*step)(Bank::State& state, int first, int last, const Steps& made);
   void (*show)(Bank::State& state, int first, int last);
   void (*polylines)(const Bank::State& state, float* values);
 };
 
-/// Those that this machine can run, the narrowest first: it is what the compiler was told to make.
+/// The frame paths that this machine can run, the narrowest first.
 std::span<const FramePath* const> frame_paths();
 
-/// The widest; or the one that the environment variable WISP_WIDTH names.
-/// Errors: it names another.
+/// Returns the widest frame path, or the one that the environment variable WISP_WIDTH names.
+/// Errors: WISP_WIDTH names none of them.
 Result<const FramePath*> choose_frame_path();
 
 }  // namespace wisp

@@ -7,10 +7,10 @@
 namespace wisp {
 namespace {
 
-constexpr double kMinWeight = 1e-8;  // of a control point: less is lost in rounding
+constexpr double kMinWeight = 1e-8;  // a smaller weight of a control point is lost in rounding
 
-// Derivatives of the spline in steps of the polyline: factors of differences. 0 where a knot comes so often that no
-// point is near.
+// Factors that turn differences of control points into derivatives of the spline, in steps of the polyline. A factor is
+// 0 where knots coincide, since no point lies there.
 struct Factors {
   std::span<const double> knots;
   double step;
@@ -26,7 +26,7 @@ struct Factors {
 
 float share(double weight, double factor) { return weight < kMinWeight ? 0.0f : static_cast<float>(weight / factor); }
 
-// A run that begins at s in its span. The basis weights of four control points, said in differences of them; and
+// A run that begins at s in its span: the basis weights as factors of differences of the four control points, and
 // Taylor's series for one step and for two.
 PolylineRun run_from(const Factors& factors, const BasisWeights& weights, double s) {
   const auto span = static_cast<std::size_t>(weights.first);
@@ -59,7 +59,7 @@ void for_each_run(std::span<const double> knots, int points, Add add) {
   for (int point = 0; point < points;) {
     PolylineRun run = run_from({knots, step}, basis(knots, at(point)), at(point));
     const int span = span_of(point);
-    // The last point is a control point, and nothing need lead to it.
+    // The last point is a control point and needs no run.
     do {
       ++run.points;
       ++point;

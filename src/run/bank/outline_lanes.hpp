@@ -1,10 +1,9 @@
 #pragma once
-// The outline of a block of instances as polylines, by forward differences: points that follow each other in one knot
-// span take three additions a coordinate, where four basis weights take seven operations. Source: C. de Boor, A
-// Practical Guide to Splines, chapter X (the coefficients of derivatives); differences from Taylor's series, which
-// ends.
+// The outlines of a block of instances as polylines, by forward differences: within one knot span a point takes three
+// additions a coordinate, where four basis weights take seven operations. Source: C. de Boor, A Practical Guide to
+// Splines, chapter X (the coefficients of derivatives); differences from Taylor's series, which is finite for a cubic.
 //
-// Differences pile up rounding, so every span begins anew, and so does every kLongestRun points.
+// Rounding accumulates in differences, so every span starts anew, and so does every run of kLongestRun points.
 
 #include <cstdint>
 #include <span>
@@ -15,29 +14,30 @@
 
 namespace wisp {
 
-/// Points after the first of a run are sums: in the longest run, of eight numbers that were rounded.
+/// The longest run of points that are computed by differences. Its last point is a sum of eight rounded numbers.
 inline constexpr std::uint32_t kLongestRun = 8;
 
-/// Points in a row in one knot span. What the first of them is, and the differences after it, are shares of the span's
+/// Successive points in one knot span. The first point and the differences after it are weighted sums of the span's
 /// slope, of the bends at its two ends, and of its twist.
 struct PolylineRun {
   std::uint32_t points;
-  std::uint32_t control;  ///< the first point is this control point, moved by the next three, or not where all are 0
+  std::uint32_t control;  ///< index of the control point from which the first point is offset; all three weights are 0
+                          ///< where it is that point
   float along;
   float left;
   float right;
-  float step_left;  ///< to the second point: the slope, and these
+  float step_left;  ///< from the first to the second point: the slope, and these
   float step_right;
-  float bend_twist;  ///< what the second difference is beyond the left bend
+  float bend_twist;  ///< by how much the second difference exceeds the left bend
 };
 
-/// An outline compiled for a number of points. Derivatives of the spline in steps from point to point are a factor
-/// times a difference: slopes, of control points; bends, of slopes; twists, of bends.
+/// An outline compiled for a number of points. Slopes are factors times differences of control points, bends of slopes,
+/// twists of bends, all in steps from point to point.
 struct PolylineProgram {
   int points = 0;                ///< 0: there is no outline
-  std::span<float> slope;        ///< one less than control points
-  std::span<float> bend;         ///< two less
-  std::span<float> twist;        ///< three less: one a knot span
+  std::span<float> slope;        ///< one fewer than control points
+  std::span<float> bend;         ///< two fewer
+  std::span<float> twist;        ///< three fewer: one a knot span
   std::span<std::uint32_t> end;  ///< per knot span, one past its last run
   std::span<PolylineRun> runs;
 };
@@ -56,7 +56,7 @@ inline void polyline_lanes(const PolylineProgram& program, int coordinate, const
   using Values = Reals<N>;
   const auto control = [&](std::size_t i) { return load<Values>(controls + (2 * i + coordinate) * N::kLanes); };
   const auto times = [](float factor, const Values& values) { return all<Values>(factor) * values; };
-  // Settled: what is added up of them can't be denormal.
+  // Flushed to zero where small, so that sums can't be denormal.
   const auto scaled = [&](float factor, const Values& difference) { return settle(times(factor, difference)); };
   const PolylineRun* run = program.runs.data();
   int point = 0;

@@ -1,6 +1,7 @@
 #pragma once
 // Control points of an outline from the components that its dynamics move (wisp/model/shape_components.hpp), for a
-// block of instances: half of the products of a full basis, since every coordinate has components of one kind.
+// block of instances. It takes half of the products of a full basis, since a coordinate has components of one kind
+// only.
 
 #include <cstdint>
 #include <span>
@@ -11,9 +12,9 @@
 
 namespace wisp {
 
-/// A shape compiled for showing.
+/// The shape of an outline, compiled for showing.
 struct ShapeProgram {
-  std::size_t points = 0;  ///< 0: what the dynamics move is shown as it is
+  std::size_t points = 0;  ///< 0: outputs are shown as the dynamics make them
   std::size_t symmetric = 0;
   std::size_t antisymmetric = 0;
   std::span<float> rest;     ///< per coordinate
@@ -28,10 +29,10 @@ struct ShapeProgram {
 /// Lays the program out and, unless the arena measures, fills it. It is empty where the model has no such shape.
 ShapeProgram make_shape_program(const Model& model, Arena& arena);
 
-/// A hash of the program, over a hash of what came before: the latter itself where it is empty.
+/// Combines the program with the hash `before`. Returns `before` where the program is empty.
 std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
 
-/// A shape coordinate for components [component][lane].
+/// A shape coordinate as the weighted sum of components, [component][lane].
 template <class N>
 inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components) {
   const bool symmetric = i < program.points;

@@ -1,6 +1,6 @@
 #pragma once
 // The kinds of dynamics that can be stepped. A new kind is a file with its stepper, which has the public functions of
-// ArxStepper, and its lines here.
+// ArxStepper, and a line for it here.
 
 #include <type_traits>
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// What steps dynamics of one kind, on numbers N.
+/// The stepper of dynamics of a kind, on numbers N.
 template <class Kind, class N>
 struct StepperOf;
 
@@ -31,14 +31,14 @@ struct StepperOf<SwitchedArxModel, N> {
 
 using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>, SwitchedStepper<LiveNumbers>>;
 
-// Each kind is compiled in a file of its own, so that a build may choose for each whether to be fast or small.
-#ifndef WISP_FRAME_PATH  // wide ones have their own
+// Each kind is compiled in a file of its own, so that a build can optimise each for speed or for size.
+#ifndef WISP_FRAME_PATH  // the wide versions are compiled with frame_path.cpp
 extern template class ArxStepper<LiveNumbers>;
 extern template class ChainStepper<LiveNumbers>;
 extern template class ArxStepper<LiveNumbers, ModeLanes<LiveNumbers>>;
 #endif
 
-/// Calls use(dynamics, stepper kind) with the model's dynamics and a std::type_identity of what steps them.
+/// Calls use(dynamics, kind), where `kind` is a std::type_identity of the stepper of the model's dynamics.
 template <class N, class Use>
 auto visit_dynamics(const Model& model, Use use) {
   return std::visit(

@@ -1,24 +1,25 @@
 #pragma once
-// Values of several blocks in a row, that a kernel computes at once: in vectors of two blocks where the machine has
-// them that long, else a block's parts after the other's. Either way every lane does what it does in a block alone.
+// Values of several consecutive blocks, which a kernel computes together: in vectors of two blocks where the machine
+// has such, else one block after the other. Either way every lane does what it does in a block alone.
 
 #include <cstddef>
 
 #include "run/lanes/lanes.hpp"
 
-// A build whose size comes first steps one block at a time, with the same bits: the kernel is there once, not twice.
+// A build for small size steps one block at a time, with the same bits, so that each kernel is compiled once and not
+// twice.
 #ifndef WISP_BLOCKS_AT_ONCE
 #define WISP_BLOCKS_AT_ONCE 4
 #endif
 
 namespace wisp {
 
-/// What `kBlocks` blocks in a row are computed in.
+/// The types in which `kBlocks` consecutive blocks are computed.
 template <class N, int kBlocks>
 struct PartsOfBlocks {
   using RealPart = typename N::RealPart;
   using WordPart = typename N::WordPart;
-  static constexpr int kBlocksAtOnce = 1;  // that one part belongs to
+  static constexpr int kBlocksAtOnce = 1;  // blocks to which one part belongs
   static constexpr int kParts = kBlocks * N::kParts;
 };
 
@@ -37,7 +38,7 @@ using BlockReals = Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, PartsOfBlo
 template <class N, int kBlocks>
 using BlockWords = Pack<typename PartsOfBlocks<N, kBlocks>::WordPart, PartsOfBlocks<N, kBlocks>::kParts>;
 
-/// Where each of the blocks has a value, that of a block `stride` values after that of the block before.
+/// Addresses of a value in each of several blocks, `stride` values apart.
 template <class Value, int kBlocks>
 struct BlockPlaces {
   Value* of[kBlocks];
@@ -47,7 +48,7 @@ struct BlockPlaces {
   }
 };
 
-/// One part from memory, one value a lane: in each block so many values after its place.
+/// Loads one part, one value a lane, from `after` values behind the address in each block.
 template <class N, class Part, class Value, int kBlocks>
 inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i, Part& out) {
   if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
@@ -58,7 +59,7 @@ inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size
   }
 }
 
-/// And back.
+/// Stores one part there.
 template <class N, class Part, class Value, int kBlocks>
 inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
   if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
@@ -69,7 +70,7 @@ inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>
   }
 }
 
-/// All parts, and back.
+/// Load and store all parts.
 template <class N, class Packed, class Value, int kBlocks>
 inline Packed load_blocks(const BlockPlaces<Value, kBlocks>& places) {
   Packed out;

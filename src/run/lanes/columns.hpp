@@ -1,5 +1,5 @@
 #pragma once
-// Rows of tables, one a lane, as columns of which each holds one number of every lane; and back.
+// Transposes rows of tables, one row a lane, to columns that hold one number of every lane, and back.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace wisp {
 
-// Turns rows of a table into columns: of the row of every lane its first, second and third number. Vectors read four
-// numbers of each row at once.
+// Transposes rows to columns: the first, second, third and fourth number of every lane's row. A vector reads four
+// numbers of a row at once.
 #ifdef WISP_VECTOR_LANES
 using Quad = float __attribute__((vector_size(16)));
 
@@ -20,7 +20,7 @@ inline Quad quad_at(const float* row) {
   return quad;
 }
 
-/// Four successive numbers of the row of every lane.
+/// Four successive numbers of every lane's row, as columns.
 inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
   const auto row_of = [&](int lane) { return quad_at(row[lane] + first); };
 #ifdef __AVX2__
@@ -47,7 +47,7 @@ inline void columns_part(const float* const* row, std::size_t first, RealPart (&
 #endif
 }
 
-// And back to the rows.
+// Four columns, written to every lane's row.
 inline void rows_part(const RealPart (&column)[4], std::size_t first, float* const* row) {
   const auto put = [&](int lane, const Quad& quad) { std::memcpy(row[lane] + first, &quad, sizeof quad); };
 #ifdef __AVX2__
@@ -93,7 +93,7 @@ inline void columns_of(const Number* const (&row)[N::kLanes], std::size_t first,
   });
 }
 
-/// And back to the rows.
+/// Four columns, written to every lane's row.
 template <class N>
 inline void rows_of(const Reals<N> (&columns)[4], std::size_t first, typename N::Real* const (&row)[N::kLanes]) {
   unrolled<N::kParts>([&](auto i) {
@@ -117,12 +117,12 @@ inline void real_parts(const Eight& words, RealPart* parts) {
 }
 #endif
 
-/// Eight successive whole numbers of 16 bits of every lane's row, as real ones.
+/// Eight successive 16-bit integers of every lane's row, as real numbers in columns.
 template <class N>
 inline void columns_of(const std::int16_t* const (&row)[N::kLanes], Reals<N> (&columns)[8]) {
 #ifdef WISP_VECTOR_LANES
-  // Rows half of them apart are interleaved; after as many times as they can be halved, numbers are rows and lanes are
-  // columns, of which four lanes fill half.
+  // Rows half of the lanes apart are interleaved. After log2(lanes) rounds, columns stand where rows stood; four lanes
+  // fill half of a vector.
   if constexpr (N::kPartLanes > 1) {
     constexpr int kRows = N::kLanes, kHalf = kRows / 2;
     static_assert(kRows == 8 || kRows == 4);

@@ -1,6 +1,6 @@
 #pragma once
-// Numbers and words that count the arithmetic that is done with them: the kernels are instantiated with these to find
-// what they cost.
+// Numbers and words that count the arithmetic done with them. Kernels are instantiated with these types to measure
+// their cost.
 
 #include <cmath>
 #include <cstdint>
@@ -58,8 +58,8 @@ inline CountingWord operator+(CountingWord a, CountingWord b) { return counted(a
 inline CountingWord operator-(CountingWord a, CountingWord b) { return counted(a.value - b.value); }
 inline CountingWord operator<<(CountingWord a, int bits) { return counted(a.value << bits); }
 
-// Conversions and comparisons, as lanes.hpp has them for live numbers. They are not arithmetic, but a signed shift and
-// a wide product are.
+// Conversions and comparisons, as lanes.hpp has them for live numbers. They do not count as arithmetic; a signed shift
+// and a wide product do.
 
 inline CountingReal real_of_part(CountingWord word) {
   return CountingReal(static_cast<float>(static_cast<std::int32_t>(word.value)));
@@ -92,7 +92,7 @@ inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t
 
 inline std::uint32_t value_of(CountingWord word) { return word.value; }
 
-/// One lane of them.
+/// Counting numbers, one lane.
 struct CountingNumbers {
   using Real = CountingReal;
   using Word = CountingWord;

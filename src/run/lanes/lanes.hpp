@@ -1,10 +1,10 @@
 #pragma once
-// What the kernels are templates over: the kind of number, and how many instances go side by side.
+// The number types that kernels are templates over, and how many instances go side by side.
 //
-// A block is kLanes instances; everything that an instance has is laid out as [what][lane], and a kernel does the same
-// operations in the same order in every lane. Lanes are written as the compilers' vectors, since gcc 12 and clang 14
-// unroll plain loops over eight lanes first and then make poor vectors of the pieces (measured: three times slower).
-// How wide the machine's vectors are changes no bit.
+// A block is kLanes instances. Everything that an instance has is laid out as [what][lane], and a kernel does the same
+// operations in the same order in every lane. Lanes are the compilers' vector types, since gcc 12 and clang 14 unroll
+// plain loops over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of
+// the machine's vectors changes no bit.
 
 #include <bit>
 #include <cfloat>
@@ -35,7 +35,7 @@ inline constexpr int kVectorRegisters = 16;
 inline constexpr int kVectorRegisters = 32;
 #endif
 
-// A part is what the machine computes at once: a vector, or one number.
+// A part is what the machine computes in one instruction: a vector, or one number.
 
 #ifdef WISP_VECTOR_LANES
 #ifdef __AVX2__
@@ -68,7 +68,7 @@ inline RealPart square_root_part(RealPart a) {
   return a;
 #endif
 }
-inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x: nothing is rounded
+inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x, without rounding
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value - WordPart{}; }
 inline void first_part(float value, RealPart& part) { part = RealPart{value}; }  // 0 in the other lanes
 inline void gather_part(const float* from, const std::uint32_t* place, RealPart& part) {
@@ -102,7 +102,7 @@ inline void first_part(float value, RealPart& part) { part = value; }
 inline void gather_part(const float* from, const std::uint32_t* place, RealPart& part) { part = from[*place]; }
 #endif
 
-/// High and low words of a product.
+/// The high and low words of a product of two words.
 template <class Part>
 struct WideProduct {
   Part high;
@@ -127,8 +127,8 @@ inline float value_of(float a) { return a; }
 inline std::uint32_t value_of(std::uint32_t a) { return a; }
 
 #ifdef WISP_LONG_WORDS
-// The words of a part, each in the lower half of 64 bits, as x86 multiplies them; what the upper halves hold does not
-// count. So products follow each other without being put back in order.
+// The words of a part, each in the lower half of 64 bits, as x86 multiplies them. The upper halves are ignored, so
+// successive products need no shuffles between them.
 #if defined(__AVX512F__) && defined(__AVX512VL__)
 struct LongWords {
   __m512i all;
@@ -178,7 +178,7 @@ inline LongWords product(LongWords a, std::uint32_t b) {
 
 #if defined(WISP_LONG_WORDS) && defined(__AVX512F__) && defined(__AVX512DQ__)
 #define WISP_LONG_PARTS 1
-// Parts of two blocks side by side (run/lanes/blocks.hpp): the longest vectors hold twice as many lanes as a block has.
+// Parts of two blocks side by side (run/lanes/blocks.hpp), where the machine's vectors hold twice the lanes of a block.
 using LongRealPart = float __attribute__((vector_size(64)));
 using LongWordPart = std::uint32_t __attribute__((vector_size(64)));
 
@@ -230,23 +230,24 @@ struct OnePart : N {
   static constexpr int kParts = 1;
 };
 
-/// The same numbers, as many side by side as the machine computes at once; where that is one, a block's, whose
-/// functions are there anyway.
+/// The same numbers in packs as wide as the machine's vectors. Where vectors have one lane, a pack is a block's, whose
+/// functions are compiled anyway.
 template <class N>
 using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 
-// GCC leaves long unrolled bodies as calls, whose values then pass through memory.
+// GCC does not inline long unrolled bodies, and their values would then pass through memory.
 #if defined(__GNUC__) && !defined(__wasm__)
 #define WISP_UNROLLED __attribute__((always_inline))
 #else
 #define WISP_UNROLLED
 #endif
 
-/// Calls function(0), …, function(count − 1), each with a constant: what a loop holds in an array stays in registers.
+/// Calls function(0), …, function(count − 1) with constants, so that an array which the loop indexes stays in
+/// registers.
 template <int count, class Function>
 WISP_UNROLLED inline void unrolled(Function function) {
 #ifdef __wasm__
-  for (int k = 0; k < count; ++k) function(k);  // a page fetches the code before it runs: short goes before fast
+  for (int k = 0; k < count; ++k) function(k);  // a page must fetch the code before it runs: small before fast
 #else
   [&]<int... k>(std::integer_sequence<int, k...>) WISP_UNROLLED { (function(std::integral_constant<int, k>()), ...); }
   (std::make_integer_sequence<int, count>());
@@ -263,7 +264,7 @@ using Reals = Pack<typename N::RealPart, N::kParts>;
 template <class N>
 using Words = Pack<typename N::WordPart, N::kParts>;
 
-/// Applies a function to each part of packs that go together.
+/// Applies a function to corresponding parts of packs.
 template <class Function, class Part, int kParts, class... More>
 inline auto each(Function function, const Pack<Part, kParts>& first, const More&... more) {
   Pack<decltype(function(first.part[0], more.part[0]...)), kParts> out;
@@ -312,7 +313,7 @@ inline Packed all(Value value) {
   return out;
 }
 
-/// To and from memory: one value a lane, in order, of the same size.
+/// Load and store: one value a lane, in order.
 template <class Packed, class Value>
 inline Packed load(const Value* values) {
   Packed out;
@@ -331,7 +332,7 @@ inline void store(const Packed& packed, Value* values) {
   });
 }
 
-/// Keeps the compiler from reading what was loaded again for every use.
+/// Keeps a loaded value in a register, where the compiler would load it again for every use.
 template <class Part>
 inline void hold_in_register([[maybe_unused]] Part& part) {
 #if defined(WISP_LONG_PARTS)
@@ -356,19 +357,19 @@ inline auto real_of(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return real_of_part(x); }, words);
 }
 
-/// Whole numbers as words. Precondition: they are in [0, 2³¹).
+/// Non-negative integers as words. Precondition: they are in [0, 2³¹).
 template <class Part, int kParts>
 inline auto whole(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return whole_part(x); }, reals);
 }
 
-/// The next whole numbers. To go on to the next row of a table is not counted as arithmetic, as finding one is not.
+/// The next integers. Advancing to the next row of a table does not count as arithmetic, as indexing does not.
 template <class Part, int kParts>
 inline auto next_of(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return next_part(x); }, reals);
 }
 
-/// Shifted to the right; what comes in at the left is like the highest bit.
+/// Arithmetic shift to the right.
 template <int bits, class Part, int kParts>
 inline auto signed_shift(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return signed_shift_part<bits>(x); }, words);
@@ -380,7 +381,7 @@ inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
 }
 
-/// Numbers without their signs.
+/// Absolute values.
 template <class Part, int kParts>
 inline auto magnitude(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return magnitude_part(x); }, reals);
@@ -413,7 +414,7 @@ inline bool any(const Pack<Part, kParts>& words) {
   return any_part(set);
 }
 
-/// A number from each of several places.
+/// Gathers one number from each of several addresses.
 template <class N>
 inline Reals<N> gathered(const typename N::Real* from, const std::uint32_t* place) {
   Reals<N> out;
@@ -426,7 +427,7 @@ inline auto square_root(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return square_root_part(x); }, reals);
 }
 
-/// The first where the mask is above 0, else the second.
+/// The first value where the mask is above 0, else the second.
 template <class Part, int kParts>
 inline auto chosen(const Pack<Part, kParts>& mask, const Pack<Part, kParts>& yes, const Pack<Part, kParts>& no) {
   return each([](const Part& m, const Part& zero, const Part& x, const Part& y) { return m > zero ? x : y; }, mask,
@@ -449,15 +450,15 @@ inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low,
   return smaller(larger(value, low), high);
 }
 
-/// The value where it is a number, else the other.
+/// The value, or `other` where it is NaN.
 template <class Part, int kParts>
 inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>& other) {
   return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
 }
 
-/// State nearer to zero than this is zero, so that an engine that flushes denormals sees the same numbers. States are
-/// in units of a power of two near the channel's range; coefficients below kMinCoefficient are zero too. Products are
-/// then multiples of 2^−123 and their sums can't be denormal.
+/// State closer to zero than this is set to zero, so that an engine that flushes denormals gets the same numbers. State
+/// is in units of a power of two near the channel's range, and coefficients below kMinCoefficient are zero too; so
+/// products are multiples of 2^−123 and their sums can't be denormal.
 inline constexpr float kMinState = 1e-20f;
 inline constexpr float kMinCoefficient = 1e-10f;
 

@@ -10,7 +10,7 @@ namespace wisp {
 
 inline constexpr int kPhiloxRounds = 7;
 
-/// The round keys of a seed.
+/// The round keys derived from a seed.
 using RandomKeys = std::array<std::array<std::uint32_t, 2>, kPhiloxRounds>;
 
 inline RandomKeys random_keys(std::uint64_t seed) {
@@ -27,7 +27,7 @@ inline RandomKeys random_keys(std::uint64_t seed) {
 
 inline constexpr std::uint32_t kPhiloxFactors[] = {0xD2511F53U, 0xCD9E8D57U};
 
-/// Philox4x32: turns four counters a lane into four random words a lane. Of one part:
+/// Philox4x32: turns four counters a lane into four random words a lane.
 template <class Part>
 inline void philox_part(const RandomKeys& keys, Part& w0, Part& w1, Part& w2, Part& w3) {
   for (const auto& key : keys) {
@@ -62,7 +62,7 @@ inline void philox(const RandomKeys& keys, Pack<Part, kParts> (&words)[4]) {
       [&](auto i) { philox_part(keys, words[0].part[i], words[1].part[i], words[2].part[i], words[3].part[i]); });
 }
 
-/// What tells the lanes' random numbers apart: the instance's stream, and how many steps it has lived.
+/// What distinguishes the lanes' random numbers: the instance's stream, and how many steps it has lived.
 struct LaneCounters {
   const std::uint64_t* stream;
   const std::uint64_t* born;  ///< the bank's step when the life began
@@ -83,7 +83,7 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
   unrolled<4>([&](auto k) { words[k] = load<Words<N>>(counters[k]); });
 }
 
-/// The counters of one lane in every lane, for group 0.
+/// The counters of one lane, in every lane, for group 0.
 template <class Packed>
 inline void random_counters_of(const LaneCounters& lanes, int lane, Packed (&words)[4]) {
   const std::uint64_t age = lanes.step - lanes.born[lane], stream = lanes.stream[lane];
@@ -93,7 +93,7 @@ inline void random_counters_of(const LaneCounters& lanes, int lane, Packed (&wor
   words[3] = all<Packed>(static_cast<std::uint32_t>(stream >> 32));
 }
 
-/// Channels that get their deviates from one group of words.
+/// Number of channels whose deviates come from one group of words.
 inline constexpr int kGroupChannels = 8;
 
 /// Random words of one group.

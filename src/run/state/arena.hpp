@@ -1,6 +1,6 @@
 #pragma once
-// Lays arrays out in one piece of memory. Without memory it only adds up how much they would take, so that measuring
-// and making are the same code.
+// Lays arrays out in one piece of memory. An arena without memory only adds up their sizes, so that measuring and
+// allocating share one code.
 
 #include <cassert>
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace wisp {
 
-/// Every array starts on a cache line, and so on the widest vector.
+/// Every array starts on a cache line, and so at a multiple of the widest vector.
 inline constexpr std::size_t kArenaAlignment = 64;
 
 class Arena {
  public:
-  /// Measures.
+  /// An arena that only measures.
   Arena() = default;
 
-  /// Lays out in `memory`.
+  /// An arena that lays out in `memory`.
   explicit Arena(std::span<std::byte> memory)
       : start_(memory.data()), used_(padding(memory.data())), size_(memory.size()) {}
 
@@ -40,7 +40,7 @@ class Arena {
     return {first, count};
   }
 
-  /// Bytes that were taken; with what a start that is not aligned may cost.
+  /// Bytes taken, with what alignment of the start may cost.
   std::size_t bytes() const { return measures() ? used_ + kArenaAlignment : used_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// What steppers of ARX kinds have in common: histories whose samples are a model's channels, outputs, then regressors,
-// and how they are read.
+// The common part of the steppers of ARX kinds: histories whose samples are a model's channels (outputs, then
+// regressors), and how they are read.
 
 #include <cstdint>
 
@@ -9,33 +9,34 @@
 
 namespace wisp {
 
-/// A stepper without what makes the newest sample.
+/// A stepper, but for how the newest sample is made.
 template <class N>
 class ChannelHistory {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
 
-  /// The program says how deep, and how many channels there are: while the arena measures, they are empty.
+  /// `program` gives the depth and the number of channels. While the arena measures, histories are empty.
   template <class Program>
   ChannelHistory(const Program& program, const Channels& channels, int blocks, Arena& arena)
       : channels_(channels), ring_(blocks, program.depth, program.outputs + program.regressors, arena) {}
 
-  /// Moves every block's history by so many samples; the newest is now to be made.
+  /// Moves every block's history on by `samples`; the newest is then to be made.
   void turn(int samples = 1) { ring_.turn(samples); }
 
-  /// Whether blocks are prefetched before they are stepped: caches do not hold them all.
+  /// Whether blocks are prefetched before they are stepped: where caches do not hold them all.
   bool is_far() const { return ring_.bytes() > kNearBytes; }
   void fetch(int block) const { ring_.fetch(block); }
 
-  /// Where the regressors of the step belong: [regressor][lane].
+  /// Where the regressors of the step are written: [regressor][lane].
   Real* regressors(int block) { return ring_.sample(block, 0) + channels_.outputs.size() * kLanes; }
 
   /// Outputs of the last step, and of the one before: [output][lane].
   const Real* newest(int block) const { return ring_.sample(block, 0); }
   const Real* previous(int block) const { return ring_.sample(block, 1); }
 
-  /// What is read of kBlocks blocks in a row: the newest samples, or a `share` of the way to them from those before.
+  /// Outputs of kBlocks consecutive blocks: the newest samples, or a `share` of the way to them from the samples
+  /// before.
   template <int kBlocks = 1>
   void show(int block, Real* out) const {
     const BlockPlaces<const Real, kBlocks> to(newest(block), ring_.stride());
@@ -51,13 +52,13 @@ class ChannelHistory {
     });
   }
 
-  /// What a frame reads: games have rates of their own.
+  /// What a frame reads, for counting its cost: half-way between two steps, since games have frame rates of their own.
   void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
 
  protected:
   static constexpr std::size_t kNearBytes = std::size_t{1} << 20;
 
-  /// Puts one lane's history to the operating point.
+  /// Sets one lane's history to the operating point.
   void start_history(int block, int lane) {
     for (int lag = 0; lag < ring_.depth(); ++lag) {
       Real* value = ring_.sample(block, static_cast<std::uint32_t>(lag)) + lane;
@@ -69,13 +70,13 @@ class ChannelHistory {
     }
   }
 
-  /// Numbers of one lane's history.
+  /// Count of the numbers of one lane's history.
   std::size_t history_values() const {
     return static_cast<std::size_t>(ring_.depth()) * (channels_.outputs.size() + channels_.regressors.size());
   }
 
-  /// Calls visit(value, low, high) for each of them, newest first, in an order that does not depend on where in the
-  /// ring it lies.
+  /// Calls visit(value, low, high) for each number of a lane's history, newest first. The order does not depend on the
+  /// position in the ring.
   template <class Visit>
   void visit_history(int block, int lane, Visit visit) {
     for (int lag = 0; lag < ring_.depth(); ++lag) {

@@ -48,7 +48,7 @@ std::size_t piece_count(const Model& model) {
   return count;
 }
 
-// One piece a knot: that of the last knot has no end, and the slope of 1 that the curve has beyond it.
+// One piece a knot. The piece of the last knot has no end and the slope 1.
 std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<CurvePiece> pieces) {
   const std::size_t last = curve.at.size() - 1;
   auto value = static_cast<float>(curve.at[0]);
@@ -56,7 +56,7 @@ std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<Curve
     const double width = curve.at[k + 1] - curve.at[k];
     const double slope = (curve.value[k + 1] - curve.value[k]) / width;
     pieces[k] = {static_cast<float>(curve.at[k]), static_cast<float>(width), static_cast<float>(slope), value};
-    value = value + pieces[k].slope * pieces[k].width;  // as a piece ends, so that the next goes on from there
+    value = value + pieces[k].slope * pieces[k].width;  // as the piece before ends, so that the curve is continuous
   }
   pieces[last] = {static_cast<float>(curve.at[last]), std::numeric_limits<float>::max(), 1.0f, value};
   return pieces.first(last + 1);
@@ -75,7 +75,7 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorForm for
   channel.mean = static_cast<float>(power ? mean / regressor_unit(input, form.power) : mean);
   channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
   channel.curve = curve;
-  // A newborn's history is z = 0, whatever the range is.
+  // The history of a new instance is z = 0, whatever the range is.
   const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
   channel.least = *std::min_element(std::begin(ends), std::end(ends));
   channel.most = *std::max_element(std::begin(ends), std::end(ends));
@@ -97,7 +97,7 @@ Result<void> check_channel(const std::string& what, double lowest, double highes
 }  // namespace
 
 double channel_scale(double lowest, double highest) {
-  constexpr double kPlain = 128;  // a unit that is not further off than this costs no product and no accuracy
+  constexpr double kPlain = 128;  // units less extreme than this are kept: they cost no product and no accuracy
   if (!(highest - lowest < 1 / kPlain || highest - lowest > kPlain) || !(highest > lowest)) return 1.0;
   int exponent = 0;
   std::frexp(highest - lowest, &exponent);

@@ -1,7 +1,7 @@
 #pragma once
-// A model's inputs and outputs as the kernels see them: deviations from the operating point in units near the channel's
-// range, so that "too small to matter" means the same for every model: in the channel's own unit where its range is no
-// smaller or larger than some hundred, else in a power of two, so that scaling is exact.
+// A model's inputs and outputs as the kernels see them: deviations from the operating point, in units near the
+// channel's range, so that "too small to matter" means the same for every model. The unit is the channel's own where
+// its range is within a factor of some hundred of 1, else a power of two, so that scaling is exact.
 
 #include <cstdint>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace wisp {
 
-/// An output: y = mean + scale · z, z clamped to [low, high]; y, once rounded, to [lowest, highest].
+/// An output: y = mean + scale · z, with z clamped to [low, high] and the rounded y to [lowest, highest].
 struct OutputChannel {
   float mean;
   float scale;
@@ -23,13 +23,13 @@ struct OutputChannel {
   float lowest;
   float highest;
   float start;                ///< z of a newborn instance: the operating point
-  std::int32_t mirrors = -1;  ///< an earlier output that this is always the negative of, or −1
+  std::int32_t mirrors = -1;  ///< index of an earlier output whose negative this always is, or −1
 };
 
 /// How a regressor is made from its input.
 enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative };
 
-/// What of a part a regressor is.
+/// The power of a part that a regressor is.
 enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
 
 /// A regressor of an input.
@@ -41,7 +41,7 @@ struct RegressorForm {
 /// The regressors that an input of that shape makes, in their order.
 std::span<const RegressorForm> regressor_forms(InputShape shape);
 
-/// A piece of an input's curve: what it is at a knot, and what it climbs from there to the next.
+/// A piece of an input's curve: its value at a knot, and its slope to the next.
 struct CurvePiece {
   float from;
   float width;
@@ -49,9 +49,9 @@ struct CurvePiece {
   float value;
 };
 
-/// A regressor: z = (part(u) − mean) · inverse_scale, u clamped to [low, high] first. Where there is a curve it bends
-/// the part. Of a power it is power(part(u) · inverse_scale) − mean · inverse_scale, so that a square overflows
-/// nothing.
+/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. Where there is a curve,
+/// it is applied to the part. A power is power(part(u) · inverse_scale) − mean · inverse_scale, so that a square can't
+/// overflow.
 struct RegressorChannel {
   std::int32_t input;
   RegressorPart part;
@@ -60,9 +60,9 @@ struct RegressorChannel {
   float high;
   float mean;
   float inverse_scale;
-  float least;                        ///< z is never below this,
-  float most;                         ///< nor above that
-  std::span<const CurvePiece> curve;  ///< the last goes on without end; empty: none
+  float least;                        ///< lower bound of z
+  float most;                         ///< upper bound of z
+  std::span<const CurvePiece> curve;  ///< the last piece has no end; empty: no curve
 };
 
 struct Channels {
@@ -70,16 +70,17 @@ struct Channels {
   std::span<RegressorChannel> regressors;
 };
 
-/// The power of two that a channel's deviations are measured in; 1 where its range is 1/128 to 128, or nothing.
+/// The power of two in which a channel's deviations are measured; 1 where its range is 1/128 to 128, or 0.
 double channel_scale(double lowest, double highest);
 
-/// What the deviations of a power of an input are measured in.
+/// The unit in which the deviations of a power of an input are measured.
 double regressor_unit(const Input& input, RegressorPower power);
 
-/// The same of a regressor by its place among all of a model's.
+/// The unit of a regressor, by its index among all of a model's.
 double regressor_scale(const Model& model, int regressor);
 
-/// Ranges of what the dynamics move: of the components of an outline's shape where there are some, else of the outputs.
+/// Ranges of the variables that the dynamics move: the components of an outline's shape where there are some, else the
+/// outputs.
 std::vector<ValueRange> moved_ranges(const Model& model);
 
 /// The operating point of each channel, as the dynamics know it.
@@ -97,8 +98,8 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// A curve at an input: up to the first knot the input itself, then what it is at the knot before and what it climbs
-/// from there. Which knot that is takes comparisons alone, so that more knots take no more arithmetic.
+/// A curve at an input: below the first knot the input itself, then the value at the knot before plus slope times
+/// distance. Finding the knot takes comparisons alone, so more knots cost no more arithmetic.
 template <class Real>
 inline Real bend(std::span<const CurvePiece> curve, Real input) {
   if (!(input > Real(curve.front().from))) return input;
@@ -107,11 +108,11 @@ inline Real bend(std::span<const CurvePiece> curve, Real input) {
     if (!(input < Real(next.from))) piece = &next;
   }
   Real climbed = input - Real(piece->from);
-  if (climbed > Real(piece->width)) climbed = Real(piece->width);  // by rounding: it is short of the next knot
+  if (climbed > Real(piece->width)) climbed = Real(piece->width);  // rounding could pass the next knot
   return Real(piece->value) + Real(piece->slope) * climbed;
 }
 
-/// A power of the parts of inputs, none of them below 0.
+/// A power of the parts of inputs, which are not negative.
 template <class N>
 inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
@@ -126,7 +127,7 @@ inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   return channel.mean != 0 ? part - all<Reals<N>>(channel.mean) : part;
 }
 
-/// The values of a regressor for its inputs; what is not a number counts as 0.
+/// The values of a regressor from its inputs; NaN counts as 0.
 template <class N>
 inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -146,7 +147,7 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   return settle(part);
 }
 
-/// Turns an output's deviations to values in its own unit. Holds what it takes, so that it is read once for many.
+/// Converts an output's deviations to its own unit. Holds its constants, so that they are loaded once for many values.
 template <class Values>
 class Presentation {
  public:
@@ -164,13 +165,13 @@ class Presentation {
   bool scales_;
 };
 
-/// Numbers with their sign turned; 0 stays +0.
+/// Negated numbers; −0 becomes +0.
 template <class Part, int kParts>
 inline auto negative(const Pack<Part, kParts>& values) {
   return all<Pack<Part, kParts>>(0.0f) - values;
 }
 
-/// A part of the values of blocks in a row, `after` numbers from the beginning of each.
+/// One part of the values of consecutive blocks, `after` numbers from the beginning of each.
 template <class N, class Value, int kBlocks>
 inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
   Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, 1> one;
@@ -178,8 +179,8 @@ inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t aft
   return one;
 }
 
-/// What is read of blocks in a row, [output][lane] each: of every output z(after, i), a part of its values. One part
-/// after the other, since narrow machines have registers for a few.
+/// The readable outputs of consecutive blocks, [output][lane] each, where z(after, i) is part i of an output's
+/// deviations. Part by part, since narrow machines have few registers.
 template <class N, int kBlocks, class Deviation>
 inline void show_blocks(std::span<const OutputChannel> outputs, typename N::Real* out, Deviation z) {
   const BlockPlaces<typename N::Real, kBlocks> shown(out, outputs.size() * N::kLanes);

@@ -1,6 +1,5 @@
 #pragma once
-// Hashes of what a compiled model consists of, the same on every machine: they tell whether a saved bank is of this
-// model.
+// Hashes of a compiled model, the same on every machine. They tell whether a saved bank belongs to this model.
 
 #include <cstdint>
 #include <initializer_list>

@@ -1,5 +1,5 @@
 #pragma once
-// What a step needs to know of the moment, beside the state: the same for every kind of dynamics.
+// What a step needs to know besides the state, for every kind of dynamics.
 
 #include "run/lanes/random_lanes.hpp"
 
@@ -9,13 +9,13 @@ template <class N>
 struct Moment {
   const RandomKeys* keys = nullptr;
   LaneCounters counters{};           ///< of the block
-  std::uint32_t* clamped = nullptr;  ///< per lane: not 0 afterwards where an output was clamped
-  int used = N::kLanes;              ///< lanes in use from the block's first on, those of later blocks too
+  std::uint32_t* clamped = nullptr;  ///< per lane: set to nonzero where an output was clamped
+  int used = N::kLanes;              ///< number of lanes in use from the block's first on, later blocks included
 
-  /// Lanes of the block in use: what moves lanes one by one leaves out the rest.
+  /// Number of the block's lanes that are in use: code that works lane by lane skips the others.
   int lanes() const { return used < N::kLanes ? used : N::kLanes; }
 
-  /// Of a block that comes later, where this is of the first.
+  /// The moment for the block that lies `blocks` after this one.
   Moment later(int blocks) const {
     Moment of = *this;
     of.counters.stream += blocks * N::kLanes;

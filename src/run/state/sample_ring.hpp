@@ -1,6 +1,6 @@
 #pragma once
-// The last samples of every instance, in a ring whose place is shared by the whole bank, so that looking back costs no
-// modulo.
+// The last samples of every instance, in a ring whose position is common to the whole bank, so that looking back takes
+// no modulo.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ class SampleRing {
 
   int depth() const { return depth_; }
 
-  /// Prefetches all of a block's samples: they lie in one piece, but are read here and there.
+  /// Prefetches all samples of a block: they are contiguous, but not read in order.
   void fetch(int block) const {
 #ifdef __GNUC__
     const auto* line = reinterpret_cast<const char*>(begin(block));
@@ -44,21 +44,22 @@ class SampleRing {
   /// Bytes of all blocks.
   std::size_t bytes() const { return values_.size_bytes(); }
 
-  /// Numbers from a sample of one block to the same sample of the next.
+  /// Distance, in numbers, from a sample of one block to the same sample of the next.
   std::size_t stride() const { return static_cast<std::size_t>(depth_) * row_; }
 
-  /// Where a block's numbers begin, and how far from there its sample `lag` steps ago lies: back()[lag].
+  /// The address of a block's numbers, and the offsets of its samples: the sample of `lag` steps ago lies at
+  /// back()[lag].
   const Real* begin(int block) const { return values_.data() + static_cast<std::size_t>(block) * stride(); }
   const std::uint32_t* back() const { return lag_row_.data() + (depth_ - place_); }
 
-  /// Moves every block by so many samples; the newest is now to be made.
+  /// Moves the ring on by `samples`; the newest sample is then to be made.
   void turn(int samples = 1) {
     place_ += samples < depth_ ? samples : samples % depth_;
     if (place_ >= depth_) place_ -= depth_;
   }
 
-  /// The sample `lag` steps ago, [channel][lane]. The table holds every distance twice, so that the place in the ring
-  /// and the lag add up without a modulo. Precondition: lag < depth().
+  /// The sample of `lag` steps ago, [channel][lane]. The table of offsets is stored twice in succession, so that
+  /// position plus lag needs no modulo. Precondition: lag < depth().
   const Real* sample(int block, std::uint32_t lag) const { return begin(block) + back()[lag]; }
   Real* sample(int block, std::uint32_t lag) { return const_cast<Real*>(std::as_const(*this).sample(block, lag)); }
 
