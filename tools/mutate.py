@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Plants small faults in src/run and src/model's checks, one at a time, and sees whether the tests notice.
+"""Plants small faults one at a time, and sees whether the tests notice.
 
-  tools/mutate.py [--most N] [--only PART-OF-A-PATH] [--jobs N] [--these K,K…]
+  tools/mutate.py [--of player|strangers] [--most N] [--only PART-OF-A-PATH] [--jobs N] [--these K,K…]
+
+`player` is src/run and the checks of src/model; `strangers` is what reads strangers' files: src/record, src/matfile,
+src/sound, src/capture/media and src/capture/clip.
 
 All mutants are compiled at once, into a copy of the tree in build/mutants: each is a branch that the environment
 variable WISP_MUTANT takes (R. H. Untch, A. J. Offutt, M. J. Harrold, "Mutation analysis using mutant schemata", ISSTA
 1993). Conditions are turned round, comparisons and arithmetic changed to their neighbours, statements left out. What
-does not compile is dropped. For each that is left the golden hash and the tests of run and model run until one fails.
+does not compile is dropped. For each that is left the tests of its layer run until one fails, the golden hash before them
+and those of the layers above after them.
 Prints those that survive with their number, and counts; `--these` tries those again after a test was written, and a test
 alone is seen red with WISP_MUTANT=K. docs/studies/hardening.md has what was found.
 """
@@ -26,8 +30,17 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutants"
 TREE = WORK / "tree"
 SECONDS = 300
-SOURCES = ["src/run", "src/model/check.cpp", "src/model/arx.cpp", "src/model/chain.cpp", "src/model/switched.cpp",
-           "src/model/input_curve.cpp", "src/model/extinction.cpp"]
+# Of each kind: sources, and after which tests a fault in them survives, by the beginning of a path; what is not built.
+KINDS = {
+    "player": (["src/run", "src/model/check.cpp", "src/model/arx.cpp", "src/model/chain.cpp", "src/model/switched.cpp",
+                "src/model/extinction.cpp"],
+               {"src": ["model", "run"]},
+               ["LEARN", "MEDIA", "MATFILE", "SIMULATE", "APPS", "SHARED"]),
+    "strangers": (["src/record", "src/matfile", "src/sound", "src/capture/media", "src/capture/clip"],
+                  {"src/record": ["record", "matfile"], "src/matfile": ["matfile"], "src/sound": ["sound", "capture_clip"],
+                   "src/capture/media": ["capture_media", "clips"], "src/capture/clip": ["capture_clip", "clips"]},
+                  ["APPS", "SHARED"]),
+}
 SWAPS = [(" < ", " <= "), (" <= ", " < "), (" > ", " >= "), (" >= ", " > "), (" == ", " != "), (" != ", " == "),
          (" + ", " - "), (" - ", " + "), (" * ", " + "), (" / ", " * "), (" % ", " / "), (" && ", " || "),
          (" || ", " && "), ("std::min(", "std::max("), ("std::max(", "std::min("), ("smaller(", "larger("),
@@ -109,9 +122,9 @@ def compiled(lines):
     return numbers
 
 
-def plan(most, only):
+def plan(kind, most, only):
     found = []
-    for source in SOURCES:
+    for source in KINDS[kind][0]:
         path = ROOT / source
         for file in sorted(path.rglob("*.?pp")) if path.is_dir() else [path]:
             name = str(file.relative_to(ROOT))
@@ -164,17 +177,19 @@ def copy_tree(chosen):
         (WORK / "mutant.hpp").write_text(HEADER)
 
 
-def compile_all(chosen, jobs):
+def compile_all(kind, chosen, jobs):
     """Drops what does not compile, until all does."""
-    off = [f"-DWISP_BUILD_{part}=OFF" for part in ("LEARN", "MEDIA", "MATFILE", "SIMULATE", "APPS", "SHARED")]
+    off = [f"-DWISP_BUILD_{part}=OFF" for part in KINDS[kind][2]]
+    tests = sorted({f"wisp_tests_{test}" for all_of in KINDS[kind][1].values() for test in all_of})
+    if kind == "player":
+        tests.append("wisp_run_frames")
     # One width of vectors: the bits of the others are another test's.
     flags = f"-include {WORK / 'mutant.hpp'} -O1 -w -ftemplate-depth=2000"
     subprocess.run(["cmake", "-S", TREE, "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DWISP_GNU_LD=OFF",
                     f"-DCMAKE_CXX_FLAGS={flags}", "-DWISP_BUILD_TESTS=ON", *off], check=True, stdout=subprocess.DEVNULL)
     for _ in range(20):
         plant(chosen)
-        made = subprocess.run(["ninja", "-C", WORK / "build", "-k", "0", f"-j{jobs}", "wisp_tests_run", "wisp_tests_model",
-                               "wisp_run_frames"], capture_output=True, text=True)
+        made = subprocess.run(["ninja", "-C", WORK / "build", "-k", "0", f"-j{jobs}", *tests], capture_output=True, text=True)
         if made.returncode == 0:
             return
         place = r"/tree/(src/[\w/.]+):(\d+):\d+"  # a compiler cache may name it from elsewhere
@@ -188,12 +203,12 @@ def compile_all(chosen, jobs):
     sys.exit("what does not compile could not be dropped")
 
 
-def notices(k, golden):
-    """What notices a mutant, or nothing."""
+def notices(kind, k, file, golden):
+    """What notices a mutant of a file, or nothing."""
     environment = {**os.environ, "WISP_MUTANT": str(k)}
     tests = WORK / "build" / "tests"
-    commands = [("golden hash", [tests / "run" / "wisp_run_frames"])]
-    for room in ("model", "run"):
+    commands = [("golden hash", [tests / "run" / "wisp_run_frames"])] if kind == "player" else []
+    for room in next(rooms for place, rooms in KINDS[kind][1].items() if file.startswith(place)):
         commands.append((room, [tests / f"wisp_tests_{room}", "--gtest_fail_fast", "--gtest_brief=1"]))
     for name, command in commands:
         try:
@@ -207,24 +222,26 @@ def notices(k, golden):
 
 def main():
     parser = argparse.ArgumentParser()
+    parser.add_argument("--of", choices=sorted(KINDS), default="player")
     parser.add_argument("--most", type=int, default=300)
     parser.add_argument("--only", default="")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--these", default="")
     options = parser.parse_args()
     golden = re.search(r"set\(golden (\w+)\)", (ROOT / "tests/run/bits/bits.cmake").read_text()).group(1)
-    chosen = plan(options.most, options.only)
+    chosen = plan(options.of, options.most, options.only)
     copy_tree(chosen)
-    compile_all(chosen, options.jobs)
-    if notices(-1, golden):
-        sys.exit("the tests fail without any mutant")
+    compile_all(options.of, chosen, options.jobs)
+    for place in KINDS[options.of][1]:
+        if by := notices(options.of, -1, place, golden):
+            sys.exit(f"without any mutant the tests fail: {by}")
     these = {int(k) for k in options.these.split(",") if k} or set(range(len(chosen)))
     counts = collections.Counter()
     alive = [k for k in sorted(these) if chosen[k].after]
     if len(alive) < len(these):
         counts["did not compile"] = len(these) - len(alive)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for k, by in zip(alive, pool.map(lambda k: notices(k, golden), alive)):
+        for k, by in zip(alive, pool.map(lambda k: notices(options.of, k, chosen[k].file, golden), alive)):
             counts[by or "survived"] += 1
             if not by:
                 name, line, _, shown = chosen[k]
