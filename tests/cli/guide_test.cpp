@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "cli/program.hpp"
@@ -45,6 +46,16 @@ TEST_F(Guide, AnHourWithTheHairDryerRuns) {
   for (const char* made : {"response/step.png", "figures/prediction.png", "five.csv", "compared.png"}) {
     EXPECT_TRUE(std::filesystem::exists(at(made))) << made;
   }
+}
+
+// The README's own table: the kernel's filter is known, a pole at exp(−5/60).
+TEST_F(Guide, AComputersLoadHasItsKernelsTimeConstant) {
+  const std::string table = WISP_SOURCE_DIR "/examples/load.csv";
+  const Said said = wisp("learn arx " + table + " --inputs busy --outputs load --na 1 --nb 1 --nk 0 -o " +
+                         at("load.wisp") + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  const double error = said.json()["std_error"]["A"][0][0][0];
+  EXPECT_NEAR(said.json()["poles"][0][0], std::exp(-5.0 / 60), 3 * error);
 }
 
 }  // namespace
