@@ -96,7 +96,7 @@ def play(model, winds, seed=1, noise=True):
     rows = [[row(mode, i) for i in range(ny)] for mode in d.get("modes", [d])]
     groups = 1 + max(k for mode in rows for _, _, shocks in mode for _, k in shocks) // 8
     past = [[settle(clamp(F(0), *h)) for h in clamped] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
-    mode, resampled = None, Resampled(d, unit) if (d.get("noise") or {}).get("resampled") else None
+    mode, resampled = None, Resampled(model, unit) if (d.get("noise") or {}).get("resampled") else None
     life = Life(model["extinction"], model) if model.get("extinction") else None
     for step, wind in enumerate(winds):
         now = [F(0)] * ny + [regress(*form, mean, wind[model["inputs"].index(form[0])]) for form, mean in zip(forms, d["input_mean"])]

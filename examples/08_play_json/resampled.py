@@ -1,11 +1,13 @@
 """Residuals as they were (the resampled residuals of a model's noise)."""
+from lookup import Lookup
 from shared import F, bounded
 
 
 class Resampled:
     """Residuals as they were: row after row, and a jump where another row's past is more like the input's."""
 
-    def __init__(self, d, unit):
+    def __init__(self, model, unit):
+        d = model["dynamics"]
         ny, r = len(d["output_mean"]), d["noise"]["resampled"]
         self.lags, self.longest, self.toward, self.against = r["lags"], r["longest"], r["toward"], r["against"]
         self.rows = [[bounded(x * (scale / u)) for x, scale, u in zip(row, r["scale"], unit)] for row in r["rows"]]
@@ -16,6 +18,7 @@ class Resampled:
         self.left = [end - 1 - row for _, (begin, end) in stretches for row in range(begin, end)]
         self.at, self.played = (0, 0), [(0, self.longest)] + [(0, 0)] * 3  # (row, side); (last row, steps) of blocks
         if self.toward < 0:
+            self.lookup = Lookup(model, self.rows, self.left)
             return
         scale, of, depth = unit[ny + self.toward], d["input_mean"], self.lags[-1]
         mean = (of[self.toward] - (of[self.against] if self.against >= 0 else 0)) / scale
@@ -69,8 +72,6 @@ class Resampled:
         return self.order[begin:end]
 
     def jump(self, on, ahead, words):  # where to go on; `ahead`: what staying costs, None where that cannot be
-        if self.toward < 0:
-            return words[0] * len(self.left) >> 32, 0
         turned = len(self.sides) > 1 and sum((self.heard[lag] for lag in self.lags), F(0)) < 0
         found = [(row, int(turned != self.turned[row])) for row in self.leaf(turned, words[0])]
         fresh = [at for at in found if not any(n > 0 and at[0] <= last + 1 and at[0] + n > last for last, n in self.played)]
@@ -82,10 +83,12 @@ class Resampled:
         return nearest[words[1] * len(nearest) >> 32][1]
 
     def step(self, words):  # what is added to every output
+        if self.toward < 0:
+            return self.lookup.step(words)
         (row, side), steps = self.at, self.played[0][1]
         forced, on = steps >= self.longest or self.left[row] == 0, (row + 1, side)
-        ahead = None if forced else self.apart(*on) if self.toward >= 0 else F(0)
-        self.at = self.jump(on, ahead, words) if forced or self.toward >= 0 and ahead > self.tolerance else on
+        ahead = None if forced else self.apart(*on)
+        self.at = self.jump(on, ahead, words) if forced or ahead > self.tolerance else on
         if self.at == on and not forced:
             self.played[0] = (self.at[0], steps + 1)
         else:

@@ -56,7 +56,7 @@ double tip_fit(const Recording& recorded, const Recording& played, const FlameUn
 
 Fidelity compared(const std::vector<Recording>& recorded, const std::vector<Recording>& played,
                   const FlameUnits& units) {
-  return value_or_abort(fidelity(recorded, played, {.channels = output_names(units), .permutations = 0}));
+  return value_or_abort(fidelity(recorded, played, {.channels = output_names(units)}));
 }
 
 /// Where the figures of one wind go.
@@ -109,18 +109,15 @@ void judge(const FlamePlayer& player, const std::vector<Recording>& recorded, co
   char fit[16] = "none";
   if (player.hears_wind) std::snprintf(fit, sizeof fit, "%.1f", tip / static_cast<double>(recorded.size()));
   std::snprintf(rest, sizeof rest, "%s,%lld,%zu", fit, static_cast<long long>(player.operations), player.bytes);
-  sheet.line(player.name,
-             {found.energy_distance.value, found.log_spectral_distance.value, found.wasserstein_speed.value}, rest);
+  sheet.line(player.name, {found.energy_distance.value, found.log_spectral_distance.value, found.tails.value}, rest);
   sheet.windows(player.name, played);
 }
 
 void judge_bounds(const std::vector<Recording>& recorded, const std::vector<Recording>& again, const FlameUnits& units,
                   Sheet& sheet) {
   const Fidelity found = compared(recorded, again, units);
-  sheet.line("floor", {found.energy_distance.value, found.log_spectral_distance.value, found.wasserstein_speed.value},
-             ",,");
-  sheet.line("ceiling",
-             {found.energy_distance.ceiling, found.log_spectral_distance.ceiling, found.wasserstein_speed.ceiling},
+  sheet.line("floor", {found.energy_distance.value, found.log_spectral_distance.value, found.tails.value}, ",,");
+  sheet.line("ceiling", {found.energy_distance.ceiling, found.log_spectral_distance.ceiling, found.tails.ceiling},
              ",,");
   sheet.windows("recorded", recorded);
   sheet.windows("again", again);

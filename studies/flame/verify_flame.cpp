@@ -61,7 +61,6 @@ struct Score {
   double energy = 0;
   double floor = 0;
   double ceiling = 0;
-  double static_gain = 0;
   std::int64_t multiply_adds = 0;
 };
 
@@ -92,7 +91,6 @@ Score score_of(const OutlineFit& fit, const Recording& unseen, bool fidelity) {
   score.j1 = mean(figures.j.front());
   score.j_free = mean(figures.j.back());
   score.multiply_adds = value_or_abort(count_operations(fit.model)).multiply_adds_per_frame;
-  if (found.static_gain) score.static_gain = found.static_gain->fit_percent;
   if (found.fidelity) {
     score.energy = found.fidelity->energy_distance.value;
     score.floor = found.fidelity->energy_distance.floor;
@@ -151,15 +149,11 @@ void bound(const std::vector<Score>& sound, const std::vector<Score>& truth, Bou
   bounds.at_least("tip's fit from sound, %, mean", mean(all(sound, &Score::tip)), 60);
   bounds.at_least("tip's fit from sound, %, least", least(all(sound, &Score::tip)), 60);
   bounds.at_least("tip's fit from the true wind, %, mean", mean(all(truth, &Score::tip)), 70);
-  std::vector<double> over;
-  for (const Score& score : sound) over.push_back(score.tip - score.static_gain);
-  bounds.at_least("points over a static gain with the best delay, least", least(over), 5);
   bounds.at_least("overlap, least", least(all(sound, &Score::overlap)), 0.75);
   bounds.at_least("fit of the worst control point, %, least", least(all(sound, &Score::worst_point)), 0);
   bounds.at_most("normalised energy distance, most", most(all(sound, &Score::energy)), 0.05);
-  std::printf("          static gain %.1f %%; energy distance %.4f, floor %.4f, ceiling %.4f (means)\n",
-              mean(all(sound, &Score::static_gain)), mean(all(sound, &Score::energy)), mean(all(sound, &Score::floor)),
-              mean(all(sound, &Score::ceiling)));
+  std::printf("          energy distance %.4f, floor %.4f, ceiling %.4f (means)\n", mean(all(sound, &Score::energy)),
+              mean(all(sound, &Score::floor)), mean(all(sound, &Score::ceiling)));
 }
 
 Clips simulate_all() {

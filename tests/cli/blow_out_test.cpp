@@ -70,11 +70,6 @@ TEST_F(BlowOutProgram, TheRuleIsLearnedWhereTheRecordingHasIt) {
   const json judged = validated.json()["extinction"];
   EXPECT_GT(judged["deaths"].get<int>(), 4);
   EXPECT_GE(judged["died"].get<int>() + 1, judged["deaths"].get<int>());
-  for (const char* mode : {"dying", "catching"}) {
-    EXPECT_EQ(judged[mode]["events"], judged["deaths"]);
-    EXPECT_LT(judged[mode]["error"].get<double>(), 0.1);
-    EXPECT_GT(judged[mode]["default_error"].get<double>(), 2 * judged[mode]["error"].get<double>());
-  }
 }
 
 TEST_F(BlowOutProgram, TheRuleIsWhatIsGiven) {

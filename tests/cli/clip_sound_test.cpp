@@ -228,21 +228,13 @@ TEST_F(ClipSound, WhatAClipIsTooShortToTellIsSaid) {
   EXPECT_THAT(said.out, Not(HasSubstr("nan")));
 }
 
-TEST_F(ClipSound, AModelIsComparedWithTheTrueWind) {
+TEST_F(ClipSound, AModelIsFollowedPointByPoint) {
   write_clip("clip.mp4", {});
   learned("clip.mp4", "");
-  Recording truth;
-  truth.rate_hz = kRate;
-  truth.channels.push_back({"wind", "m/s", Role::kInput, {}});
-  for (int k = 0; k < kFrames; ++k) truth.channels[0].samples.push_back(wind_at(k / kRate));
-  ASSERT_TRUE(write_csv(at("truth.csv"), truth));
-  const Said validated =
-      wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --truth " + at("truth.csv") + " --json");
+  const Said validated = wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --json");
   ASSERT_EQ(validated.status, 0) << validated.err;
-  EXPECT_GT(validated.json()["true_input"]["tip_fit_percent"].get<double>(), 60);
   EXPECT_EQ(validated.json()["points"].size(), 8u);
   EXPECT_TRUE(validated.json()["points"][3]["fit_percent"].contains("inf"));
-  EXPECT_GT(validated.json()["static_gain"]["tip_fit_percent"].get<double>(), 0);
 }
 
 }  // namespace

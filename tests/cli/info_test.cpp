@@ -323,6 +323,11 @@ TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
   }
 }
 
+TEST_F(InfoPlayed, RowsThatNothingDrivesAreLookedUpAsInRun) {
+  ASSERT_TRUE(write_model(at("m.wisp"), still_flame_model(90)));
+  for (const char* noise : {"on", "off"}) expect_same_bits(at("m.wisp"), noise, "0", "--frames 80");
+}
+
 TEST_F(InfoPlayed, ChainsOfPosesAndTheirGusts) {
   const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
   for (const char* noise : {"on", "off"}) expect_same_bits(golden + "v1_chain.wisp", noise, "0", "--frames 80");

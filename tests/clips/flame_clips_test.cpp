@@ -54,30 +54,27 @@ class FlameClips : public testing::TestWithParam<Clip> {
   OutlineLayout layout;
 };
 
-// Played for a minute with noise. The dynamics move eight components of the shape, so that single control points move
-// by 0.41 to 1.53 times as much as recorded (100 frames of a swaying flame, the base of a shaken one); all of them
-// together are nearer to the recording than its halves are to each other. The seed is fixed.
+// Played for a minute with noise: every channel's standard deviation within 25 % of the recording's, and its
+// log-spectral distance at most twice that between the recording's halves. The seed is fixed.
 TEST_P(FlameClips, AMinuteOfFreePlayFlickersLikeTheRecording) {
   const auto rows = static_cast<std::size_t>(60 * fit.model.rate_hz);
   const auto play = synthesize(fit.model, {.rows = rows});
   ASSERT_TRUE(play) << play.error().message;
   const Recording real = to_model_units(recording, layout, fit.summary.pixels_per_unit);
-  const auto figures =
-      fidelity({&real, 1}, {&play->recording, 1}, {.channels = outline_outputs(layout.points), .permutations = 0});
+  const auto figures = fidelity({&real, 1}, {&play->recording, 1}, {.channels = outline_outputs(layout.points)});
   ASSERT_TRUE(figures) << figures.error().message;
   for (const ChannelFidelity& channel : figures->channels) {
-    EXPECT_NEAR(channel.sd_synthesized / channel.sd_real, 1, 0.65) << channel.name;
-    EXPECT_LE(channel.log_spectral_distance.floor_ratio(), 3) << channel.name;
+    EXPECT_NEAR(channel.sd_synthesized / channel.sd_real, 1, 0.25) << channel.name;
+    EXPECT_LE(channel.log_spectral_distance.floor_ratio(), 2) << channel.name;
   }
   EXPECT_LT(figures->energy_distance.value, 0.05);
   EXPECT_LT(figures->energy_distance.value, figures->energy_distance.floor);
 }
 
-// A step at the edge of the recorded shapes is clamped; a play that runs away would be in most of them.
 TEST_P(FlameClips, InAMillionStepsHardlyAnyIsClamped) {
   const auto play = play_freely(fit.model, 1000000);
   ASSERT_TRUE(play) << play.error().message;
-  EXPECT_LT(play->held_share, 0.02);
+  EXPECT_LT(play->held_share, 1e-3);
 }
 
 // Shaken apart, 5 to 50 of 100 frames of these flames would fold over themselves; recorded, up to 7 do, at the base. A
@@ -97,10 +94,7 @@ TEST_P(FlameClips, TheOutlineKeepsItsShape) {
   EXPECT_LT(crossed, kRows * 13 / 100);
 }
 
-// Of sixteen control points the play of these short films crosses itself or has foreign shapes, which the verdict says.
-TEST_P(FlameClips, TheModelOfEightPointsIsUsable) {
-  EXPECT_EQ(fit.summary.usable.verdict, GetParam().points == 8) << fit.summary.usable.reason;
-}
+TEST_P(FlameClips, TheModelIsUsable) { EXPECT_TRUE(fit.summary.usable.verdict) << fit.summary.usable.reason; }
 
 std::string clip_name(const testing::TestParamInfo<Clip>& info) {
   return std::string(info.param.name) + std::to_string(info.param.points);

@@ -2,6 +2,7 @@
 // A made-up flame for tests and benchmarks: eight control points, each a system of two outputs of order 4, one wind.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -110,6 +111,37 @@ inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
     }
   }
   model.extinction = Extinction{};
+  return model;
+}
+
+/// A flame as `wisp learn flame` makes them of films without wind: rows of a sway of seven and one of eleven periods in
+/// so many rows, in two stretches, followed as they were; what deviates from them fades.
+inline Model still_flame_model(int rows = 300) {
+  constexpr int kOutputs = 16;
+  constexpr double kFade = 0.8;
+  Model model = flame_model();
+  model.inputs.clear();
+  auto& arx = std::get<ArxModel>(model.dynamics);
+  arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 0), OrderMatrix(kOutputs, 0)};
+  arx.input_mean.clear();
+  for (int i = 0; i < kOutputs; ++i) {
+    arx.orders.na(i, i) = 1;
+    arx.theta[i] = {-kFade};
+  }
+  ResampledResiduals& resampled = arx.noise.resampled;
+  resampled.scale.assign(kOutputs, 0.001);
+  resampled.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
+  const auto sway = [&](int row, int output) {
+    const double turn = 2 * 3.14159265358979 * row / rows;
+    return 0.1 * std::sin(7 * turn + 0.3 * output) + 0.05 * std::sin(11 * turn + output);
+  };
+  for (int row = 0; row < rows; ++row) {
+    const bool first = row == 0 || row == rows / 3;
+    for (int i = 0; i < kOutputs; ++i) {
+      const double left = sway(row, i) - (first ? 0 : kFade * sway(row - 1, i));
+      resampled.rows.push_back(static_cast<std::int8_t>(std::lround(left / resampled.scale[i])));
+    }
+  }
   return model;
 }
 

@@ -87,7 +87,6 @@ std::string capture_words(const Arguments& arguments) {
 struct Clips {
   std::string learn;
   std::string validate;
-  std::string truth{};  // of the clip to validate, where it is simulated
 };
 
 Result<void> simulate(const std::string& path, double seconds, std::uint64_t seed, Terminal& terminal) {
@@ -101,7 +100,7 @@ Result<void> simulate(const std::string& path, double seconds, std::uint64_t see
 }
 
 Result<Clips> simulate_clips(const Places& places, std::uint64_t seed, Terminal& terminal) {
-  const Clips clips{places.at("training.mp4"), places.at("validation.mp4"), places.at("validation.truth.csv")};
+  const Clips clips{places.at("training.mp4"), places.at("validation.mp4")};
   const auto one = [&](const std::string& name, const std::string& path, int seconds, std::uint64_t clip_seed) {
     const std::string line = "simulate candle -o " + quoted(path) + " --seconds " + std::to_string(seconds) +
                              " --seed " + std::to_string(clip_seed);
@@ -156,14 +155,7 @@ Result<void> validate(const Places& places, const Clips& clips, const Model& mod
   auto captured = capture(clips.validate, options, terminal.progress());
   if (!captured) return captured.error();
   for (const std::string& warning : captured->report.warnings) terminal.warn(warning);
-  Recording truth;
-  if (!clips.truth.empty()) {
-    auto read = read_csv(clips.truth);
-    if (!read) return read.error();
-    truth = *std::move(read);
-  }
-  const auto found = validate_outline(model, captured->recording, {.truth = clips.truth.empty() ? nullptr : &truth},
-                                      terminal.progress());
+  const auto found = validate_outline(model, captured->recording, {}, terminal.progress());
   if (!found) return found.error();
   terminal.show(found->report);
   ValidationSubject subject{
@@ -176,9 +168,8 @@ Result<void> validate(const Places& places, const Clips& clips, const Model& mod
 Result<void> validate_step(const Places& places, const Clips& clips, const Model& model, const ClipCapture& options,
                            const std::string& words, Terminal& terminal) {
   const std::string line = "validate " + quoted(places.at("flame.wisp")) + " " + quoted(clips.validate) + words +
-                           (clips.truth.empty() ? "" : " --truth " + quoted(clips.truth)) + " --overlay " +
-                           quoted(places.at("overlay.mp4")) + " --film-strip " + quoted(places.at("film-strip.png")) +
-                           " --figures " + quoted(places.at("figures"));
+                           " --overlay " + quoted(places.at("overlay.mp4")) + " --film-strip " +
+                           quoted(places.at("film-strip.png")) + " --figures " + quoted(places.at("figures"));
   return step("validate", line, terminal, [&] { return validate(places, clips, model, options, terminal); });
 }
 

@@ -53,15 +53,6 @@ ValidationPictures wanted_pictures(const Arguments& arguments) {
   return {path("overlay"), path("film-strip"), path("figures")};
 }
 
-// The rows of --truth that are the subject's.
-Result<std::optional<Recording>> truth_for(const ValidationSubject& subject, const Arguments& arguments) {
-  if (!arguments.has("truth")) return std::optional<Recording>();
-  const auto truth = read_table(arguments.text("truth"), arguments);
-  if (!truth) return truth.error();
-  const std::size_t first = std::min(subject.clip.first_frame, truth->rows());
-  return std::optional(slice(*truth, first, std::min(truth->rows(), first + subject.recording.rows())));
-}
-
 Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   const auto& positionals = arguments.positionals();
   const auto model = read_model(positionals[0]);
@@ -75,12 +66,9 @@ Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
   auto subject = subject_of(positionals[1], *model, arguments, terminal);
   if (!subject) return subject.error();
-  const auto truth = truth_for(*subject, arguments);
-  if (!truth) return truth.error();
   const ValidationOptions options{.steps = *steps,
                                   .own_input_scale = arguments.on("own-gain"),
                                   .align = arguments.text("align") == "auto",
-                                  .truth = *truth ? &**truth : nullptr,
                                   .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
   const auto found = validate_outline(*model, subject->recording, options, terminal.progress());
   if (!found) return found.error();
@@ -104,7 +92,6 @@ Command validate_command() {
       {"own-gain", Kind::kSwitch, "", "",
        "input 1 is this recording's own 95th percentile: another microphone, another gain"},
       align_flag(),
-      {"truth", Kind::kPath, "REC.csv", "", "the inputs as they truly were: simulates from those too, to compare"},
       {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns that are the model's inputs, in its order, where they have other names"},

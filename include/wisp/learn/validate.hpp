@@ -22,14 +22,13 @@ struct ValidationOptions {
   InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free simulation; a switched model starts from
                                                    ///< measured samples
   bool responses = false;                          ///< also the series of poles; ARX: zeros, responses, errors by steps
-  double pixels_per_unit = 0;        ///< outlines: 0: the recording's own mean calm height is the model's 1
-  bool own_input_scale = false;      ///< outlines: input 1 is this recording's 95th percentile instead of the
-                                     ///< training's: another microphone, another gain
-  bool align = true;                 ///< outlines: move inputs that come after the motion that they cause
-  const Recording* truth = nullptr;  ///< outlines: the inputs as they truly were, row by row
-  double play_seconds = 60;          ///< outlines: > 0: how long the model plays freely for the fidelity figures
-  bool fidelity = true;              ///< outlines: off: it costs a second or two
-  std::uint64_t seed = 1;            ///< of what plays with noise
+  double pixels_per_unit = 0;    ///< outlines: 0: the recording's own mean calm height is the model's 1
+  bool own_input_scale = false;  ///< outlines: input 1 is this recording's 95th percentile instead of the
+                                 ///< training's: another microphone, another gain
+  bool align = true;             ///< outlines: move inputs that come after the motion that they cause
+  double play_seconds = 60;      ///< outlines: > 0: how long the model plays freely for the fidelity figures
+  bool fidelity = true;          ///< outlines: off: it costs a second or two
+  std::uint64_t seed = 1;        ///< of what plays with noise
 };
 
 /// Validates a model on a recording; a chain also on several, or on a windy recording and its calm twin.
@@ -99,7 +98,7 @@ struct ValidatedOutline {
 /// Validates an outline model on a recording of an outline in pixels. What the training's microphone heard is put on
 /// the training's scale, unless `own_input_scale`; extinctions are left out of what the dynamics are judged by, and the
 /// rule of extinction is judged apart. A recording with other knots is expressed in the model's, with a warning. The
-/// report has gain, rows, channels, points, J, tip, overlap, fidelity, static_gain, true_input, extinction, and the
+/// report has gain, rows, channels, points, J, tip, overlap, fidelity, extinction, and the
 /// series of plots: `tip`, the inputs, `flicker`.
 /// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; another number of control
 /// points than the model's; another rate; an input that the recording has not; no outline in any row; kStopped.

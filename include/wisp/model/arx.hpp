@@ -60,6 +60,8 @@ struct ArxOrders {
 /// row together, so that what they share, their memory and their tails stay. An instance plays row after row while its
 /// input has been what it was then, and jumps to a row whose past is nearer when it has not. How far two pasts are
 /// apart is the mean over a few lags of the differences' sizes. A jump moves no output: the dynamics lie between.
+/// Rows that no input drives are followed for 0.4 to 1.2 s, then from where the outputs were alike, and rather from
+/// where little has been played (run/arx/lookup_lanes.hpp).
 struct ResampledResiduals {
   std::vector<double> scale;        ///< per output: a stored 1, in the output's unit, >= 0
   std::vector<std::int8_t> rows;    ///< rows × outputs, row-major
@@ -67,12 +69,12 @@ struct ResampledResiduals {
   double wind_scale = 0;            ///< a stored 1 of `winds`, in the regressor's unit
   std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says,
                                     ///< then one a row
-  int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
+  int toward = -1;                  ///< the regressor that the input is; -1: none
   int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
   std::vector<int> lags;  ///< 1 to kMaxResampledLags lags, steps, ascending from 0; empty where nothing drives it
   double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
   double margin = 0;      ///< pasts that differ by less count as alike, in the regressor's unit
-  int longest = 1;        ///< steps from one jump to the next at most, 1 to 1 000 000
+  int longest = 1;        ///< where an input drives it, steps from one jump to the next at most, 1 to 1 000 000
   std::vector<int> mirror;  ///< per output ±(1 + the output whose residual it takes in an input from the other side);
                             ///< empty: that side is no mirror image
 

@@ -12,6 +12,8 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kMinRows = 16;
+constexpr double kWindowSeconds = 0.5;       // a few flickers
+constexpr double kVerbatimTolerance = 0.02;  // in standard deviations of a channel: below what an eye can distinguish
 
 using Stretches = std::vector<Stretch>;
 
@@ -19,22 +21,12 @@ using Stretches = std::vector<Stretch>;
 struct Lengths {
   double rate_hz = 0;
   std::size_t welch = 0;
-  std::size_t lags = 0;
   std::size_t window = 0;
 };
 
-struct ChannelDistances {
-  double log_spectral = 0;
-  double autocorrelation = 0;
-  double value = 0;
-  double speed = 0;
-};
-
 struct Distances {
-  std::vector<ChannelDistances> channels;
-  EnergyTest energy{kMissing, kMissing};
-  std::size_t windows_a = 0;
-  std::size_t windows_b = 0;
+  std::vector<double> log_spectral;  // per channel
+  double energy = kMissing;
 };
 
 std::size_t longest(const Stretches& stretches) {
@@ -55,51 +47,25 @@ std::vector<double> joined(const std::vector<std::vector<double>>& stretches) {
   return out;
 }
 
-std::vector<double> speeds(const std::vector<std::vector<double>>& stretches) {
-  std::vector<double> out;
-  for (const auto& stretch : stretches) {
-    for (std::size_t t = 1; t < stretch.size(); ++t) out.push_back(std::abs(stretch[t] - stretch[t - 1]));
-  }
-  return out;
-}
-
-// Over the standard deviation of the first; a channel that never changes there is compared as it is.
-double marginal_distance(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.empty() || b.empty()) return kMissing;
-  const double scale = deviation(a);
-  return wasserstein1(a, b) / (scale > 0 ? scale : 1);
-}
-
-ChannelDistances channel_distances(const Stretches& a, const Stretches& b, std::size_t channel,
-                                   const Lengths& lengths) {
-  const auto x = channel_of(a, channel);
-  const auto y = channel_of(b, channel);
-  ChannelDistances out;
-  out.log_spectral =
-      log_spectral_distance(welch(x, lengths.rate_hz, lengths.welch), welch(y, lengths.rate_hz, lengths.welch));
-  out.autocorrelation = autocorrelation_distance(autocorrelation(x, lengths.lags), autocorrelation(y, lengths.lags));
-  out.value = marginal_distance(joined(x), joined(y));
-  out.speed = marginal_distance(speeds(x), speeds(y));
-  return out;
-}
-
 FeatureWindows windows_of(const Stretches& stretches, const Lengths& lengths, std::size_t most) {
   // Twice as many as are wanted, then evenly thinned: most of the spread without holding every window.
   const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / (2 * most));
   return thinned(motion_windows(stretches, lengths.window, hop), most);
 }
 
-Distances compare(const Stretches& a, const Stretches& b, const Lengths& lengths, const FidelityOptions& options,
-                  std::size_t permutations) {
+Distances compare(const Stretches& a, const Stretches& b, const Lengths& lengths, const FidelityOptions& options) {
   Distances out;
-  for (std::size_t c = 0; c < a.front().channels; ++c) out.channels.push_back(channel_distances(a, b, c, lengths));
+  for (std::size_t c = 0; c < a.front().channels; ++c) {
+    const auto spectrum = [&](const Stretches& side) {
+      return welch(channel_of(side, c), lengths.rate_hz, lengths.welch);
+    };
+    out.log_spectral.push_back(log_spectral_distance(spectrum(a), spectrum(b)));
+  }
   FeatureWindows x = windows_of(a, lengths, options.max_windows);
   FeatureWindows y = windows_of(b, lengths, options.max_windows);
-  out.windows_a = x.size();
-  out.windows_b = y.size();
   if (x.size() == 0 || y.size() == 0) return out;
   standardise(x, y);
-  out.energy = energy_test(x, y, permutations, options.seed);
+  out.energy = energy_test(x, y, 0, options.seed).distance;
   return out;
 }
 
@@ -180,57 +146,33 @@ Lengths lengths_for(const Sides& sides, const FidelityOptions& options) {
   Lengths lengths;
   lengths.rate_hz = sides.rate_hz;
   lengths.welch = std::min(options.welch_samples, shortest) / 2 * 2;
-  const auto memory = static_cast<std::size_t>(std::lround(options.memory_seconds * sides.rate_hz));
-  lengths.lags = std::clamp<std::size_t>(memory + 1, 2, shortest / 2);
-  lengths.window = std::max<std::size_t>(1, std::lround(options.window_seconds * sides.rate_hz));
+  lengths.window = std::max<std::size_t>(1, std::lround(kWindowSeconds * sides.rate_hz));
   return lengths;
-}
-
-Bounded bounded(const Distances& value, const Distances& floor, const Distances& ceiling, std::size_t channel,
-                double ChannelDistances::*measure) {
-  return {value.channels[channel].*measure, floor.channels[channel].*measure, ceiling.channels[channel].*measure};
-}
-
-Bounded mean_over(const std::vector<ChannelFidelity>& channels, Bounded ChannelFidelity::*measure) {
-  Bounded mean;
-  const auto n = static_cast<double>(channels.size());
-  for (const ChannelFidelity& channel : channels) {
-    mean.value += (channel.*measure).value / n;
-    mean.floor += (channel.*measure).floor / n;
-    mean.ceiling += (channel.*measure).ceiling / n;
-  }
-  return mean;
 }
 
 void take_channels(const Sides& sides, const Distances& value, const Distances& floor, const Distances& ceiling,
                    Fidelity& out) {
+  const auto n = static_cast<double>(sides.names.size());
   for (std::size_t c = 0; c < sides.names.size(); ++c) {
-    ChannelFidelity& channel = out.channels.emplace_back();
-    channel.name = sides.names[c];
-    channel.sd_real = deviation(joined(channel_of(sides.real, c)));
-    channel.sd_synthesized = deviation(joined(channel_of(sides.synthesized, c)));
-    channel.log_spectral_distance = bounded(value, floor, ceiling, c, &ChannelDistances::log_spectral);
-    channel.autocorrelation_distance = bounded(value, floor, ceiling, c, &ChannelDistances::autocorrelation);
-    channel.wasserstein_value = bounded(value, floor, ceiling, c, &ChannelDistances::value);
-    channel.wasserstein_speed = bounded(value, floor, ceiling, c, &ChannelDistances::speed);
+    const Bounded apart{value.log_spectral[c], floor.log_spectral[c], ceiling.log_spectral[c]};
+    out.channels.push_back({sides.names[c], deviation(joined(channel_of(sides.real, c))),
+                            deviation(joined(channel_of(sides.synthesized, c))), apart});
+    out.log_spectral_distance.value += apart.value / n;
+    out.log_spectral_distance.floor += apart.floor / n;
+    out.log_spectral_distance.ceiling += apart.ceiling / n;
   }
-  out.log_spectral_distance = mean_over(out.channels, &ChannelFidelity::log_spectral_distance);
-  out.autocorrelation_distance = mean_over(out.channels, &ChannelFidelity::autocorrelation_distance);
-  out.wasserstein_value = mean_over(out.channels, &ChannelFidelity::wasserstein_value);
-  out.wasserstein_speed = mean_over(out.channels, &ChannelFidelity::wasserstein_speed);
 }
 
-void take_verbatim(const Sides& sides, double tolerance, Fidelity& out) {
+void take_verbatim(const Sides& sides, Fidelity& out) {
   const auto seconds = [&](std::size_t rows) { return static_cast<double>(rows) / sides.rate_hz; };
-  out.verbatim_seconds = seconds(longest_verbatim_run(sides.real, sides.synthesized, tolerance));
-  out.verbatim_floor_seconds = seconds(longest_verbatim_run(sides.halves.first, sides.halves.second, tolerance));
+  out.verbatim_seconds = seconds(longest_verbatim_run(sides.real, sides.synthesized, kVerbatimTolerance));
+  out.verbatim_floor_seconds =
+      seconds(longest_verbatim_run(sides.halves.first, sides.halves.second, kVerbatimTolerance));
   out.verbatim_ceiling_seconds = seconds(longest(sides.real));
 }
 
 void take_long(const Sides& sides, const Stretches& pieces, const FidelityOptions& options, Fidelity& out) {
-  out.long_motion = out.long_spectra = out.tails = {kMissing, kMissing, kMissing};
-  if (options.max_long_windows == 0) return;
-  const LongOptions how{sides.rate_hz, options.long_seconds, options.max_long_windows};
+  const LongOptions how{sides.rate_hz};
   const LongDistances value = long_distances(sides.real, pieces, how);
   const LongDistances floor = long_distances(sides.halves.first, sides.halves.second, how);
   const LongDistances ceiling = long_distances(sides.real, shuffled(sides.real, options.seed), how);
@@ -252,21 +194,15 @@ Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recor
   if (!sides) return sides.error();
   const Lengths lengths = lengths_for(*sides, options);
   const Stretches pieces = cut_to(sides->synthesized, longest(sides->real));
-  const Distances value = compare(sides->real, pieces, lengths, options, options.permutations);
-  const Distances floor = compare(sides->halves.first, sides->halves.second, lengths, options, 0);
-  const Distances ceiling = compare(sides->real, shuffled(sides->real, options.seed), lengths, options, 0);
+  const Distances value = compare(sides->real, pieces, lengths, options);
+  const Distances floor = compare(sides->halves.first, sides->halves.second, lengths, options);
+  const Distances ceiling = compare(sides->real, shuffled(sides->real, options.seed), lengths, options);
   Fidelity out;
   take_channels(*sides, value, floor, ceiling, out);
-  out.energy_distance = {value.energy.distance, floor.energy.distance, ceiling.energy.distance};
-  if (options.permutations > 0) out.energy_p_value = value.energy.p_value;
+  out.energy_distance = {value.energy, floor.energy, ceiling.energy};
   take_long(*sides, pieces, options, out);
-  take_verbatim(*sides, options.verbatim_tolerance, out);
-  out.real_rows = total_rows(sides->real);
-  out.synthesized_rows = total_rows(sides->synthesized);
+  take_verbatim(*sides, out);
   out.welch_samples = lengths.welch;
-  out.memory_seconds = static_cast<double>(lengths.lags - 1) / lengths.rate_hz;
-  out.windows_real = value.windows_a;
-  out.windows_synthesized = value.windows_b;
   return out;
 }
 

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,13 +19,7 @@ namespace wisp {
 struct FidelityOptions {
   std::vector<std::string> channels;  ///< which to compare; empty: all outputs of the first real recording
   std::size_t welch_samples = 64;     ///< even, at least 16; shortened where half of the data has no such stretch
-  double memory_seconds = 2;          ///< > 0: autocorrelation up to this lag, or half of the longest half stretch
-  double window_seconds = 0.5;        ///< > 0: length of a feature window; half a second is a few flickers
   std::size_t max_windows = 500;      ///< ≥ 2, a side
-  std::size_t permutations = 199;     ///< 0: no p-value; 199 tell 0.005
-  double verbatim_tolerance = 0.02;   ///< in standard deviations of a channel, ≥ 0: below what an eye can distinguish
-  double long_seconds = 2;            ///< > 0: length of a long window; what a viewer notices takes seconds
-  std::size_t max_long_windows = 300;  ///< ≥ 2, a side; 0: none are compared
   std::uint64_t seed = 1;
 };
 
@@ -45,25 +38,15 @@ struct ChannelFidelity {
   std::string name;
   double sd_real = 0;
   double sd_synthesized = 0;
-  Bounded log_spectral_distance;     ///< dB
-  Bounded autocorrelation_distance;  ///< mean |r − r̂|
-  Bounded wasserstein_value;         ///< of the samples, over their standard deviation; its ceiling is 0, since the
-                                     ///< order of frames does not change which there are
-  Bounded wasserstein_speed;         ///< of |y(t) − y(t−1)|, over its standard deviation
+  Bounded log_spectral_distance;  ///< dB
 };
 
 /// The comparison. NaN where there are too few data for a measure.
 struct Fidelity {
   std::vector<ChannelFidelity> channels;
-
-  // Means over channels.
-  Bounded log_spectral_distance;
-  Bounded autocorrelation_distance;
-  Bounded wasserstein_value;
-  Bounded wasserstein_speed;
+  Bounded log_spectral_distance;  ///< mean over channels
 
   Bounded energy_distance;  ///< normalised, in [0, 1], over standardised windows of all channels and their velocities
-  double energy_p_value = std::numeric_limits<double>::quiet_NaN();  ///< of the value, by exchange of whole blocks
 
   // Over two seconds (long_distances()). NaN where the recording has too few such windows.
   Bounded long_motion;   ///< normalised energy distance of windows of all channels and their velocities
@@ -74,13 +57,7 @@ struct Fidelity {
   double verbatim_floor_seconds = 0;    ///< the same of one half of the real one in the other
   double verbatim_ceiling_seconds = 0;  ///< longest stretch that there is to copy
 
-  // What was used.
-  std::size_t real_rows = 0;
-  std::size_t synthesized_rows = 0;
-  std::size_t welch_samples = 0;
-  double memory_seconds = 0;
-  std::size_t windows_real = 0;
-  std::size_t windows_synthesized = 0;
+  std::size_t welch_samples = 0;  ///< that were used
 };
 
 /// Compares synthesized recordings with real ones, which learning should not have seen. Synthesized stretches are cut

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/numeric/spectrum.hpp"
 
 namespace wisp {
 namespace {
@@ -92,39 +92,6 @@ constexpr std::size_t kMinWindows = 8;           // a side: fewer tell chance
 constexpr double kTailShares[] = {0.99, 0.999};  // of the sizes of second differences
 constexpr std::size_t kMinTail = 1000;           // rows that a percentile of 99.9 wants
 
-// Power of every frequency from 1 to rows / 2 cycles a window: the transform is short, and its tables are made once.
-class Transform {
- public:
-  explicit Transform(std::size_t rows) : rows_(rows), cosine_(rows), sine_(rows), hann_(rows) {
-    for (std::size_t k = 0; k < rows; ++k) {
-      const double turn = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(rows);
-      cosine_[k] = std::cos(turn);
-      sine_[k] = std::sin(turn);
-      hann_[k] = 0.5 - 0.5 * std::cos(turn);
-    }
-  }
-
-  std::vector<double> power(std::vector<double> samples) const {
-    double mean = 0;
-    for (double sample : samples) mean += sample / static_cast<double>(rows_);
-    for (std::size_t k = 0; k < rows_; ++k) samples[k] = (samples[k] - mean) * hann_[k];
-    std::vector<double> out;
-    for (std::size_t f = 1; f <= rows_ / 2; ++f) {
-      double real = 0, imaginary = 0;
-      for (std::size_t k = 0, at = 0; k < rows_; ++k, at = (at + f) % rows_) {
-        real += samples[k] * cosine_[at];
-        imaginary += samples[k] * sine_[at];
-      }
-      out.push_back(real * real + imaginary * imaginary);
-    }
-    return out;
-  }
-
- private:
-  std::size_t rows_;
-  std::vector<double> cosine_, sine_, hann_;
-};
-
 // Bands [first, last) of frequencies that grow by a factor, each at least one wide.
 std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencies) {
   std::vector<std::pair<std::size_t, std::size_t>> bands;
@@ -139,16 +106,15 @@ std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencie
   return bands;
 }
 
-void append_spectra(const Stretch& stretch, std::size_t first, std::size_t rows, const Transform& transform,
-                    std::vector<double>& out) {
+void append_spectra(const Stretch& stretch, std::size_t first, std::size_t rows, std::vector<double>& out) {
   constexpr double kMin = 1e-12;  // of nothing that moves
   for (std::size_t c = 0; c < stretch.channels; ++c) {
     std::vector<double> samples(rows);
     for (std::size_t t = 0; t < rows; ++t) samples[t] = stretch(first + t, c);
-    const std::vector<double> power = transform.power(std::move(samples));
-    for (const auto& [from, to] : bands_of(power.size())) {
+    const std::vector<double> power = welch({&samples, 1}, 1, rows).power;
+    for (const auto& [from, to] : bands_of(power.size() - 1)) {
       double sum = 0;
-      for (std::size_t f = from; f < to; ++f) sum += power[f];
+      for (std::size_t f = from; f < to; ++f) sum += power[f + 1];
       out.push_back(std::log(sum / static_cast<double>(to - from) + kMin));
     }
   }
@@ -236,28 +202,6 @@ std::size_t longest_common_run(const Stretch& a, const Stretch& b, std::span<con
 
 }  // namespace
 
-double wasserstein1(std::vector<double> x, std::vector<double> y) {
-  assert(!x.empty() && !y.empty());
-  std::sort(x.begin(), x.end());
-  std::sort(y.begin(), y.end());
-  // Quantile functions are stairs with steps at i/n and j/m; between two steps their difference is constant. Steps are
-  // compared as integers over n·m, so that equal ones meet.
-  const std::size_t n = x.size();
-  const std::size_t m = y.size();
-  double area = 0;
-  std::size_t i = 0;
-  std::size_t j = 0;
-  std::size_t at = 0;
-  while (i < n && j < m) {
-    const std::size_t next = std::min((i + 1) * m, (j + 1) * n);
-    area += static_cast<double>(next - at) * std::abs(x[i] - y[j]);
-    if (next == (i + 1) * m) ++i;
-    if (next == (j + 1) * n) ++j;
-    at = next;
-  }
-  return area / (static_cast<double>(n) * static_cast<double>(m));
-}
-
 FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop) {
   assert(rows >= 1 && hop >= 1);
   FeatureWindows out;
@@ -332,7 +276,6 @@ EnergyTest energy_test(const FeatureWindows& x, const FeatureWindows& y, std::si
 }
 
 FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop) {
-  const Transform transform(rows);
   FeatureWindows out;
   std::size_t first_block = 0;
   for (const Stretch& stretch : stretches) {
@@ -340,7 +283,7 @@ FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t 
     std::size_t block = first_block;
     for (std::size_t first = 0; first + rows <= stretch.rows(); first += hop) {
       const std::size_t before = out.values.size();
-      append_spectra(stretch, first, rows, transform, out.values);
+      append_spectra(stretch, first, rows, out.values);
       out.features = out.values.size() - before;
       block = first_block + first / (kBlockWindows * rows);
       out.blocks.push_back(block);
@@ -351,7 +294,7 @@ FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t 
 }
 
 LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, const LongOptions& options) {
-  const auto rows = static_cast<std::size_t>(std::lround(options.window_seconds * options.rate_hz));
+  const std::size_t rows = std::lround(options.window_seconds * options.rate_hz) / 2 * 2;
   if (rows < 8) return {kMissing, kMissing, tails_apart(a, b)};
   const auto hop_of = [&](std::span<const Stretch> side, std::size_t step) {
     return std::max<std::size_t>(1, total_rows(side) / step / options.max_windows);

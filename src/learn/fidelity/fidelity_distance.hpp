@@ -1,6 +1,5 @@
 #pragma once
-// Distances between two sets of stretches: of the samples of a channel, of windows of motion and of spectra, of tails,
-// and the longest copy.
+// Distances between two sets of stretches: of windows of motion and of spectra, of tails, and the longest copy.
 //
 // Sources: G. J. Székely & M. L. Rizzo, "Energy statistics: a class of statistics based on distances", J. Statistical
 // Planning and Inference 143 (2013), sections 2 and 6.
@@ -13,12 +12,6 @@
 #include "learn/fidelity/fidelity_stretch.hpp"
 
 namespace wisp {
-
-/// The Wasserstein-1 distance of two samples: the area between their quantile functions, that is how far, on average,
-/// the sorted values of one must be moved to become the other's. In the samples' unit.
-///
-/// Precondition: both have samples.
-double wasserstein1(std::vector<double> x, std::vector<double> y);
 
 /// Windows of behaviour, each described by the same numbers. Windows that overlap or lie close together are alike for
 /// that reason alone: they share a block.
@@ -79,7 +72,7 @@ LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch
 /// Cuts stretches into windows of `rows` rows that start every `hop` rows; the features are the logarithms of the power
 /// in at most 13 geometric bands of each channel, its mean removed, through a Hann window.
 ///
-/// Precondition: rows >= 8, hop >= 1.
+/// Precondition: rows >= 8 and even, hop >= 1.
 FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop);
 
 /// The longest run of consecutive rows in `synthesized` that repeats consecutive rows of `real`: every channel within

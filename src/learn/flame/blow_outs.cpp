@@ -4,22 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr double kUsual = 0.95;        // share of the wind that is lived in
+constexpr double kMinGone = 0.5;       // seconds: a flame that comes back by itself does so sooner
+constexpr double kLookedBack = 0.6;    // seconds before that in which wind may have killed it
+constexpr double kMinBlown = 0.15;     // seconds over which that wind is averaged: hiss has peaks, wind lasts
+constexpr double kSettling = 0.5;      // seconds after it is back in which it is not yet itself
 constexpr double kMinPresence = 0.15;  // seconds: a shorter sight of something between two absences is an ember's
-
-Result<void> check(const BlowOutOptions& options, const std::string& source) {
-  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  if (within(options.min_gone, 0.05, 60) && within(options.looked_back, 0.1, 10) &&
-      within(options.min_blown, 0.02, 1) && within(options.settling, 0, 10)) {
-    return {};
-  }
-  return Error{source + ": what counts as going out is out of its range"};
-}
 
 struct Run {
   std::size_t begin = 0;
@@ -65,14 +61,12 @@ double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone,
     if (next == gone.size() || row + looked_back < gone[next].begin) lived.push_back(wind[row]);
   }
   if (lived.empty()) return 0;
-  const auto at = lived.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(lived.size() - 1));
-  std::nth_element(lived.begin(), at, lived.end());
-  return *at;
+  return quantile(lived, kUsual);
 }
 
 // The row where the wind that blew the flame out began: when it last was half as strong as at its strongest.
-std::size_t onset(const Recording& recording, const BlowOut& blow_out, const BlowOutOptions& options) {
-  const std::size_t back = std::min(blow_out.gone, rows_of(options.looked_back, recording.rate_hz));
+std::size_t onset(const Recording& recording, const BlowOut& blow_out) {
+  const std::size_t back = std::min(blow_out.gone, rows_of(kLookedBack, recording.rate_hz));
   std::size_t first = blow_out.gone;
   for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
     const auto& samples = recording.channels[channel].samples;
@@ -90,9 +84,7 @@ std::size_t rows_of(double seconds, double rate_hz) {
   return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
 }
 
-Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input,
-                                            const BlowOutOptions& options) {
-  if (auto ok = check(options, recording.source); !ok) return ok.error();
+Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input) {
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
   const auto channel = find_channel(recording, input);
@@ -102,10 +94,10 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
                  "wind that the model takes"};
   }
   std::vector<Run> gone = absences(recording, *layout);
-  const std::size_t least = rows_of(options.min_gone, recording.rate_hz);
+  const std::size_t least = rows_of(kMinGone, recording.rate_hz);
   std::erase_if(gone, [&](const Run& run) { return run.end - run.begin < least; });
-  const std::size_t looked_back = rows_of(options.looked_back, recording.rate_hz);
-  const std::size_t window = rows_of(options.min_blown, recording.rate_hz);
+  const std::size_t looked_back = rows_of(kLookedBack, recording.rate_hz);
+  const std::size_t window = rows_of(kMinBlown, recording.rate_hz);
   const auto wind = averaged(recording.channels[*channel].samples, window);
   const double usual = usual_wind(wind, gone, looked_back);
   std::vector<BlowOut> out;
@@ -121,13 +113,12 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
   return out;
 }
 
-Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs,
-                            const BlowOutOptions& options) {
+Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs) {
   Recording out = recording;
-  const auto settling = static_cast<std::size_t>(std::lround(options.settling * recording.rate_hz));
+  const auto settling = static_cast<std::size_t>(std::lround(kSettling * recording.rate_hz));
   for (const BlowOut& blow_out : blow_outs) {
     if (!blow_out.blown) continue;
-    const std::size_t first = onset(recording, blow_out, options);
+    const std::size_t first = onset(recording, blow_out);
     const std::size_t last = std::min(out.rows(), blow_out.back + settling);
     for (Channel& channel : out.channels) {
       std::fill(channel.samples.begin() + static_cast<std::ptrdiff_t>(first),

@@ -13,35 +13,24 @@
 
 namespace wisp {
 
-/// What counts as going out.
-struct BlowOutOptions {
-  double min_gone = 0.5;  ///< seconds without an outline, 0.05 … 60; a flame that comes back by itself does so sooner
-  double looked_back = 0.6;  ///< seconds before that in which wind may have killed it, 0.1 … 10
-  double min_blown = 0.15;  ///< seconds over which that wind is averaged, 0.02 … 1, and for which it may go on after:
-                            ///< hiss has peaks, wind lasts
-  double settling = 0.5;    ///< seconds after it is back in which it is not yet itself, 0 … 10
-};
-
 /// A stretch without an outline.
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with one again; the number of rows where it stays away
-  double wind = 0;       ///< strongest that blew then, averaged over min_blown, in the recording's unit
+  double wind = 0;       ///< strongest that blew then, averaged over 0.15 s, in the recording's unit
   bool blown = false;    ///< whether that is more than 95 % of what the flame was seen to live in
 };
 
 /// Rows of so many seconds, at least one.
 std::size_t rows_of(double seconds, double rate_hz);
 
-/// Finds the stretches without an outline that are long enough, in their order. One at the recording's start is left
+/// Finds the stretches without an outline of 0.5 s or more, in their order. One at the recording's start is left
 /// out: nobody saw the flame go.
-/// Errors: not a recording of an outline, no such input, an option out of its range.
-Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input,
-                                            const BlowOutOptions& options = {});
+/// Errors: not a recording of an outline, no such input.
+Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
 /// The recording with outlines and inputs missing where the flame is in decay, extinguished or in re-ignition: what is
 /// left is a flame that burns, before and after. Stretches that were not blown stay as they are.
-Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs,
-                            const BlowOutOptions& options = {});
+Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs);
 
 }  // namespace wisp

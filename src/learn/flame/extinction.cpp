@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/flame/flame_lives.hpp"
 
 namespace wisp {
@@ -172,12 +173,9 @@ void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& 
 }  // namespace
 
 double ExtinctionAgreement::median_off() const {
-  if (late_seconds.empty()) return 0;
   std::vector<double> off;
   for (double late : late_seconds) off.push_back(std::abs(late));
-  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-  std::nth_element(off.begin(), middle, off.end());
-  return *middle;
+  return off.empty() ? 0 : median(std::move(off));
 }
 
 ExtinctionAgreement agreement(const Extinction& rule, std::span<const ExtinctionEvidence> evidence) {

@@ -72,14 +72,6 @@ ExtinctionTraining training_of(const LearnedExtinction& found) {
           .spared = count(found.agreement.spared)};
 }
 
-Result<RampAgreement> judged_ramp(const ExtinctionEvidence& evidence, SizeChange change, double seconds,
-                                  double default_seconds) {
-  const auto curves = curves_of({&evidence, 1}, change);
-  if (!curves) return curves.error();
-  return RampAgreement{curves->size(), ramp_error(change, seconds, *curves),
-                       ramp_error(change, default_seconds, *curves)};
-}
-
 // The recording's value of the input that is 1 in the model.
 Result<double> scale_for(const Model& model, const Recording& recording, std::span<const BlowOut> blow_outs,
                          bool own_scale) {
@@ -161,12 +153,7 @@ Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, con
   const auto scale = scale_for(model, recording, *blow_outs, own_scale);
   if (!scale) return scale.error();
   const ExtinctionEvidence evidence{&recording, input, *scale, *std::move(blow_outs), rule.decay};
-  const auto decay = judged_ramp(evidence, SizeChange::kDecay, rule.decay, Extinction{}.decay);
-  if (!decay) return decay.error();
-  const auto re_ignition = judged_ramp(evidence, SizeChange::kReIgnition, rule.re_ignition, Extinction{}.re_ignition);
-  if (!re_ignition) return re_ignition.error();
-  return std::optional(
-      JudgedExtinction{agreement(rule, {&evidence, 1}), *decay, *re_ignition, unexplained({&evidence, 1})});
+  return std::optional(JudgedExtinction{agreement(rule, {&evidence, 1}), unexplained({&evidence, 1})});
 }
 
 Result<Recording> burning_part(const Model& model, const Recording& recording) {

@@ -50,17 +50,9 @@ class ExtinguishedRecordings {
   std::vector<std::vector<BlowOut>> found_;
 };
 
-/// How far a model's decay or re-ignition is from a recording's sizes.
-struct RampAgreement {
-  std::size_t events = 0;
-  double error = 0;          ///< root mean square, of the size
-  double default_error = 0;  ///< with the default's duration
-};
-
 /// How a model's rule does on a recording that it was not learned from.
 struct JudgedExtinction {
   ExtinctionAgreement agreement;
-  RampAgreement decay, re_ignition;
   std::size_t unexplained = 0;
 };
 

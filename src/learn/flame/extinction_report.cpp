@@ -1,15 +1,9 @@
 #include "learn/flame/extinction_report.hpp"
 
-#include <cstdio>
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
-
-std::string rounded(double value, int digits = 3) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 const char* word_of(Origin origin) {
   return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
@@ -17,8 +11,8 @@ const char* word_of(Origin origin) {
 
 std::string sentence_of(const Extinction& rule) {
   const double twice = rule.seconds / (1 + rule.haste);
-  return "wind of " + rounded(rule.level) + " puts it out in " + rounded(rule.seconds, 2) + " s" +
-         (rule.haste > 0 ? ", of twice that in " + rounded(twice, 2) + " s" : "");
+  return "wind of " + number_text(rule.level, 3) + " puts it out in " + number_text(rule.seconds, 2) + " s" +
+         (rule.haste > 0 ? ", of twice that in " + number_text(twice, 2) + " s" : "");
 }
 
 // The fields of a mode whose size is a ramp: seconds, events, seconds_ci95, error.
@@ -72,15 +66,6 @@ void add_agreement(const ExtinctionAgreement& found, const std::string& id, Repo
        {id + ".strongest_survived", found.strongest_survived, "strongest wind survived", "", {}, "mean over 0.15 s"}});
 }
 
-void add_ramp(const RampAgreement& found, const std::string& id, const std::string& name, ReportSection& section) {
-  const bool seen = found.events > 0;
-  section.entries.insert(
-      section.entries.end(),
-      {{id + ".events", found.events, "", ""},
-       {id + ".error", found.error, seen ? name + ", error of the size" : "", ""},
-       {id + ".default_error", found.default_error, seen ? name + ", error with the default duration" : "", ""}});
-}
-
 }  // namespace
 
 ReportSection extinction_section(const Model& model) {
@@ -116,8 +101,6 @@ ReportSection extinction_section(const std::optional<JudgedExtinction>& judged) 
   if (!judged) return {"", {{"extinction", {}, "", ""}}};
   ReportSection section{"Extinction"};
   add_agreement(judged->agreement, "extinction", section);
-  add_ramp(judged->decay, "extinction.dying", "decay", section);
-  add_ramp(judged->re_ignition, "extinction.catching", "re-ignition", section);
   section.entries.push_back({"extinction.unexplained", judged->unexplained, "", ""});
   return section;
 }

@@ -16,7 +16,7 @@ ReportSection extinction_section(const Model& model);
 /// and `seconds_range`.
 ReportSection extinction_section(const Model& model, const std::optional<LearnedExtinction>& learned);
 
-/// `extinction` {deaths, died, gusts, spared, …, dying {…}, catching {…}}; none where the model has no rule.
+/// `extinction` {deaths, died, gusts, spared, …}; none where the model has no rule.
 ReportSection extinction_section(const std::optional<JudgedExtinction>& judged);
 
 }  // namespace wisp

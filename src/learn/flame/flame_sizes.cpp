@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_units.hpp"
 
@@ -102,23 +103,17 @@ double std_error(const Trials& trials, std::size_t curves) {
 
 }  // namespace
 
-Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs,
-                                        const BlowOutOptions& options) {
+Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs) {
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
-  const Recording undisturbed = without_blow_outs(recording, blow_outs, options);
+  const Recording undisturbed = without_blow_outs(recording, blow_outs);
   std::vector<double> sizes, burning;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     sizes.push_back(size_of(recording, *layout, row));
     const double size = size_of(undisturbed, *layout, row);
     if (!std::isnan(size)) burning.push_back(size);
   }
-  double usual = std::numeric_limits<double>::quiet_NaN();
-  if (!burning.empty()) {
-    const auto middle = burning.begin() + static_cast<std::ptrdiff_t>(burning.size() / 2);
-    std::nth_element(burning.begin(), middle, burning.end());
-    usual = *middle;
-  }
+  const double usual = burning.empty() ? kMissing : median(std::move(burning));
   for (double& size : sizes) size /= usual;
   return sizes;
 }

@@ -27,8 +27,7 @@ enum class SizeChange {
 /// area, which shrinks as the flame does, over the median of that while it burns. All are NaN where it never burns
 /// undisturbed.
 /// Errors: not a recording of an outline.
-Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs,
-                                        const BlowOutOptions& options = {});
+Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs);
 
 /// The sizes seen in one decay or re-ignition, row by row away from where the flame was not there.
 struct SizeCurve {

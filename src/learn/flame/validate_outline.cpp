@@ -15,23 +15,13 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors nearer to 1 than this are not worth a word
 
-// A row's control points x0, y0, x1, …; empty where one is missing.
-std::vector<double> control_points(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
-  std::vector<double> control;
-  for (std::size_t channel : layout.outputs) {
-    control.push_back(recording.channels[channel].samples[row]);
-    if (std::isnan(control.back())) return {};
-  }
-  return control;
-}
-
 Result<OutlineRows> outline_rows(const Recording& recording) {
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
   const OutlineCurve curve(layout->knots);
   OutlineRows rows;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
-    const auto control = control_points(recording, *layout, row);
+    const auto control = whole_row(recording, *layout, row);
     rows.push_back(control.empty() ? std::vector<OutlinePoint>() : curve.polyline(control));
   }
   return rows;
@@ -42,7 +32,7 @@ const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
   for (const PredictedOutlines& predicted : found.predicted) {
-    if (found.static_gain) {
+    if (found.driven) {
       if (predicted.steps == kFreeRun) return predicted;
     } else if (predicted.steps != kFreeRun && predicted.steps <= kLookAhead) {
       best = &predicted;

@@ -53,17 +53,6 @@ std::vector<double> without_mean(std::span<const double> samples) {
   return out;
 }
 
-// Sum over pairs `lag` apart, and their number.
-struct Pairs {
-  double sum = 0;
-  double count = 0;
-};
-
-void add_pairs(std::span<const double> centred, std::size_t lag, Pairs& pairs) {
-  for (std::size_t t = lag; t < centred.size(); ++t) pairs.sum += centred[t] * centred[t - lag];
-  if (centred.size() > lag) pairs.count += static_cast<double>(centred.size() - lag);
-}
-
 }  // namespace
 
 Spectrum welch(Samples stretches, double rate_hz, std::size_t length) {
@@ -103,32 +92,6 @@ double log_spectral_distance(const Spectrum& p, const Spectrum& q) {
     sum += decibels * decibels;
   }
   return std::sqrt(sum / static_cast<double>(p.power.size() - 1));
-}
-
-std::vector<double> autocorrelation(Samples stretches, std::size_t lags) {
-  std::size_t longest = 0;
-  for (const auto& stretch : stretches) longest = std::max(longest, stretch.size());
-  assert(lags >= 1 && longest > lags);
-  const std::size_t least = longest >= 2 * lags ? 2 * lags : lags + 1;
-  std::vector<Pairs> pairs(lags);
-  for (const auto& stretch : stretches) {
-    if (stretch.size() < least) continue;
-    const std::vector<double> centred = without_mean(stretch);
-    for (std::size_t lag = 0; lag < lags; ++lag) add_pairs(centred, lag, pairs[lag]);
-  }
-  std::vector<double> r(lags, 0.0);
-  r[0] = 1;
-  const double variance = pairs[0].sum / pairs[0].count;
-  if (variance <= 0) return r;
-  for (std::size_t lag = 1; lag < lags; ++lag) r[lag] = pairs[lag].sum / pairs[lag].count / variance;
-  return r;
-}
-
-double autocorrelation_distance(std::span<const double> r, std::span<const double> s) {
-  assert(r.size() == s.size() && r.size() >= 2);
-  double sum = 0;
-  for (std::size_t lag = 1; lag < r.size(); ++lag) sum += std::abs(r[lag] - s[lag]);
-  return sum / static_cast<double>(r.size() - 1);
 }
 
 }  // namespace wisp

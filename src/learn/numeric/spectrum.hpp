@@ -34,16 +34,4 @@ Spectrum welch(Samples stretches, double rate_hz, std::size_t length);
 /// Precondition: both have the same frequencies.
 double log_spectral_distance(const Spectrum& p, const Spectrum& q);
 
-/// Autocorrelation at lags 0 … lags−1: products over the pairs there are, mean of each stretch removed, 1 at lag 0.
-/// Stretches of fewer than 2 · lags samples are left out where longer ones exist. A channel that never changes has
-/// r = 0 beyond lag 0.
-///
-/// Precondition: some stretch is longer than `lags`; lags >= 1.
-std::vector<double> autocorrelation(Samples stretches, std::size_t lags);
-
-/// Mean |r − s| over the lags from 1 on.
-///
-/// Precondition: the same number of lags, at least 2.
-double autocorrelation_distance(std::span<const double> r, std::span<const double> s);
-
 }  // namespace wisp

@@ -1,7 +1,6 @@
 #pragma once
 // The delay between sound and picture, from what both say of the same wind.
 
-#include <cstdint>
 #include <span>
 #include <string>
 
@@ -11,19 +10,14 @@ namespace wisp {
 
 /// How the offset is searched.
 struct AlignmentOptions {
-  double rate_hz = 60;             ///< of both series, > 0
-  double max_seconds = 1;          ///< offsets searched: from minus to plus this, 0.05 to 10
-  double confidence_level = 0.95;  ///< of the interval, 0.5 to 0.999
-  int resamples = 400;             ///< bootstrap resamples for the interval, 50 to 100000
-  double block_seconds = 2;        ///< of the bootstrap's blocks, 0.1 to 60: longer than a gust, so that blocks are
-                                   ///< nearly independent
-  std::uint64_t seed = 1;          ///< of the bootstrap
+  double rate_hz = 60;     ///< of both series, > 0
+  double max_seconds = 1;  ///< offsets searched: from minus to plus this, > 0
 };
 
 /// By how much the motion comes after the wind.
 struct Alignment {
   double offset_seconds = 0;  ///< motion(t) goes with wind(t − offset): positive where the motion comes later
-  double low_seconds = 0;     ///< the interval's ends
+  double low_seconds = 0;     ///< the ends of its 95 % interval
   double high_seconds = 0;
   double correlation = 0;  ///< of the whitened series at that offset, −1 to 1
   double chance = 0;       ///< what the largest |correlation| would reach by chance in one of a hundred recordings
@@ -36,8 +30,7 @@ struct Alignment {
 /// motion to wind does. So the offset is that of the recording plus the time that the thing itself takes to answer (a
 /// flame's tip: some 50 ms). Its interval comes from a bootstrap over blocks of time.
 /// Both series have one value a frame; NaN is missing.
-/// Errors: lengths differ; less than four times max_seconds in which both are known; a series that never changes; an
-/// option outside its range.
+/// Errors: lengths differ; less than four times max_seconds in which both are known; a series that never changes.
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});
 

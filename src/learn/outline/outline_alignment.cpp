@@ -6,37 +6,11 @@
 
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_shape.hpp"
-#include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr double kMinSearch = 0.05;  // seconds either way; align_offset() takes no less
-
-// The tip beside and above the middle of its base, row by row.
-struct TipMotion {
-  std::vector<double> sway;
-  std::vector<double> height;
-};
-
-TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout) {
-  const OutlineCurve curve(layout.knots);
-  TipMotion out;
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
-    std::vector<double> control;
-    for (std::size_t c : layout.outputs) control.push_back(recording.channels[c].samples[row]);
-    if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) {
-      out.sway.push_back(kMissing);
-      out.height.push_back(kMissing);
-      continue;
-    }
-    const OutlinePoint tip = tip_of(curve.polyline(control));
-    const std::size_t last = control.size() - 2;
-    out.sway.push_back(tip[0] - (control[0] + control[last]) / 2);
-    out.height.push_back(tip[1] - (control[1] + control[last + 1]) / 2);
-  }
-  return out;
-}
 
 // Short recordings are searched less far: the search takes a quarter of what there is.
 AlignmentOptions options_for(const Recording& recording, const std::vector<double>& input,
@@ -80,6 +54,19 @@ void move_earlier(Recording& recording, std::size_t channel, int frames) {
 }
 
 }  // namespace
+
+TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout) {
+  const OutlineCurve curve(layout.knots);
+  TipMotion out;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const std::vector<double> control = whole_row(recording, layout, row);
+    const OutlinePoint tip = control.empty() ? OutlinePoint{kMissing, kMissing} : tip_of(curve.polyline(control));
+    const std::size_t last = control.empty() ? 0 : control.size() - 2;
+    out.sway.push_back(control.empty() ? kMissing : tip[0] - (control[0] + control[last]) / 2);
+    out.height.push_back(control.empty() ? kMissing : tip[1] - (control[1] + control[last + 1]) / 2);
+  }
+  return out;
+}
 
 std::string InputAlignment::note() const {
   if (frames_moved == 0) return input + ": " + found.reason;

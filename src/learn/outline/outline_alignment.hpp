@@ -9,10 +9,18 @@
 #include <vector>
 
 #include "learn/outline/alignment.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
+
+/// The tip beside and above the middle of its base, row by row; NaN where missing.
+struct TipMotion {
+  std::vector<double> sway;
+  std::vector<double> height;
+};
+TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout);
 
 /// One input of one recording.
 struct InputAlignment {

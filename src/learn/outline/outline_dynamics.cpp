@@ -17,31 +17,19 @@ using Matrix = Eigen::MatrixXd;
 using ControlSeries = std::vector<std::vector<double>>;
 
 constexpr int kOrder = 2;
-constexpr int kInputLags = 6;  // 0 to 5: more, out to 20 frames, gain nothing that lasts
-constexpr Eigen::Index kMaxComponents = 14;
-// Without inputs and in fewer rows than kLong, finer components play shapes that no flame has.
-constexpr Eigen::Index kMaxOfShort = 8;
-constexpr Eigen::Index kLong = 1000;
-constexpr double kLeastPower = 1e-7;  // of the largest component's: less is rounding, such as the base's height
-constexpr double kRidge = 1.5;        // rows of whitened components; a mirror image would count as another row
+constexpr int kInputLags = 6;                // 0 to 5: more, out to 20 frames, gain nothing that lasts
+constexpr Eigen::Index kMaxComponents = 14;  // with inputs; without any, all that move are played as recorded
+constexpr double kLeastPower = 1e-7;         // of the largest component's: less is rounding, such as the base's height
+constexpr double kRidge = 1.5;               // rows of whitened components; a mirror image would count as another row
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
 constexpr double kLeastMotion = 1e-9;  // heights: what moves less does so by rounding
 constexpr Eigen::Index kMinRows = 30;
-constexpr std::size_t kPowers = 3;  // an input, its root and its square (regressor_names())
+constexpr double kFadeSeconds = 0.1;  // without inputs: in which half of a deviation from what was recorded fades
+constexpr std::size_t kPowers = 3;    // an input, its root and its square (regressor_names())
 
 const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
   return recording.channels[*find_channel(recording, name)].samples;
-}
-
-// One row of a recording's outputs, which come first; empty where one is missing.
-std::vector<double> outputs_at(const Recording& recording, std::size_t count, std::size_t row) {
-  std::vector<double> out(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    out[k] = recording.channels[k].samples[row];
-    if (std::isnan(out[k])) return {};
-  }
-  return out;
 }
 
 // The mean of the recordings' calm shapes, or of all rows where none is ever calm.
@@ -56,18 +44,18 @@ std::vector<double> shape_at_rest(std::span<const Recording> recordings, const P
   };
   for (const std::vector<double>& rest : prepared.rest) add(rest);
   for (std::size_t r = 0; count == 0 && r < recordings.size(); ++r) {
-    for (std::size_t row = 0; row < recordings[r].rows(); ++row) add(outputs_at(recordings[r], outputs, row));
+    for (std::size_t row = 0; row < recordings[r].rows(); ++row) add(whole_row(recordings[r], prepared.layout, row));
   }
   for (double& value : sum) value /= std::max(1.0, count);
   return sum;
 }
 
 // Deviations from rest in shape coordinates, a row each.
-Matrix deviations(std::span<const Recording> recordings, const std::vector<double>& rest) {
+Matrix deviations(std::span<const Recording> recordings, const OutlineLayout& layout, const std::vector<double>& rest) {
   std::vector<double> all;
   for (const Recording& recording : recordings) {
     for (std::size_t row = 0; row < recording.rows(); ++row) {
-      const std::vector<double> control = outputs_at(recording, rest.size(), row);
+      const std::vector<double> control = whole_row(recording, layout, row);
       if (control.empty()) continue;
       const std::vector<double> at = shape_coordinates(control);
       for (std::size_t i = 0; i < at.size(); ++i) all.push_back(at[i] - rest[i]);
@@ -137,14 +125,13 @@ ValueRange range_of(const Eigen::VectorXd& values, double middle, bool symmetric
 Result<ShapeComponents> find_shape(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   ShapeComponents shape;
   shape.rest = shape_coordinates(shape_at_rest(recordings, prepared));
-  const Matrix moved = deviations(recordings, shape.rest);
+  const Matrix moved = deviations(recordings, prepared.layout, shape.rest);
   const auto points = static_cast<Eigen::Index>(shape.points());
   if (moved.rows() < 2 || moved.cwiseAbs().maxCoeff() < kLeastMotion) {
     return Error{recordings.front().source + ": its outline never moves; there is nothing to learn"};
   }
   const Components even(moved.leftCols(points)), odd(moved.rightCols(points));
-  const double least =
-      least_power(even, odd, prepared.inputs.empty() && moved.rows() < kLong ? kMaxOfShort : kMaxComponents);
+  const double least = least_power(even, odd, prepared.inputs.empty() ? 2 * points : kMaxComponents);
   shape.symmetric = even.count(least);
   shape.antisymmetric = odd.count(least);
   even.append(shape.symmetric, shape.basis);
@@ -286,9 +273,55 @@ ArxModel shape_model(const ShapeComponents& shape, const Products& even, const P
   return arx;
 }
 
+// Components that nothing drives: all that they have of their own is that deviations fade, so that rows are followed
+// as they were recorded, from wherever a jump to them begins.
+OutlineDynamics fading_shape(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                             ShapeComponents shape) {
+  const auto count = static_cast<int>(shape.count());
+  OutlineDynamics out{{}, std::move(shape)};
+  const double fade = std::exp2(-1 / (kFadeSeconds * recordings.front().rate_hz));
+  ArxModel& arx = out.arx;
+  arx.orders = {OrderMatrix(count, count), OrderMatrix(count, 0), OrderMatrix(count, 0)};
+  arx.constant.assign(out.shape.count(), 0.0);
+  arx.output_mean = arx.constant;
+  std::vector<double> squares(out.shape.count(), 0.0);
+  for (int k = 0; k < count; ++k) {
+    arx.orders.na(k, k) = 1;
+    arx.theta.push_back({-fade});
+  }
+  for (const Recording& recording : recordings) {
+    const Recording moved = moved_recording(out.shape, recording, prepared);
+    for (const Episode& episode : episodes(moved)) {
+      for (std::size_t row = episode.begin + 1; row < episode.end; ++row) {
+        const auto left = [&](std::size_t k) {
+          return moved.channels[k].samples[row] - fade * moved.channels[k].samples[row - 1];
+        };
+        if (std::isnan(left(0))) continue;
+        for (std::size_t k = 0; k < squares.size(); ++k) squares[k] += left(k) * left(k);
+        ++out.rows;
+      }
+    }
+  }
+  for (double square : squares) {
+    arx.noise.sd.push_back(std::sqrt(square / std::max(1.0, static_cast<double>(out.rows))));
+  }
+  return out;
+}
+
+Result<void> check_rows(const OutlineDynamics& dynamics, Eigen::Index least, const Recording& first) {
+  if (dynamics.rows >= static_cast<std::size_t>(least)) return {};
+  return Error{first.source + ": has " + std::to_string(dynamics.rows) + " complete rows with their past, " +
+               "expected at least " + std::to_string(least) + "; record longer"};
+}
+
 Result<OutlineDynamics> fit_shape(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   auto shape = find_shape(recordings, prepared);
   if (!shape) return shape.error();
+  if (prepared.inputs.empty()) {
+    OutlineDynamics fading = fading_shape(recordings, prepared, *std::move(shape));
+    if (auto ok = check_rows(fading, kMinRows, recordings.front()); !ok) return ok.error();
+    return fading;
+  }
   OutlineDynamics out{{}, *std::move(shape), kRidge};
   const std::size_t regressors = prepared.channels.inputs.size();
   const auto functions = static_cast<Eigen::Index>(regressors / 2 * kInputLags + 1);
@@ -302,11 +335,8 @@ Result<OutlineDynamics> fit_shape(std::span<const Recording> recordings, const P
     odd.add(moved, rows, false);
   }
   out.rows = static_cast<std::size_t>(even.rows);
-  const auto least = static_cast<std::size_t>(std::max({2 * even.gram.rows(), 2 * odd.gram.rows(), kMinRows}));
-  if (out.rows < least) {
-    return Error{recordings.front().source + ": has " + std::to_string(out.rows) + " complete rows with their past, " +
-                 "expected at least " + std::to_string(least) + "; record longer"};
-  }
+  const Eigen::Index least = std::max({2 * even.gram.rows(), 2 * odd.gram.rows(), kMinRows});
+  if (auto ok = check_rows(out, least, recordings.front()); !ok) return ok.error();
   for (;; out.ridge *= 4, out.stabilised = true) {
     out.arx = shape_model(out.shape, even, odd, regressors, out.ridge);
     if (spectral_radius(out.arx) < kStable || out.ridge > kMaxRidge) return out;
@@ -349,7 +379,7 @@ Recording moved_recording(const ShapeComponents& shape, const Recording& recordi
     components.push_back({"c" + std::to_string(k), "", Role::kOutput, std::vector<double>(recording.rows(), kMissing)});
   }
   for (std::size_t row = 0; row < recording.rows(); ++row) {
-    const std::vector<double> control = outputs_at(recording, outputs, row);
+    const std::vector<double> control = whole_row(recording, prepared.layout, row);
     if (control.empty()) continue;
     const std::vector<double> found = components_of(shape, shape_coordinates(control));
     for (std::size_t k = 0; k < found.size(); ++k) components[k].samples[row] = found[k];

@@ -6,6 +6,9 @@
 // symmetric components hear symmetric ones and even functions of the wind, antisymmetric components antisymmetric ones
 // and odd functions (for such block structure M. Golubitsky, I. Stewart, "The Symmetry Perspective", 2002, chapter 1).
 // The shape at rest is as it was recorded: wicks and trackers lean.
+//
+// Without wind nothing is estimated: recorded rows are played as they were (run/arx/lookup_lanes.hpp), and the dynamics
+// only let deviations from them fade.
 
 #include <span>
 #include <vector>
@@ -28,8 +31,8 @@ struct OutlineDynamics {
 };
 
 /// Estimates dynamics from prepared recordings or the first parts of them. `paper`: lags of the paper's point systems
-/// (its section 3.4 has 4), whose noise is Gaussian and independent; 0: components of the shape, order 2.
-/// Errors: too few complete rows; as fit_arx().
+/// (its section 3.4 has 4), whose noise is Gaussian and independent; 0: components of the shape, order 2, or fading
+/// ones where there are no inputs. Errors: too few complete rows; as fit_arx().
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper);
 

@@ -17,22 +17,12 @@ constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames say the same
 
 using Predicted = std::vector<std::vector<double>>;  // [output][row]
 
-// One row of series, or of the outputs of a recording; empty where a sample is missing.
+// One row of series; empty where a sample is missing.
 std::vector<double> predicted_row(const Predicted& series, std::size_t row) {
   std::vector<double> control;
   for (const auto& samples : series) {
     if (std::isnan(samples[row])) return {};
     control.push_back(samples[row]);
-  }
-  return control;
-}
-
-std::vector<double> measured_row(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
-  std::vector<double> control;
-  for (std::size_t c : layout.outputs) {
-    const double value = recording.channels[c].samples[row];
-    if (std::isnan(value)) return {};
-    control.push_back(value);
   }
   return control;
 }
@@ -56,7 +46,7 @@ struct Shapes {
 void add_shapes(const OutlineCurve& curve, const Recording& recording, const OutlineLayout& layout,
                 const Predicted& predicted, std::size_t stride, Shapes& shapes) {
   for (std::size_t row = 0; row < recording.rows(); row += stride) {
-    const auto measured = measured_row(recording, layout, row);
+    const auto measured = whole_row(recording, layout, row);
     const auto made = predicted_row(predicted, row);
     if (!measured.empty() && !made.empty()) shapes.add(curve, measured, made);
   }
@@ -73,7 +63,7 @@ class Errors {
     Eigen::MatrixXd deviations(errors.rows(), outputs);
     Eigen::Index rows = 0;
     for (std::size_t row = 0; row < recording.rows(); ++row) {
-      const auto measured = measured_row(recording, layout, row);
+      const auto measured = whole_row(recording, layout, row);
       const auto made = predicted_row(predicted, row);
       if (measured.empty() || made.empty()) continue;
       if (origin_.empty()) origin_ = measured;
@@ -118,7 +108,6 @@ void add_figures(const PredictionFigures& fit, const Shapes& shapes, OutlineFigu
   for (std::size_t i = 0; i < out.channels.size(); ++i) out.channels[i].fit_percent.push_back(fit.fit_percent[i]);
   const auto rows = static_cast<double>(std::max<std::size_t>(1, shapes.tip_measured.size()));
   out.tip_fit_percent.push_back(fit_percent(shapes.tip_measured, shapes.tip_predicted));
-  out.tip_absolute_fit_percent.push_back(absolute_fit_percent(shapes.tip_measured, shapes.tip_predicted));
   out.overlap.push_back(shapes.overlap / rows);
 }
 
@@ -169,19 +158,6 @@ double fit_percent(std::span<const double> measured, std::span<const double> pre
     spread += (measured[t] - mean) * (measured[t] - mean);
   }
   return spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0;
-}
-
-double absolute_fit_percent(std::span<const double> measured, std::span<const double> predicted) {
-  assert(measured.size() == predicted.size());
-  if (measured.empty()) return 0;
-  const double middle = median(std::vector<double>(measured.begin(), measured.end()));
-  double error = 0;
-  double spread = 0;
-  for (std::size_t t = 0; t < measured.size(); ++t) {
-    error += std::abs(measured[t] - predicted[t]);
-    spread += std::abs(measured[t] - middle);
-  }
-  return spread > 0 ? 100 * (1 - error / spread) : 0;
 }
 
 }  // namespace wisp

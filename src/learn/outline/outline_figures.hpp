@@ -32,8 +32,6 @@ struct OutlineFigures {
   std::vector<std::vector<double>> point_fit_percent;  ///< of x and y together, per control point: above 0, the point
                                                        ///< is followed better than by its mean
   std::vector<double> tip_fit_percent;                 ///< of the tip's x
-  std::vector<double> tip_absolute_fit_percent;        ///< of the tip's x, by absolute errors: ten frames of a gust or
-                                                       ///< a blow-out do not outweigh the rest
   std::vector<double> overlap;  ///< mean intersection over union of predicted and captured filled outlines
 };
 
@@ -58,10 +56,5 @@ Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::spa
 ///
 /// Precondition: the same size.
 double fit_percent(std::span<const double> measured, std::span<const double> predicted);
-
-/// 100(1 − Σ|y − ŷ| / Σ|y − m|) with the median m; 0 where y is constant or empty.
-///
-/// Precondition: the same size.
-double absolute_fit_percent(std::span<const double> measured, std::span<const double> predicted);
 
 }  // namespace wisp

@@ -85,11 +85,10 @@ Result<std::vector<double>> residual_sd(const OutlineDynamics& dynamics, const P
 std::vector<Output> outputs_of(const PreparedOutlines& prepared, const ShapeComponents& shape) {
   const std::size_t count = prepared.channels.outputs.size();
   std::vector<std::vector<double>> seen(count);
-  std::vector<double> control(count);
   for (const Recording& recording : prepared.recordings) {
     for (std::size_t row = 0; row < recording.rows(); ++row) {
-      for (std::size_t i = 0; i < count; ++i) control[i] = recording.channels[i].samples[row];
-      if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) continue;
+      const std::vector<double> control = whole_row(recording, prepared.layout, row);
+      if (control.empty()) continue;
       for (std::size_t i = 0; i < count; ++i) seen[i].push_back(control[i]);
       if (shape.empty()) continue;
       std::vector<double> at = shape_coordinates(control);

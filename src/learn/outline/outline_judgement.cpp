@@ -14,8 +14,6 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxLag = 0.5;  // seconds that a static gain may lag
-
 // What validation needs of a model, after it was found to be an outline.
 struct OutlineModel {
   const Model& whole;
@@ -122,48 +120,6 @@ Result<Recording> played_along(const OutlineModel& model, const PreparedOutlines
   return in_pixels(placed, original, series);
 }
 
-std::vector<double> tips(const Recording& recording, const OutlineLayout& layout) {
-  const OutlineCurve curve(layout.knots);
-  std::vector<double> out;
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
-    std::vector<double> control;
-    for (std::size_t c : layout.outputs) control.push_back(recording.channels[c].samples[row]);
-    const bool missing = std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
-    out.push_back(missing ? kMissing : tip_of(curve.polyline(control))[0]);
-  }
-  return out;
-}
-
-// Fit of y = gain · u(t − delay) + constant by least squares: of the rows where both are known, the share of the
-// standard deviation that is explained.
-double gain_fit(const std::vector<double>& y, const std::vector<double>& u, std::size_t delay) {
-  double n = 0, sy = 0, su = 0, syy = 0, suu = 0, suy = 0;
-  for (std::size_t t = delay; t < y.size(); ++t) {
-    if (std::isnan(y[t]) || std::isnan(u[t - delay])) continue;
-    n += 1;
-    sy += y[t];
-    su += u[t - delay];
-    syy += y[t] * y[t];
-    suu += u[t - delay] * u[t - delay];
-    suy += u[t - delay] * y[t];
-  }
-  const double spread = syy - sy * sy / n;
-  const double drive = suu - su * su / n;
-  if (!(n > 2 && spread > 0 && drive > 0)) return 0;
-  const double shared = suy - su * sy / n;
-  return 100 * (1 - std::sqrt(std::max(0.0, 1 - shared * shared / (spread * drive))));
-}
-
-StaticGain static_gain(const std::vector<double>& tip, const std::vector<double>& input, double rate_hz) {
-  StaticGain best;
-  const auto longest = static_cast<std::size_t>(kMaxLag * rate_hz);
-  for (std::size_t delay = 0; delay <= longest; ++delay) {
-    const double fit = gain_fit(tip, input, delay);
-    if (fit > best.fit_percent) best = {static_cast<double>(delay) / rate_hz, fit};
-  }
-  return best;
-}
-
 double self_intersection_rate(const Recording& recording, const OutlineLayout& layout) {
   const OutlineCurve curve(layout.knots, 100);
   std::size_t crossed = 0;
@@ -173,49 +129,6 @@ double self_intersection_rate(const Recording& recording, const OutlineLayout& l
     crossed += crosses_itself(curve.polyline(control)) ? 1 : 0;
   }
   return recording.rows() == 0 ? 0 : static_cast<double>(crossed) / static_cast<double>(recording.rows());
-}
-
-// Where the truth of an input is: under its name, or the only input that there is (a sensor's measure has a name of its
-// own).
-std::optional<std::size_t> true_channel(const Recording& truth, const std::string& input) {
-  if (const auto named = find_channel(truth, input)) return named;
-  const auto inputs = channels_with_role(truth, Role::kInput);
-  if (inputs.size() == 1) return inputs.front();
-  return std::nullopt;
-}
-
-// The recording with its inputs as they truly were.
-Result<Recording> with_truth(const OutlineModel& model, const Recording& recording, const Recording& truth) {
-  if (truth.rows() < recording.rows()) {
-    return Error{truth.source + ": has " + std::to_string(truth.rows()) + " rows, the recording " +
-                 std::to_string(recording.rows())};
-  }
-  if (std::abs(truth.rate_hz - recording.rate_hz) > 1e-9 * recording.rate_hz) {
-    return Error{truth.source + ": has " + std::to_string(truth.rate_hz) + " samples a second, the recording " +
-                 std::to_string(recording.rate_hz)};
-  }
-  Recording out = recording;
-  for (const Input& input : model.whole.inputs) {
-    const auto from = true_channel(truth, input.name);
-    if (!from) return Error{truth.source + ": there is no input " + input.name + ", which the model is driven by"};
-    auto& samples = out.channels[*find_channel(out, input.name)].samples;
-    std::copy_n(truth.channels[*from].samples.begin(), samples.size(), samples.begin());
-  }
-  return out;
-}
-
-Result<TrueInputFigures> true_input_figures(const OutlineModel& model, const Recording& recording,
-                                            const ValidationOptions& options) {
-  const auto driven = with_truth(model, recording, *options.truth);
-  if (!driven) return driven.error();
-  auto inputs = inputs_of(model.whole, *driven, true);
-  if (!inputs) return inputs.error();
-  const auto prepared =
-      prepare_outline(*driven, model.view.knots, *inputs, shape_of(model.whole), options.pixels_per_unit);
-  if (!prepared) return prepared.error();
-  const auto figures = outline_figures(model.dynamics, prepared->recordings, *prepared, {kFreeRun});
-  if (!figures) return figures.error();
-  return TrueInputFigures{figures->tip_fit_percent.front(), figures->overlap.front()};
 }
 
 // A control point that is followed no better than by its mean is worth a word.
@@ -299,16 +212,8 @@ Result<OutlineJudgement> judge_outline(const Model& model, const Recording& give
   auto played = played_along(*outline, *prepared, recording, driving, options.seed);
   if (!played) return played.error();
   out.played = *std::move(played);
-  if (!inputs->empty()) {
-    const auto& first = driving.channels[*find_channel(driving, inputs->front().name)].samples;
-    out.static_gain = static_gain(tips(prepared->recordings.front(), prepared->layout), first, recording.rate_hz);
-    warn_of_lost_points(out);
-  }
-  if (!inputs->empty() && options.truth != nullptr) {
-    auto found = true_input_figures(*outline, recording, options);
-    if (!found) return found.error();
-    out.true_input = *found;
-  }
+  out.driven = !inputs->empty();
+  if (out.driven) warn_of_lost_points(out);
   if (!options.fidelity) return out;
   if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
   if (auto ok = add_fidelity(*outline, *prepared, driving, options, out); !ok) return ok.error();

@@ -24,30 +24,17 @@ struct PredictedOutlines {
                         ///< knots (attribute `knots`); NaN where none
 };
 
-/// The best that no dynamics can do: tip x = gain · input(t − delay) + constant, fitted to the very recording.
-struct StaticGain {
-  double delay_seconds = 0;
-  double fit_percent = 0;  ///< of the tip's x
-};
-
-/// The free simulation driven by the inputs as they truly were, in their own 95th percentile's units.
-struct TrueInputFigures {
-  double tip_fit_percent = 0;
-  double overlap = 0;
-};
-
 /// The outcome.
 struct OutlineJudgement {
   OutlineFigures figures;
-  std::optional<TrueInputFigures> true_input;  ///< where the truth was given
-  std::vector<InputAlignment> alignment;       ///< of the inputs
-  std::vector<PredictedOutlines> predicted;    ///< one a number of steps
-  Recording played;                            ///< the model with noise along the recording's inputs, over the
-                                               ///< recording's rows, in pixels at its base
-  std::optional<StaticGain> static_gain;       ///< for models with inputs
-  std::optional<Fidelity> fidelity;            ///< of free play with noise; nothing where the recording is too short
-  double held_share = 0;                       ///< of steps of that play in which an output was clamped to its range
-  double self_intersection_rate = 0;           ///< of its frames in which the outline intersects itself
+  bool driven = false;                       ///< whether the model has inputs
+  std::vector<InputAlignment> alignment;     ///< of the inputs
+  std::vector<PredictedOutlines> predicted;  ///< one a number of steps
+  Recording played;                          ///< the model with noise along the recording's inputs, over the
+                                             ///< recording's rows, in pixels at its base
+  std::optional<Fidelity> fidelity;          ///< of free play with noise; nothing where the recording is too short
+  double held_share = 0;                     ///< of steps of that play in which an output was clamped to its range
+  double self_intersection_rate = 0;         ///< of its frames in which the outline intersects itself
   double pixels_per_unit = 0;
   std::vector<std::string> warnings;
 };

@@ -69,11 +69,10 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   std::vector<Outline> out;
   const std::size_t stride = 1 + rows / most;
   for (const Recording& recording : recordings) {
+    const auto layout = outline_layout(recording);
     for (std::size_t row = 0; row < recording.rows(); row += stride) {
-      std::vector<double> control;
-      for (const std::string& name : prepared.channels.outputs)
-        control.push_back(channel_samples(recording, name)[row]);
-      if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) continue;
+      const std::vector<double> control = whole_row(recording, *layout, row);
+      if (control.empty()) continue;
       const auto polyline = curve.polyline(control);
       if (crossed) crossings += crosses_itself(polyline) ? 1 : 0;
       out.push_back(at_equal_lengths(polyline, kPlaces));
@@ -124,9 +123,9 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
     const double recorded = deviation(seen(channel_samples(real, name)));
     out.sd_ratio.push_back(recorded > 0 ? deviation(channel_samples(play->recording, name)) / recorded : 1);
   }
-  out.outside = outside_share(outlines(prepared.recordings, prepared, kMaxRecorded),
+  out.outside = outside_share(outlines(prepared.recordings, prepared, kMaxRecorded, &out.crossed_recorded),
                               outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
-  const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows, .permutations = 0};
+  const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
   if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
     out.half_second = found->energy_distance;
     out.two_seconds = found->long_motion;

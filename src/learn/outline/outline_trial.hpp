@@ -18,6 +18,7 @@ struct OutlineTrial {
   double held_share = 0;    ///< of steps in which something was clamped to its range
   std::vector<double> sd_ratio;  ///< per output, played over recorded; 1 where nothing moves
   double crossed = 0;            ///< share of played outlines that cross themselves
+  double crossed_recorded = 0;   ///< and of recorded ones
   double outside = 0;            ///< share of played outlines farther from every recorded one than 99 % of those of the
                                  ///< last 40 % of the rows are from the rows before
   std::optional<Bounded> half_second;  ///< normalised energy distance of windows; nothing where that is too short

@@ -43,10 +43,6 @@ std::vector<double> row_of(const Recording& recording, const OutlineLayout& layo
   return control;
 }
 
-bool complete(std::span<const double> control) {
-  return std::none_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
-}
-
 void set_row(Recording& recording, const OutlineLayout& layout, std::size_t row, std::span<const double> control) {
   for (std::size_t k = 0; k < control.size(); ++k) recording.channels[layout.outputs[k]].samples[row] = control[k];
 }
@@ -122,6 +118,12 @@ std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame&
   return pixels;
 }
 
+std::vector<double> whole_row(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
+  std::vector<double> control = row_of(recording, layout, row);
+  const bool missing = std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
+  return missing ? std::vector<double>() : control;
+}
+
 std::optional<bool> follows_underside(const Recording& recording) {
   const auto text = find_attribute(recording, "underside");
   if (!text || (*text != "0" && *text != "1")) return std::nullopt;
@@ -134,8 +136,8 @@ std::vector<double> heights_pixels(const Recording& recording, const OutlineLayo
   std::vector<double> out;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (!rows.empty() && rows[row] == 0) continue;
-    const std::vector<double> control = row_of(recording, layout, row);
-    if (complete(control)) out.push_back(height_of(curve.polyline(control)));
+    const std::vector<double> control = whole_row(recording, layout, row);
+    if (!control.empty()) out.push_back(height_of(curve.polyline(control)));
   }
   return out;
 }

@@ -48,6 +48,9 @@ struct OutlineFrame {
 std::vector<double> to_model_units(std::span<const double> pixels, const OutlineFrame& frame);
 std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame& frame);
 
+/// The control points x0, y0, x1, … of one row; empty where one is missing.
+std::vector<double> whole_row(const Recording& recording, const OutlineLayout& layout, std::size_t row);
+
 /// Whether an outline runs on along its underside until both ends meet (attribute `underside`, 1 or 0); nothing where
 /// the recording does not say.
 std::optional<bool> follows_underside(const Recording& recording);

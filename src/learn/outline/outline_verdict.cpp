@@ -79,9 +79,9 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        "playing freely it moves {figure} times as much as the recording does, at least {limit}: record longer", 2},
       {spread, Bound::kAtMost, 2,
        "playing freely it moves {figure} times as much as the recording does, at most {limit}: record longer", 2},
-      {100 * trial.crossed, Bound::kAtMost, 1,
-       "playing freely its outline crosses itself in {figure} % of frames, at most {limit}: film it larger, or with "
-       "fewer control points",
+      {100 * (trial.crossed - trial.crossed_recorded), Bound::kAtMost, 1,
+       "playing freely its outline crosses itself in {figure} % of frames more than in the recording, at most {limit}: "
+       "film it larger, or with fewer control points",
        1},
       {100 * trial.outside, Bound::kAtMost, 15,
        "{figure} % of the outlines that it plays are shapes that the recording has not, at most {limit}: record longer",

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "learn/arx/judge/prediction.hpp"
+#include "learn/numeric/constants.hpp"
+#include "learn/outline/outline_shape.hpp"
 
 namespace wisp {
 namespace {
@@ -13,12 +15,12 @@ namespace {
 // Looked back over 0.15 s, closer together where it is more recent: what blew a moment ago matters most. What blew
 // before that the dynamics carry; to match it too costs jumps, and every jump is noise that was not recorded.
 constexpr double kLagSeconds[] = {0, 1.0 / 60, 3.0 / 60, 5.0 / 60, 9.0 / 60};
-constexpr double kTolerance = 0.2;            // of wind 1: less jumps more often, more plays what does not fit
-constexpr double kLongestSeconds = 1.5;       // from one jump to the next: longer would repeat what was recorded
-constexpr double kLongestAloneSeconds = 0.5;  // where no input says when to go elsewhere
-constexpr double kCalm = 0.04;                // of wind 1: less than this does not move what stands still
+constexpr double kTolerance = 0.2;       // of wind 1: less jumps more often, more plays what does not fit
+constexpr double kLongestSeconds = 1.5;  // from one jump to the next: longer would repeat what was recorded
+constexpr double kCalm = 0.04;           // of wind 1: less than this does not move what stands still
 constexpr double kMargin = 0.01;  // of wind 1: below what a microphone resolves; more makes the search less sharp
 constexpr double kMinSeconds = 1;
+constexpr std::size_t kCurveSamples = 60;  // of an outline that is looked at
 constexpr double kLargestWind = 32767;
 constexpr double kLargestResidual = 127;
 constexpr std::size_t kMaxBytes = 256 * 1024;  // of rows; of longer recordings the first part of each stretch is kept
@@ -77,6 +79,17 @@ void add_row(const std::vector<double>& wind, std::size_t row, std::size_t past,
   goes_on = true;
 }
 
+// Per row, whether its outline may be played: not where it crosses itself.
+std::vector<bool> simple_outlines(const Recording& given, const PreparedOutlines& prepared) {
+  const OutlineCurve curve(prepared.layout.knots, kCurveSamples);
+  std::vector<bool> out;
+  for (std::size_t row = 0; row < given.rows(); ++row) {
+    const std::vector<double> control = whole_row(given, prepared.layout, row);
+    out.push_back(!control.empty() && !crosses_itself(curve.polyline(control)));
+  }
+  return out;
+}
+
 // Complete rows in stretches.
 Result<std::vector<RowStretch>> stretches_left(const OutlineDynamics& dynamics, const Recording& given,
                                                const PreparedOutlines& prepared, std::size_t past) {
@@ -85,13 +98,14 @@ Result<std::vector<RowStretch>> stretches_left(const OutlineDynamics& dynamics, 
   const auto predicted = predict(dynamics.arx, recording, channels, {.steps = 1});
   if (!predicted) return predicted.error();
   const std::vector<double> wind = signed_input(recording, prepared);
+  const std::vector<bool> simple = simple_outlines(given, prepared);
   std::vector<RowStretch> out;
   for (const Episode& episode : episodes(recording)) {
     bool goes_on = false;
     for (std::size_t row = episode.begin + past; row < episode.end; ++row) {
       Row one{{}, wind[row]};
       for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-        one.residual.push_back(recording.channels[i].samples[row] - (*predicted)[i][row]);
+        one.residual.push_back(simple[row] ? recording.channels[i].samples[row] - (*predicted)[i][row] : kMissing);
       }
       add_row(wind, row, past, std::move(one), out, goes_on);
     }
@@ -189,13 +203,17 @@ Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, 
     for (RowStretch& stretch : *found) stretches.push_back(std::move(stretch));
   }
   keep_at_most(stretches, kMaxBytes / dynamics.shape.count());
-  if (static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return ResampledResiduals{};
+  if (stretches.empty()) {
+    return Error{recordings.front().source +
+                 ": has no two complete rows with their past after each other; record longer"};
+  }
+  if (driven && static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return ResampledResiduals{};
   if (driven) out.toward = 0;
   if (driven) out.against = 3;  // after the first side's size, root and square
   if (driven) out.mirror = mirror_image(dynamics.shape);
-  out.tolerance = kTolerance;
-  out.margin = kMargin;
-  out.longest = steps_of(driven ? kLongestSeconds : kLongestAloneSeconds, rate);
+  if (driven) out.tolerance = kTolerance;
+  if (driven) out.margin = kMargin;
+  if (driven) out.longest = steps_of(kLongestSeconds, rate);
   store_rows(stretches, out);
   return out;
 }

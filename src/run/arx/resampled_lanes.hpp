@@ -1,17 +1,20 @@
 #pragma once
 // Plays residuals as they were (ResampledResiduals), lane by lane. An instance's state is the row that it is at, how
 // long ago it jumped there, the blocks that it played before, and its input's recent past. Jumps are decided by
-// comparisons and taken by counted random words.
+// comparisons and taken by counted random words. Where nothing drives it, it jumps after a drawn time to where the
+// outputs were alike (lookup_lanes.hpp).
 //
-// Where a jump leads is a search for the rows whose input's past is nearest (D. Kovar, M. Gleicher, F. Pighin, "Motion
-// Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016, are its kin in animation): one way down a k-d
-// tree to a leaf, whose rows are compared. It is done only in steps in which going on costs more than the tolerance.
+// Where an input drives it, where a jump leads is a search for the rows whose input's past is nearest (D. Kovar, M.
+// Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016, are its kin in
+// animation): one way down a k-d tree to a leaf, whose rows are compared. It is done only in steps in which going on
+// costs more than the tolerance.
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
 
+#include "run/arx/lookup_lanes.hpp"
 #include "run/arx/resampled_program.hpp"
 #include "run/lanes/columns.hpp"
 #include "run/state/moment.hpp"
@@ -25,7 +28,8 @@ class ResampledLanes {
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
 
-  ResampledLanes(const ResampledProgram& program, int blocks, Arena& arena) : program_(program) {
+  ResampledLanes(const ResampledProgram& program, int blocks, Arena& arena)
+      : program_(program), lookup_(program.lookup, blocks, arena) {
     if (program.empty()) return;
     state_ = arena.take<Real>(static_cast<std::size_t>(blocks) * kStateValues * kLanes);
     past_ = SampleRing<N>(blocks, program.depth, 1, arena);
@@ -42,7 +46,8 @@ class ResampledLanes {
   /// A newborn jumps in its first step; nothing blew before.
   void start(int block, int lane) {
     for (int value = 0; value < kStateValues; ++value) state(block, value)[lane] = Real(0.0f);
-    state(block, kAge)[lane] = Real(static_cast<float>(program_.longest));
+    if (program_.driven()) state(block, kAge)[lane] = Real(static_cast<float>(program_.longest));
+    if (!lookup_.empty()) lookup_.start(block, lane);
     for (int lag = 0; lag < past_.depth(); ++lag) past(block, static_cast<std::uint32_t>(lag))[lane] = Real(0.0f);
   }
 
@@ -59,6 +64,7 @@ class ResampledLanes {
 
   /// Moves every lane of a block that is in use on.
   void step(int block, const Moment<N>& moment) {
+    if (!lookup_.empty()) return step_by_state(block, moment);
     Places places;
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t at = whole(state(block, kPlace)[lane]);
@@ -98,7 +104,8 @@ class ResampledLanes {
   float scale() const { return scale_; }
 
   std::size_t lane_values() const {
-    return empty() ? 0 : static_cast<std::size_t>(kStateValues) + static_cast<std::size_t>(past_.depth());
+    const auto depth = static_cast<std::size_t>(past_.depth());
+    return empty() ? 0 : static_cast<std::size_t>(kStateValues) + depth + lookup_.lane_values();
   }
 
   /// `low` and `high` bound the input.
@@ -115,6 +122,7 @@ class ResampledLanes {
     for (int lag = 0; lag < past_.depth(); ++lag) {
       visit(past(block, static_cast<std::uint32_t>(lag))[lane], low, high);
     }
+    lookup_.visit_lane(block, lane, visit);
   }
 
  private:
@@ -133,6 +141,33 @@ class ResampledLanes {
 
   void remember(int block, int lane) {
     for (int value = kStateValues - 1; value >= 2; --value) state(block, value)[lane] = state(block, value - 2)[lane];
+  }
+
+  void step_by_state(int block, const Moment<N>& moment) {
+    bool jumps[kLanes], any = false;
+    for (int lane = 0; lane < moment.lanes(); ++lane) {
+      PlayedRows played[1 + kRecentBlocks];
+      for (int k = 0; k <= kRecentBlocks; ++k) {
+        played[k] = {whole(state(block, 2 * k + kPlace)[lane]) / 2, whole(state(block, 2 * k + kAge)[lane])};
+      }
+      const std::uint32_t left = program_.left[played[0].last];
+      lookup_.look(block, lane, played, left);
+      jumps[lane] = left == 0 || lookup_.is_over(block, lane, played[0].count);
+      any = any || jumps[lane];
+    }
+    std::uint32_t words[4][kLanes];
+    if (any) draw(moment, words);
+    for (int lane = 0; lane < moment.lanes(); ++lane) {
+      Real &place = state(block, kPlace)[lane], &age = state(block, kAge)[lane];
+      std::uint32_t row = whole(place) / 2 + 1, count = whole(age) + 1;
+      if (jumps[lane]) {
+        row = lookup_.jump(block, lane, {row - 1, count - 1}, words[0][lane], words[1][lane], program_.left);
+        remember(block, lane);
+        count = 1;
+      }
+      place = Real(static_cast<float>(2 * row));
+      age = Real(static_cast<float>(count));
+    }
   }
 
   // Where the lanes of a block go, and which of them must jump.
@@ -160,22 +195,15 @@ class ResampledLanes {
   void search(int block, const Moment<N>& moment, Places& places) const {
     Seekers seekers;
     Real ahead[kLanes];
-    if (program_.driven()) go_on(block, places, ahead);
+    go_on(block, places, ahead);
     for (int lane = 0; lane < moment.lanes(); ++lane) {
-      const bool seeks = places.forced[lane] || (program_.driven() && value_of(ahead[lane]) > program_.tolerance);
+      const bool seeks = places.forced[lane] || value_of(ahead[lane]) > program_.tolerance;
       seekers.lane[seekers.count] = lane;
       seekers.count += seeks ? 1 : 0;
     }
     if (seekers.count == 0) return;
     std::uint32_t words[4][kLanes];
     draw(moment, words);
-    if (!program_.driven()) {
-      for (int k = 0; k < seekers.count; ++k) {
-        const int lane = seekers.lane[k];
-        places.next[lane] = 2 * scaled(words[0][lane], static_cast<std::uint32_t>(program_.left.size()));
-      }
-      return;
-    }
     Heard heard;
     hear_past(block, heard);
     descend(heard, words[0], seekers);
@@ -374,6 +402,7 @@ class ResampledLanes {
   }
 
   ResampledProgram program_;
+  LookupLanes<N> lookup_;
   std::span<Real> state_;
   SampleRing<N> past_;  // of the input
   float scale_ = 0;     // of the noise

@@ -176,7 +176,7 @@ void fill_sides(const Model& model, const ResampledResiduals& resampled, Resampl
     program.from[i] = static_cast<std::uint16_t>(i);
     program.factor[i] = 1.0f;
   }
-  for (std::size_t i = 0; i < resampled.mirror.size(); ++i) {
+  for (std::size_t i = 0; program.mirrors() && i < resampled.mirror.size(); ++i) {
     const auto from = static_cast<std::size_t>(std::abs(resampled.mirror[i]) - 1);
     program.from[ny + i] = static_cast<std::uint16_t>(from);
     program.factor[ny + i] = bounded((resampled.mirror[i] < 0 ? -1 : 1) * unit(from) / unit(i));
@@ -201,7 +201,7 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   program.toward = resampled.toward;
   program.against = resampled.against;
   program.longest = static_cast<std::uint32_t>(resampled.longest);
-  program.sides = resampled.mirror.empty() ? 1 : 2;
+  program.sides = resampled.mirror.empty() || !program.driven() ? 1 : 2;
   program.depth = resampled.lags.empty() ? 1 : static_cast<int>(resampled.lags.back()) + 1;
   const std::size_t rows = resampled.row_count(), past = program.driven() ? rows : 0;
   const std::size_t targets = program.driven() ? count_targets(resampled) : 0;
@@ -220,8 +220,12 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   program.order = arena.take<std::uint32_t>(targets);
   program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
   program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
+  if (!arena.measures()) fill_rows(model, resampled, program);
+  if (!program.driven()) {
+    program.lookup = make_lookup_program(model, arx, program.left, arena);
+    program.longest = program.lookup.longest;
+  }
   if (arena.measures()) return program;
-  fill_rows(model, resampled, program);
   fill_sides(model, resampled, program);
   if (!program.driven()) return program;
   fill_winds(model, arx, resampled, program);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "run/arx/lookup_program.hpp"
 #include "run/state/arena.hpp"
 #include "wisp/model/model.hpp"
 
@@ -51,6 +52,7 @@ struct ResampledProgram {
   std::span<std::uint32_t> order;  ///< rows, leaf after leaf: to build the tree
   std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
   std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
+  LookupProgram lookup;            ///< where nothing drives it
 
   bool empty() const { return outputs == 0; }
   bool driven() const { return toward >= 0; }

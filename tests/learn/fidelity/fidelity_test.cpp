@@ -41,33 +41,23 @@ Fidelity compared(const std::vector<Recording>& real, const std::vector<Recordin
 TEST(Fidelity, TheSameProcessIsNearTheFloorInEveryMeasure) {
   const Fidelity f = compared({resonance(900, 5, 1), resonance(900, 5, 2)}, {resonance(1800, 5, 3)});
   EXPECT_LT(f.log_spectral_distance.floor_ratio(), 1.5);
-  EXPECT_LT(f.autocorrelation_distance.floor_ratio(), 1.5);
-  EXPECT_LT(f.wasserstein_value.floor_ratio(), 2);
-  EXPECT_LT(f.wasserstein_speed.floor_ratio(), 2);
   EXPECT_LT(f.energy_distance.floor_ratio(), 1.5);
-  EXPECT_GT(f.energy_p_value, 0.01);  // one run in twenty would be lower; the seeds are fixed
   EXPECT_LT(f.energy_distance.value, 0.25 * f.energy_distance.ceiling);
 }
 
 TEST(Fidelity, AnotherFrequencyIsSeen) {
   const Fidelity f = compared({resonance(900, 5, 1), resonance(900, 5, 2)}, {resonance(1800, 2.5, 3)});
   EXPECT_GT(f.log_spectral_distance.floor_ratio(), 2);
-  EXPECT_GT(f.autocorrelation_distance.floor_ratio(), 2);
   EXPECT_GT(f.energy_distance.floor_ratio(), 4);
-  EXPECT_DOUBLE_EQ(f.energy_p_value, 1.0 / 200);
 }
 
 TEST(Fidelity, TwiceTheAmplitudeIsSeen) {
   const Fidelity f = compared({resonance(900, 5, 1), resonance(900, 5, 2)}, {resonance(1800, 5, 3, 2)});
-  EXPECT_GT(f.wasserstein_value.value, 0.5);
   EXPECT_NEAR(f.channels[0].sd_synthesized / f.channels[0].sd_real, 2, 0.3);
-  EXPECT_GT(f.wasserstein_speed.value, 0.5);
 }
 
-TEST(Fidelity, ShuffledFramesKeepTheirMarginalAndLoseTheirMotion) {
+TEST(Fidelity, ShuffledFramesLoseTheirMotion) {
   const Fidelity f = compared({resonance(900, 5, 1), resonance(900, 5, 2)}, {resonance(900, 5, 3)});
-  EXPECT_NEAR(f.wasserstein_value.ceiling, 0, 1e-12);
-  EXPECT_GT(f.wasserstein_speed.ceiling, 3 * f.wasserstein_speed.floor);
   EXPECT_GT(f.log_spectral_distance.ceiling, 3 * f.log_spectral_distance.floor);
 }
 
@@ -82,8 +72,6 @@ TEST(Fidelity, ACopyIsFoundOut) {
 TEST(Fidelity, ASingleRecordingIsHalvedInTimeAndShortensTheSegments) {
   const Fidelity f = compared({resonance(100, 5, 1)}, {resonance(600, 5, 2)});
   EXPECT_EQ(f.welch_samples, 50u);
-  EXPECT_DOUBLE_EQ(f.memory_seconds, 24 / 30.0);
-  EXPECT_EQ(f.real_rows, 100u);
 }
 
 TEST(Fidelity, TooLittleDataIsAClearError) {
@@ -107,7 +95,7 @@ TEST(Fidelity, RatesMustAgree) {
 TEST(Fidelity, TheSameSeedGivesTheSameFigures) {
   const std::vector real{resonance(200, 5, 1)};
   const std::vector made{resonance(200, 5, 2)};
-  EXPECT_EQ(fidelity(real, made)->energy_p_value, fidelity(real, made)->energy_p_value);
+  EXPECT_EQ(fidelity(real, made)->energy_distance.ceiling, fidelity(real, made)->energy_distance.ceiling);
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_THAT(fields(found->report),
               IsSupersetOf({"gain", "rows", "channels", "points", "alignment", "J", "tip", "overlap", "fidelity",
-                            "held_share", "crossed_share", "static_gain", "extinction"}));
+                            "held_share", "crossed_share", "extinction"}));
   EXPECT_GT(figure<double>(found->report, "tip.fit_percent.inf"), 60);
   std::set<std::string> series;
   for (const ReportSection& section : found->report.sections) {

@@ -70,32 +70,5 @@ TEST(Spectrum, WithoutALongEnoughStretchThereIsNoDistance) {
   EXPECT_TRUE(std::isnan(log_spectral_distance(none, none)));
 }
 
-TEST(Spectrum, AutocorrelationAgreesWithNumpy) {
-  const auto r = autocorrelation(Series{made::first_series()}, 50);
-  EXPECT_DOUBLE_EQ(r[0], 1);
-  EXPECT_NEAR(r[1], 0.85723732217241, 1e-12);
-  EXPECT_NEAR(r[7], -0.36063496502224435, 1e-12);
-  EXPECT_NEAR(r[49], -0.5863988922264077, 1e-12);
-  EXPECT_NEAR(autocorrelation_distance(r, autocorrelation(Series{made::second_series()}, 50)), 0.5611143829131825,
-              1e-12);
-}
-
-TEST(Spectrum, AutocorrelationOfASineIsACosine) {
-  std::vector<double> sine(20000);
-  for (std::size_t t = 0; t < sine.size(); ++t) sine[t] = std::sin(2 * std::numbers::pi * static_cast<double>(t) / 40);
-  const auto r = autocorrelation(Series{sine}, 41);
-  // End effects are of the order of lag / samples = 0.002.
-  EXPECT_NEAR(r[20], -1, 0.003);
-  EXPECT_NEAR(r[10], 0, 0.003);
-}
-
-TEST(Spectrum, TheMeanOfEachStretchIsItsOwn) {
-  std::vector<double> high = made::first_series();
-  for (double& value : high) value += 1000;
-  const auto one = autocorrelation(Series{made::first_series()}, 20);
-  const auto both = autocorrelation(Series{made::first_series(), high}, 20);
-  for (std::size_t k = 0; k < 20; ++k) EXPECT_NEAR(one[k], both[k], 1e-9);
-}
-
 }  // namespace
 }  // namespace wisp::spectrum_test

@@ -201,7 +201,7 @@ TEST(Outline, TheSameRecordingGivesTheSameModel) {
 
 TEST(Outline, ThreeFramesAreTooFew) {
   const Recording recording = slice(made::outline_recording({.rows = 100}), 0, 3);
-  EXPECT_EQ(refused({recording}), "made 1: has 0 complete rows with their past, expected at least 30; record longer");
+  EXPECT_EQ(refused({recording}), "made 1: has 1 complete rows with their past, expected at least 30; record longer");
 }
 
 TEST(Outline, FramesInRandomOrderAreNotUsableAndSaySo) {

@@ -64,14 +64,6 @@ TEST(Validation, ARecordingThatLearningHasNotSeenIsFollowedFromItsWind) {
   }
 }
 
-TEST(Validation, AStaticGainDoesLessThanTheDynamics) {
-  const OutlineJudgement out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
-  ASSERT_TRUE(out.static_gain);
-  EXPECT_GT(out.static_gain->fit_percent, 0);
-  EXPECT_GT(out.static_gain->delay_seconds, 0);
-  EXPECT_LT(out.static_gain->fit_percent, out.figures.tip_fit_percent.back());
-}
-
 TEST(Validation, TheOrderOfColumnsDoesNotMatter) {
   Recording wind_first = unseen(kWindy);
   std::rotate(wind_first.channels.begin(), wind_first.channels.end() - 1, wind_first.channels.end());

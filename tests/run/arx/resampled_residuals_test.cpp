@@ -120,23 +120,6 @@ TEST(ResampledResiduals, WindFromTheOtherSidePlaysMirrorImages) {
   }
 }
 
-TEST(ResampledResiduals, WithoutAnInputAnyRowMayFollow) {
-  Model model = bare_model(InputShape::kLinear);
-  ResampledResiduals& resampled = resampled_of(model);
-  resampled.toward = -1;
-  resampled.winds.clear();
-  resampled.lags.clear();
-  resampled.longest = 10;
-  const auto rows = rows_played(model, 2000, swing);
-  std::set<int> seen(rows.begin(), rows.end());
-  EXPECT_GT(seen.size(), 350u);
-  int since = 0;
-  for (std::size_t k = 1; k < rows.size(); ++k) {
-    since = rows[k] == rows[k - 1] + 1 ? since + 1 : 0;
-    EXPECT_LT(since, 25) << k;  // twice in a row by chance to the very next one: less than once in a thousand runs
-  }
-}
-
 TEST(ResampledResiduals, AnotherSeedPlaysOtherRows) {
   const auto steady = [](int) { return 0.5f; };
   EXPECT_NE(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 2));

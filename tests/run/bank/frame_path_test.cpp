@@ -147,7 +147,7 @@ struct Stage {
   }
 
   // One of every kind of dynamics, and of every way to switch.
-  static std::vector<Model> models() { return {mortal_flame(), windy_chain(), sample_switched()}; }
+  static std::vector<Model> models() { return {mortal_flame(), still_flame_model(), windy_chain(), sample_switched()}; }
 
   Model model;
   std::vector<std::byte> memory;

@@ -96,10 +96,10 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     add('It spreads as it did', near('spread'), 0.9);
     return made;
   }
-  add('The tip, a frame ahead', percent('tip', 'held_out_absolute_fit_percent', '1'), 0.5);
   // Without wind it flickers in its own time: no play can follow the film for long.
   const inputs = within(report, 'inputs');
   if (Array.isArray(inputs) && inputs.length > 0) {
+    add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
     add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
     add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
   } else add('Outlines that lie over each other, a frame ahead', figure(report, 'overlap_by_steps', '1'), 0.85);

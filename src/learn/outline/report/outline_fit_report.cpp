@@ -81,7 +81,6 @@ ReportSection fit_section(const OutlineFit& fit) {
                "%", section);
   if (held_out) {
     add_by_steps("tip.held_out_fit_percent", judged.steps, judged.tip_fit_percent, "tip fit", "%", section);
-    add_by_steps("tip.held_out_absolute_fit_percent", judged.steps, judged.tip_absolute_fit_percent, "", "%", section);
   } else {
     section.entries.push_back({"tip.held_out_fit_percent", {}, "", ""});
   }
@@ -105,6 +104,7 @@ ReportSection play_section(const OutlineSummary& summary) {
        {"spread", median(trial.sd_ratio), "spread, played over recorded", "", {}, "0.8 to 1.25 is good"},
        {"outside_share", trial.outside, "shapes that the recording has not", "", {}, "at most 0.03 is good"},
        {"crossed_share", trial.crossed, "outlines that cross themselves", ""},
+       {"crossed_share_recorded", trial.crossed_recorded, "", ""},
        {"held_share", trial.held_share, "share of steps clamped", "", {}, "at most 0.001 is good"}}};
   const auto add = [&](const char* id, const char* label, const std::optional<Bounded>& distance) {
     if (!distance) return;

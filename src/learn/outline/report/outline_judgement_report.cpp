@@ -40,21 +40,6 @@ ReportSection fit_section(const OutlineJudgement& found) {
   add_by_steps("tip.fit_percent", figures.steps, figures.tip_fit_percent, "tip fit", "%", section);
   section.entries.push_back({"overlap", at_steps(figures.steps, figures.overlap, kFreeRun), "", ""});
   add_by_steps("overlap_by_steps", figures.steps, figures.overlap, "outline overlap", "", section);
-  if (found.static_gain) {
-    section.entries.push_back({"static_gain.tip_fit_percent",
-                               found.static_gain->fit_percent,
-                               "tip fit of a static gain",
-                               "%",
-                               {},
-                               "fitted to this very recording: what dynamics have to beat"});
-    section.entries.push_back({"static_gain.delay_seconds", found.static_gain->delay_seconds, "with a delay of", "s"});
-  }
-  if (found.true_input) {
-    section.entries.push_back({"true_input.tip_fit_percent", found.true_input->tip_fit_percent,
-                               "tip fit, simulated from the true input", "%"});
-    section.entries.push_back(
-        {"true_input.overlap", found.true_input->overlap, "outline overlap, simulated from the true input", ""});
-  }
   section.tables.push_back(channels_table(figures));
   section.tables.push_back(points_table(figures));
   return section;
@@ -82,12 +67,8 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     const Fidelity& figures = *found.fidelity;
     add_bounded("fidelity.log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB",
                 section);
-    add_bounded("fidelity.autocorrelation_distance", figures.autocorrelation_distance, "", "", section);
-    add_bounded("fidelity.wasserstein_value", figures.wasserstein_value, "", "", section);
-    add_bounded("fidelity.wasserstein_speed", figures.wasserstein_speed, "", "", section);
     add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance over half a second",
                 "", section);
-    section.entries.push_back({"fidelity.energy_p_value", figures.energy_p_value, "", ""});
     add_bounded("fidelity.two_seconds.energy_distance", figures.long_motion, "the same over two seconds", "", section);
     add_bounded("fidelity.two_seconds.spectral_distance", figures.long_spectra, "of log spectra over two seconds", "",
                 section);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "base/statistics.hpp"
 #include "learn/arx/judge/prediction.hpp"
 
 namespace wisp {
@@ -28,10 +28,7 @@ void add_by_steps(const std::string& id, const std::vector<int>& steps, const st
 
 std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
   std::vector<double> means;
-  for (const auto& values : per_step) {
-    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    means.push_back(values.empty() ? 0 : sum / static_cast<double>(values.size()));
-  }
+  for (const auto& values : per_step) means.push_back(mean(values));
   return means;
 }
 
