@@ -58,6 +58,8 @@ export interface ModelFacts {
 
 /** Orders of an ARX model: a row for each output. */
 export interface ArxFacts {
+  /** What the equations are of: the model's outputs, or components of them. */
+  outputs: number;
   na: number[][];
   nb: number[][];
   nk: number[][];
@@ -178,12 +180,13 @@ export class Model {
   get arx(): ArxFacts | null {
     if (this.kind !== 'arx') return null;
     const facts = this.read(at.arxFacts.size, 'wisp_model_get_arx', (data, p) => ({
+      outputs: data.getUint32(p + at.arxFacts.outputs, true),
       regressors: data.getUint32(p + at.arxFacts.regressors, true),
       history: data.getUint32(p + at.arxFacts.history, true),
       shocks: data.getUint32(p + at.arxFacts.shocks, true),
       resamples: data.getUint32(p + at.arxFacts.resamples, true) === 1,
     }));
-    const outputs = this.outputs.length;
+    const { outputs } = facts;
     const orders = (name: string, columns: number) => rows(this.integers(name, outputs * columns), columns);
     return {
       ...facts,

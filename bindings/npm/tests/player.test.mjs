@@ -60,6 +60,14 @@ test('it works in a worker, from a module that is handed over', async () => {
   assert.equal(await new Promise((resolve, reject) => worker.on('message', resolve).on('error', reject)), 'made-up flame');
 });
 
+test('the shipped flame says of which components its equations are, fewer than its outputs', () => {
+  const model = wisp.model(readFileSync(new URL('../../../apps/web/public/models/flame.wisp', import.meta.url)));
+  const { arx, outputs } = model;
+  assert.ok(arx.outputs < outputs.length, `${arx.outputs} of ${outputs.length}`);
+  assert.deepEqual([arx.na.length, arx.na[0].length, arx.noise.length], [arx.outputs, arx.outputs, arx.outputs]);
+  model.free();
+});
+
 test('a flame model says what it is', () => {
   const model = wisp.model(flameBytes);
   assert.equal(model.name, 'made-up flame');
