@@ -5,7 +5,7 @@ const cacheName = 'wisp-' + 'VERSION';
 const files = ['FILES'];
 
 // Large, and few ask for it, or not at once: kept for whoever did.
-const onDemand = /\/assets\/studio\/|\/models\/leaf/;
+const onDemand = /\/assets\/studio\/|\/models\/(leaf|filmed)/;
 
 // The module that this browser does not run is not kept either. The probe is native.ts's.
 const simd = WebAssembly.validate(

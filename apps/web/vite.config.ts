@@ -65,7 +65,7 @@ function serviceWorker(): Plugin {
       hash.update(readFileSync(join(here, 'index.html')));
       const source = readFileSync(join(here, 'service-worker.js'), 'utf8')
         .replace("'VERSION'", JSON.stringify(hash.digest('hex').slice(0, 12)))
-        .replace("['FILES']", JSON.stringify(['./', ...files.filter((name) => !name.endsWith('.html') && !name.startsWith(STUDIO)).sort()]));
+        .replace("['FILES']", JSON.stringify(['./', ...files.filter((name) => !/\.html$|^preview|^icon-/.test(name) && !name.startsWith(STUDIO)).sort()]));
       this.emitFile({ type: 'asset', fileName: 'sw.js', source });
     },
   };
@@ -133,9 +133,19 @@ function shorterPreload(): Plugin {
   };
 }
 
+/** Programs that show links ask for whole addresses: WISP_ADDRESS says where the page will lie. */
+function wholeAddresses(): Plugin {
+  const address = process.env.WISP_ADDRESS ?? '';
+  return {
+    name: 'wisp-whole-addresses',
+    apply: 'build',
+    transformIndexHtml: (html) => (address === '' ? html : html.replace('content="./preview.jpg"', `content="${new URL('preview.jpg', address).href}"`)),
+  };
+}
+
 export default defineConfig({
   base: './',
-  plugins: [policy(), flatPage(), serviceWorker(), licences(), shorterShaders(), shorterPreload()],
+  plugins: [policy(), wholeAddresses(), flatPage(), serviceWorker(), licences(), shorterShaders(), shorterPreload()],
   worker: {
     format: 'es',
     // The studio's is the only one.

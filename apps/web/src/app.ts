@@ -5,7 +5,7 @@ import { Part } from './part.js';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { watchDrops } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
-import { Controls } from './panel/controls.js';
+import { Controls, type Hearing } from './panel/controls.js';
 import { byId } from './panel/element.js';
 import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
@@ -25,6 +25,12 @@ const BLOWN = 0.3;
 /** CSS pixels that the controls cover at the lower edge. */
 const COVERED = 118;
 
+/** Pace of time for who asks for less motion. */
+const SLOW = 0.4;
+
+/** Milliseconds until the flame ducks once, and for which the breath lasts. */
+const DUCKS = { after: 700, lasts: 260 };
+
 const START_HINT = 'Move past it, or press Blow and blow';
 
 export class App {
@@ -33,6 +39,12 @@ export class App {
   readonly breath = new Breath();
   private readonly controls: Controls;
   private readonly drawerButton = byId('open-drawer', HTMLButtonElement);
+  private readonly pauseButton = byId('pause', HTMLButtonElement);
+  private readonly backButton = byId('back', HTMLButtonElement);
+  private readonly tuneButton = byId('tune-play', HTMLButtonElement);
+  private readonly greeting = byId('greeting', HTMLElement);
+  /** keys without Ctrl or Alt do something */
+  singleKeys = true;
   readonly help = byId('help', HTMLDialogElement);
   readonly notices = new Notices(byId('notices', HTMLElement));
   private readonly hint = new Hint(byId('hint', HTMLElement));
@@ -44,13 +56,17 @@ export class App {
   private readonly late: Part<Late>;
   private bring: () => void = () => undefined;
   private touched = false;
+  /** it came with words from somebody */
+  private readonly received: boolean;
   private wasLit = true;
+  private heardState: Hearing = 'off';
   /** the model that wind was last offered to */
   private offered: Playing | null = null;
 
   constructor(
     readonly wisp: Library,
     readonly settings: Settings,
+    private readonly own: Readonly<Settings>,
     private readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
@@ -60,6 +76,7 @@ export class App {
       framed: (cost, seconds) => this.onFrame(cost, seconds),
     }, { covered: overlay ? 0 : COVERED, clear: overlay });
     this.stage.detail = settings.detail;
+    if (document.body.classList.contains('calm')) this.stage.pace = SLOW;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
     this.controls = new Controls({
       change: (change) => this.change(change),
@@ -74,6 +91,7 @@ export class App {
       return late;
     });
     this.soon(() => undefined);
+    this.received = settings.name !== '' || settings.from !== '' || settings.wish !== '';
     this.probe = this.makeProbe();
     window.wisp = this.probe;
     this.listen();
@@ -89,7 +107,8 @@ export class App {
   }
 
   private listen(): void {
-    byId('share', HTMLButtonElement).addEventListener('click', () => void this.share());
+    byId('share', HTMLButtonElement).addEventListener('click', () => this.soon(() => this.showCard(this.parts?.card.open !== true)));
+    this.pauseButton.addEventListener('click', () => this.pause());
     byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
     this.drawerButton.addEventListener('click', () => this.toggleDrawer());
     watchDrops(byId('drop', HTMLElement), (dropped) => this.soon((late) => late.openDropped(this, dropped)));
@@ -103,7 +122,7 @@ export class App {
         '1': scene('candle'),
         '2': scene('leaves'),
         i: () => this.toggleDrawer(),
-        s: () => void this.share(),
+        s: () => this.soon(() => this.showCard(true)),
         a: () => this.toggleSenses(),
         n: () => this.change({ noise: this.settings.noise > 0 ? 0 : 1 }),
         p: () => this.pause(),
@@ -113,9 +132,10 @@ export class App {
         '-': () => this.controls.step(-1, this.settings),
         '+': () => this.controls.step(1, this.settings),
         '=': () => this.controls.step(1, this.settings),
-        escape: () => this.showDrawer(false),
+        escape: () => (this.parts?.card.open === true ? this.showCard(false) : this.showDrawer(false)),
       }),
       () => this.touch(),
+      () => this.singleKeys,
     );
   }
 
@@ -124,11 +144,12 @@ export class App {
     if (change.model === undefined && (change.scene !== undefined || change.order !== undefined)) change = { ...change, model: '' };
     const needsModel = this.player.apply(change);
     this.stage.detail = this.settings.detail;
-    const link = linkOf(this.settings);
+    const link = linkOf(this.settings, this.own);
     if (location.hash !== link && !this.overlay) history.replaceState(null, '', link);
     const { playing } = this.player;
     if (needsModel) void this.playChosen();
     else if (playing !== null) this.controls.show(playing.tab, this.settings);
+    this.greet();
     // Where a key has changed what the drawer shows.
     const drawer = this.parts?.drawer;
     if (!needsModel && playing !== null && drawer?.open === true && !drawer.holdsFocus) drawer.fill(playing, this.settings);
@@ -149,6 +170,7 @@ export class App {
     this.controls.show(playing.tab, this.settings);
     this.parts?.drawer.fill(playing, this.settings);
     this.wasLit = true;
+    this.greet();
     if (this.touched) this.hint.hide();
   }
 
@@ -186,9 +208,12 @@ export class App {
     return on;
   }
 
-  private pause(): void {
-    this.stage.paused = !this.stage.paused;
-    if (this.stage.paused) this.hint.show('Paused. P goes on.');
+  pause(): void {
+    const paused = !this.stage.paused;
+    this.stage.paused = paused;
+    this.pauseButton.setAttribute('aria-pressed', String(paused));
+    this.pauseButton.setAttribute('aria-label', paused ? 'Go on' : 'Pause');
+    if (paused) this.hint.show('Paused. P goes on.');
     else this.hint.hide();
   }
 
@@ -208,23 +233,57 @@ export class App {
   showDrawer(open: boolean): void {
     const drawer = this.parts?.drawer;
     if (drawer === undefined || drawer.open === open) return;
+    if (open) this.parts?.card.show(false, this.settings);
     drawer.show(open);
     document.body.classList.toggle('beside', open);
     this.drawerButton.setAttribute('aria-expanded', String(open));
     if (!open) this.drawerButton.focus();
   }
 
-  /** Sends what plays to somebody: by whatever this device sends things, or as a link to paste. */
-  private async share(): Promise<void> {
+  /** Opens what something is made with that can be sent, or closes it. */
+  showCard(open: boolean): void {
+    const card = this.parts?.card;
+    if (card === undefined || card.open === open) return;
     this.touch();
+    this.showDrawer(false);
+    card.show(open, this.settings);
+    document.body.classList.toggle('beside', open);
+    if (!open) byId('share', HTMLButtonElement).focus();
+  }
+
+  /** Sends what plays to somebody: by whatever this device sends things, with a picture of it, or as a link to paste. */
+  async send(): Promise<string> {
     const said = await this.copyLink();
-    const touch = window.matchMedia('(pointer: coarse)').matches;
-    if (touch && 'share' in navigator) {
-      // Closed again by whom it was shown to: nothing to be said.
-      await navigator.share({ title: document.title, url: location.href }).catch(() => undefined);
-      return;
-    }
-    this.notices.say(said === 'Copied' ? 'The link is copied. Whoever opens it can blow it out.' : `${said}.`);
+    if (!window.matchMedia('(pointer: coarse)').matches || !('share' in navigator)) return said;
+    const { name } = this.settings;
+    const data: ShareData = { title: name === '' ? 'Blow it out' : `For ${name}: blow it out`, url: location.href };
+    const picture = new File([await this.stage.snapshot()], 'candle.png', { type: 'image/png' });
+    const whole = { ...data, files: [picture] };
+    // Closed again by whom it was shown to: nothing to be said.
+    await navigator.share(navigator.canShare?.(whole) === true ? whole : data).catch(() => undefined);
+    return 'Sent';
+  }
+
+  /** One candle, back to who sent this, with thanks in its smoke. */
+  async sendBack(): Promise<void> {
+    const { name, from } = this.settings;
+    this.change({ name: from, from: name, candles: 1, age: 0, wish: 'Thank you' });
+    const said = await this.send();
+    this.notices.say(said === 'Copied' ? 'The link is copied: one candle, and your thanks in its smoke. Paste it where the first came from.' : `${said}.`);
+  }
+
+  private greet(): void {
+    const { name, from, wish, tune } = this.settings;
+    const { lit = 1, of = 1 } = this.probe?.burning ?? {};
+    const candle = this.player.playing?.tab === 'candle';
+    const out = lit === 0 && of > 0;
+    // The cake's plaque says whom it is for.
+    const plaque = this.settings.candles > 1 || this.settings.age > 0;
+    const words = !candle ? '' : out && wish !== '' ? wish : [name && !plaque && `For ${name}`, from && `from ${from}`].filter(Boolean).join(', ');
+    if (this.greeting.textContent !== words) this.greeting.textContent = words;
+    this.greeting.classList.toggle('wished', out && wish !== '');
+    this.backButton.hidden = !candle || !out || !this.received || this.overlay;
+    this.tuneButton.hidden = !candle || tune === 0;
   }
 
   async copyLink(): Promise<string> {
@@ -235,7 +294,7 @@ export class App {
       if (playing.bytes.length > MAX_PACKED_BYTES) return 'Too large for a link: save and send it';
       settings.model = await packModel(playing.bytes);
     }
-    const link = new URL(linkOf(settings), location.href).href;
+    const link = new URL(linkOf(settings, this.own), location.href).href;
     history.replaceState(null, '', link);
     try {
       await navigator.clipboard.writeText(link);
@@ -263,12 +322,17 @@ export class App {
     if (this.probe.firstPicture === 0 && (this.stage.shown || this.stage.frames > 60)) {
       this.probe.firstPicture = performance.now();
       this.bring();
+      // As if whoever came in had breathed.
+      if (!this.overlay && this.stage.pace === 1) this.duck();
     }
     if (this.parts !== null) {
       const { lit, of } = playing.scene instanceof CandleScene ? playing.scene.burning() : { lit: 0, of: 0 };
       this.parts.senses.frame(lit, of, reading.wind, this.parts.ear.state !== 'off');
       this.parts.drawer.frame(reading, cost, seconds);
-      this.controls.hear(this.parts.ear.state, this.parts.ear.level);
+      const { state } = this.parts.ear;
+      if (state === 'listening' && this.heardState === 'asking' && !this.parts.tuning.isOpen) this.hint.show('Now: blow', 4);
+      this.heardState = state;
+      this.controls.hear(state, this.parts.ear.level);
       this.parts.tuning.frame();
     }
     this.probe.frames = this.stage.frames;
@@ -277,6 +341,12 @@ export class App {
     this.offerWind(playing, reading.wind);
     if (playing.scene instanceof CandleScene) this.watchCandles(playing.scene);
     else this.watchOthers(playing.scene);
+  }
+
+  private duck(): void {
+    const { keys } = this.breath;
+    setTimeout(() => keys.press('ArrowUp'), DUCKS.after);
+    setTimeout(() => keys.release('ArrowUp'), DUCKS.after + DUCKS.lasts);
   }
 
   /** Says, once for each model, that it has never felt wind, and what can be done about it. */
@@ -305,6 +375,9 @@ export class App {
     const allLit = burning.lit === burning.of;
     if (!allLit) this.parts?.ear.blownOut();
     this.controls.setActive(!allLit);
+    if (burning.lit === 0 || allLit) this.greet();
+    if (burning.lit === 0 && this.parts?.tune.plays === true) this.parts.tune.stop();
+    this.tuneButton.setAttribute('aria-pressed', String(this.parts?.tune.plays === true));
     if (allLit === this.wasLit) return;
     this.wasLit = allLit;
     this.stage.canvas.setAttribute('aria-label', scene.describe());

@@ -4,11 +4,14 @@ import './late.css';
 import type { App } from './app.js';
 import type { Dropped } from './drops.js';
 import { isLesson, readDropped, refusalOf, Refused } from './files.js';
+import { Card } from './panel/card.js';
 import { Drawer } from './panel/drawer.js';
 import { byId } from './panel/element.js';
 import { fillHelp } from './panel/help.js';
-import { saveGif, saveLoop, savePicture } from './saving.js';
+import { saveGif, saveLoop, savePicture, type Happening } from './saving.js';
 import { Senses } from './senses/senses.js';
+import { fetchPart } from './part.js';
+import { Tune } from './senses/tune.js';
 import { StudioDoor } from './studio_door.js';
 import { Tuning } from './panel/tuning.js';
 import { Ear } from './wind/ear.js';
@@ -22,6 +25,8 @@ export interface Parts {
   senses: Senses;
   door: StudioDoor;
   tuning: Tuning;
+  card: Card;
+  tune: Tune;
 }
 
 const UNTUNED = {
@@ -47,15 +52,50 @@ export function furnish(app: App): Parts {
     change: (change) => app.change(change),
     open: (file) => openDropped(app, { files: [file], entries: [] }),
     closed: () => app.showDrawer(false),
-    link: () => app.copyLink(),
-    picture: () => savePicture(app.stage),
-    loop: () => saveLoop(app.stage.canvas),
-    gif: () => saveGif(app.stage.canvas),
+    send: () => app.showCard(true),
+    viewing: () => viewingTest(app),
     senses: () => app.toggleSenses(),
   });
-  fillHelp(app.help);
+  const tune = new Tune();
+  const card = new Card(byId('card', HTMLElement), {
+    change: (change) => app.change(change),
+    closed: () => app.showCard(false),
+    send: () => app.send(),
+    picture: () => savePicture(app.stage),
+    film: () => saveLoop(app.stage.canvas, blownOut(app)),
+    gif: () => saveGif(app.stage.canvas, blownOut(app)),
+    tune: () => tune.toggle(),
+  });
+  byId('tune-play', HTMLButtonElement).addEventListener('click', () => tune.toggle());
+  byId('back', HTMLButtonElement).addEventListener('click', () => void app.sendBack());
+  fillHelp(app.help, app);
   if (app.player.playing !== null) drawer.fill(app.player.playing, app.settings);
-  return { ear, drawer, senses: new Senses(), door: new StudioDoor(app), tuning };
+  return { ear, drawer, senses: new Senses(), door: new StudioDoor(app), tuning, card, tune };
+}
+
+/** Twenty pairs of a filmed flame and of the one that plays. */
+async function viewingTest(app: App): Promise<string> {
+  const { playing } = app.player;
+  if (playing === null) return '';
+  const { ANSWERS, rigPairs, Viewing } = await fetchPart(() => import('./viewing/index.js'));
+  const pairs = await rigPairs(app.wisp, playing.bytes, ANSWERS);
+  new Viewing(pairs, { model: playing.file, from: 'films of the candle rig' });
+  return 'Answered';
+}
+
+/** What a film of it shows: it burns, is blown out, smokes, and is lit again. */
+export function blownOut(app: App): Happening {
+  const { keys } = app.breath;
+  const scene = app.player.playing?.scene;
+  const wished = app.settings.wish !== '';
+  return {
+    seconds: wished ? 9 : 6.5,
+    acts: [
+      [0.9, () => keys.press('Space')],
+      [2.1, () => keys.release('Space')],
+      [wished ? 7 : 4.6, () => scene?.act()],
+    ],
+  };
 }
 
 /** Says what went wrong, as a sentence with its stop. */

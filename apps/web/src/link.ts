@@ -1,5 +1,6 @@
 // What a link carries after its #: scene, seed and settings. Nothing of it is kept anywhere else.
 
+import { figuresOf, MAX_CANDLES } from '@wisp/player/parts/candle/room';
 import { MAX_LEAVES } from '@wisp/player/parts/leaves/limits';
 
 export type SceneName = 'candle' | 'leaves';
@@ -18,9 +19,19 @@ export interface Settings {
   detail: number;
   /** a model instead of the shipped one: an address of this origin, or the model itself (model_link.ts); '': shipped */
   model: string;
+  /** an age that stands on the cake in figures; 0: there are candles */
+  age: number;
+  /** whom the cake is for, who sends it, and what its smoke says when all are out */
+  name: string;
+  from: string;
+  wish: string;
+  /** 1: there is a tune, for whoever asks for it */
+  tune: number;
 }
 
-export { MAX_LEAVES };
+export { MAX_CANDLES, MAX_LEAVES };
+/** Letters of each of its words. */
+export const LETTERS = { name: 24, from: 24, wish: 80 } as const;
 /** Of the point systems that are shipped for lessons. */
 export const ORDERS: readonly number[] = [2, 4, 6];
 
@@ -33,16 +44,26 @@ export const DEFAULTS: Readonly<Settings> = {
   order: 0,
   detail: 0,
   model: '',
+  age: 0,
+  name: '',
+  from: '',
+  wish: '',
+  tune: 0,
 };
 
-const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model'>, readonly [number, number, boolean]>> = {
+const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model' | keyof typeof LETTERS>, readonly [number, number, boolean]>> = {
   seed: [0, 2 ** 32 - 1, true],
   noise: [0, 2, false],
-  candles: [1, 12, true],
+  candles: [1, MAX_CANDLES, true],
+  age: [0, 999, true],
+  tune: [0, 1, true],
   leaves: [1, MAX_LEAVES, true],
   order: [0, 6, true],
   detail: [0, 2, false],
 };
+
+/** Words in one line, of at most so many letters. */
+export const shortened = (words: string, most: number): string => [...words.replace(/\s+/g, ' ').trim()].slice(0, most).join('');
 
 /** Reads what follows a link's #. What is missing, unknown or out of range is as it is in `otherwise`. */
 export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = DEFAULTS): Settings {
@@ -51,6 +72,7 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   const scene = given.get('scene');
   if (scene === 'candle' || scene === 'leaves') settings.scene = scene;
   settings.model = given.get('model') ?? otherwise.model;
+  for (const [name, most] of Object.entries(LETTERS) as [keyof typeof LETTERS, number][]) settings[name] = shortened(given.get(name) ?? otherwise[name], most);
   for (const [name, [low, high, whole]] of Object.entries(RANGES)) {
     const text = given.get(name);
     const value = text === null || text.trim() === '' ? NaN : Number(text);
@@ -64,11 +86,17 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
 /** Whether it asks for what burns alone, on nothing: for films and for other people's pictures. */
 export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
 
-/** The shortest link that carries these settings, from its # on. */
-export function linkOf(settings: Readonly<Settings>): string {
+/** What a scene shows of them. */
+export const shownOf = ({ age, name, wish }: Readonly<Settings>): { figures: string; name: string; wish: string } => ({ figures: age > 0 ? figuresOf(String(age)) : '', name, wish });
+
+/**
+ * The shortest link that carries these settings, from its # on. `own`: what this visitor began with; a preference of
+ * theirs is nobody else's.
+ */
+export function linkOf(settings: Readonly<Settings>, own: Readonly<Settings> = DEFAULTS): string {
   const given = new URLSearchParams();
-  for (const [name, value] of Object.entries(settings)) {
-    if (value !== DEFAULTS[name as keyof Settings]) given.set(name, String(value));
+  for (const [name, value] of Object.entries(settings) as [keyof Settings, unknown][]) {
+    if (value !== DEFAULTS[name] && value !== own[name]) given.set(name, String(value));
   }
   // Scene and seed are always told: a link is there to say them.
   given.set('scene', settings.scene);

@@ -4,10 +4,9 @@ import { loadLibrary } from '@wisp/player/parts/library';
 import { App } from './app.js';
 import { DEFAULTS, isOverlay, settingsFromLink, type Settings } from './link.js';
 
-/** With `prefers-reduced-motion`: a calmer flame, fewer leaves. */
-function startingSettings(): Settings {
-  const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
-  return settingsFromLink(location.hash, calm ? { ...DEFAULTS, noise: 0.3, leaves: 25 } : DEFAULTS);
+/** Of who asks for less motion: a calmer flame, fewer leaves. They are no part of a link. */
+function preferred(calm: boolean): Settings {
+  return calm ? { ...DEFAULTS, noise: 0.3, leaves: 25 } : { ...DEFAULTS };
 }
 
 /** The page's own files are kept by the browser, so that it opens without a network. */
@@ -31,7 +30,10 @@ async function start(): Promise<void> {
   }
   const overlay = isOverlay(location.hash);
   document.body.classList.toggle('overlay', overlay);
-  const app = new App(await loadLibrary(), startingSettings(), overlay);
+  const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+  document.body.classList.toggle('calm', calm);
+  const own = preferred(calm);
+  const app = new App(await loadLibrary(), settingsFromLink(location.hash, own), own, overlay);
   await app.start();
   keepForOffline();
 }

@@ -3,7 +3,7 @@
 import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
-import { DEFAULTS, type SceneName, type Settings } from './link.js';
+import { DEFAULTS, shownOf, type SceneName, type Settings } from './link.js';
 import type { Shown } from './panel/drawer.js';
 import { fetchShipped, SHIPPED_LEAF, shippedFlame } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
@@ -84,7 +84,7 @@ export class Player {
 
   private sceneSettings(tab: SceneName | null): SceneSettings {
     const { seed, noise, candles, leaves } = this.settings;
-    return { seed, noise, count: tab === 'leaves' ? leaves : candles };
+    return { seed, noise, count: tab === 'leaves' ? leaves : candles, ...shownOf(this.settings) };
   }
 
   private async play(bytes: Uint8Array, file: string, shipped: boolean, turn: number): Promise<void> {

@@ -1,9 +1,9 @@
-// What is to be kept of the picture: a still, or three seconds that move, as a film or as a GIF. Made here; nothing is sent anywhere.
+// What is to be kept of the picture: a still, or some seconds in which it is blown out and lit again, as a film or as a
+// GIF. Made here; nothing is sent anywhere.
 
 import { fetchPart } from './part.js';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
-const SECONDS = 3;
 const FRAMES = 30;
 const SLICE_MS = 100;
 /** Seconds in which the first picture must be encoded. */
@@ -29,15 +29,31 @@ export async function savePicture(stage: Stage): Promise<string> {
   return 'Saved';
 }
 
-/** Saves what the next seconds of a canvas show, as a GIF. */
-export async function saveGif(canvas: HTMLCanvasElement): Promise<string> {
+/** What happens while it is filmed: so many seconds of it, and what is done at which of them. */
+export interface Happening {
+  seconds: number;
+  acts: readonly (readonly [at: number, act: () => void])[];
+}
+
+async function happen({ seconds, acts }: Happening): Promise<void> {
+  let passed = 0;
+  for (const [at, act] of [...acts, [seconds, () => undefined] as const]) {
+    await after(at - passed);
+    passed = at;
+    act();
+  }
+}
+
+/** Saves what a canvas shows meanwhile, as a GIF. */
+export async function saveGif(canvas: HTMLCanvasElement, happening: Happening): Promise<string> {
   const { gifOf } = await fetchPart(() => import('./gif.js'));
-  saveFile(await gifOf(canvas, SECONDS), 'wisp.gif');
+  void happen(happening);
+  saveFile(await gifOf(canvas, happening.seconds), 'wisp.gif');
   return 'Saved';
 }
 
-/** Saves what the next seconds of a canvas show, as a film. */
-export async function saveLoop(canvas: HTMLCanvasElement): Promise<string> {
+/** Saves what a canvas shows meanwhile, as a film. */
+export async function saveLoop(canvas: HTMLCanvasElement, happening: Happening): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';
   const recorder = new MediaRecorder(canvas.captureStream(FRAMES), { mimeType: kind, videoBitsPerSecond: 8e6 });
@@ -52,7 +68,7 @@ export async function saveLoop(canvas: HTMLCanvasElement): Promise<string> {
   recorder.start(SLICE_MS);
   // A busy machine takes its time until it encodes anything.
   await Promise.race([begun, after(PATIENCE)]);
-  await after(SECONDS);
+  await happen(happening);
   recorder.stop();
   await ended;
   if (parts.every(({ size }) => size === 0)) return 'No picture came: try again';

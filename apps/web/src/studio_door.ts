@@ -4,6 +4,7 @@ import type { App } from './app.js';
 import type { Dropped } from './drops.js';
 import { Part } from './part.js';
 import { byId, element } from './panel/element.js';
+import { blownOut } from './late.js';
 import { saveGif, saveLoop } from './saving.js';
 import type { Room } from './studio/room.js';
 
@@ -86,7 +87,10 @@ export class StudioDoor {
       blow: async (file, model) => {
         await app.player.playFile(file, model);
         this.leave();
-        if (app.player.playing?.model.inputs.length === 0) await app.player.borrowWind();
+        if (app.player.playing?.model.inputs.length === 0) {
+          await app.player.borrowWind();
+          app.notices.say('It was filmed without wind: how it leans and goes out is borrowed from the flame that comes with this page.');
+        }
         if (app.parts?.ear.state === 'off') app.toggleMicrophone();
       },
       film: async (file, model, kind) => {
@@ -95,7 +99,7 @@ export class StudioDoor {
         app.stage.start();
         await new Promise((resolve) => setTimeout(resolve, LIT));
         try {
-          return await (kind === 'gif' ? saveGif : saveLoop)(app.stage.canvas);
+          return await (kind === 'gif' ? saveGif : saveLoop)(app.stage.canvas, blownOut(app));
         } finally {
           if (this.inside) app.stage.stop();
         }

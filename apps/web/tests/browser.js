@@ -14,6 +14,8 @@ const types = {
   css: 'text/css',
   wasm: 'application/wasm',
   svg: 'image/svg+xml',
+  jpg: 'image/jpeg',
+  png: 'image/png',
   webmanifest: 'application/manifest+json',
 };
 
@@ -83,7 +85,7 @@ export async function openBrowser(flags = []) {
 }
 
 /** Milliseconds until what does not happen has failed: many times what anything takes, also on a busy machine. */
-const patience = 180_000;
+const patience = 120_000;
 
 /** Waits until something holds; `what` says so when it does not. */
 export async function seen(what, holds) {

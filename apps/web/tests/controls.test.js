@@ -132,6 +132,9 @@ describe('the candle', { skip }, () => {
     await until(page, 'one candle', () => window.wisp.burning.of === 1);
     await page.focus('#count');
     await page.keyboard.press('End');
+    await until(page, 'a hundred candles', () => window.wisp.burning.of === 100);
+    assert.equal(await page.textContent('#count-shown'), '100');
+    await page.evaluate(() => (location.hash = location.hash.replace('candles=100', 'candles=12')));
     await until(page, 'twelve candles', () => window.wisp.burning.of === 12);
     assert.equal(await page.textContent('#count-shown'), '12');
     assert.equal(await page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('candles')), '12');
@@ -413,6 +416,42 @@ describe('the page', { skip }, () => {
       await themed.close();
     });
   }
+
+  it('ducks once as whoever comes in has breathed, and not for who asked for less motion', async () => {
+    const before = () => {
+      window.most = 0;
+      const look = () => {
+        window.most = Math.max(window.most, Math.abs(window.wisp?.wind ?? 0));
+        requestAnimationFrame(look);
+      };
+      look();
+    };
+    const ducking = await opened.page('#scene=candle&seed=3&detail=0.1', { before });
+    await until(ducking, 'it feels a breath', () => window.most > 0.1);
+    await until(ducking, 'it is over', () => Math.abs(window.wisp.wind) < 0.02);
+    assert.equal(await ducking.evaluate(() => window.wisp.burning.lit), 1);
+    await ducking.close();
+    const calm = await opened.page('#scene=candle&seed=3&detail=0.1', { before, reducedMotion: 'reduce' });
+    await calm.waitForTimeout(2500);
+    assert.equal(await calm.evaluate(() => window.most), 0);
+    await calm.close();
+  });
+
+  it('has single keys that can be switched off, as who speaks to a machine needs it', async () => {
+    const spoken = await opened.page('#scene=candle&seed=3&detail=0.2');
+    await spoken.click('#open-help');
+    await until(spoken, 'the help', () => document.getElementById('help').open);
+    await spoken.uncheck('[data-knob=keys]');
+    await spoken.click('#help header button');
+    await spoken.focus('#stage');
+    for (const key of ['i', '2', '+', 'b']) await spoken.keyboard.press(key);
+    assert.deepEqual(await spoken.evaluate(() => [document.getElementById('drawer').hidden, window.wisp.hearing, window.wisp.burning?.of]), [true, 'off', 1]);
+    // What is no single letter goes on: Space blows.
+    await spoken.keyboard.down('Space');
+    await until(spoken, 'it is out', () => window.wisp.burning.lit === 0);
+    await spoken.keyboard.up('Space');
+    await spoken.close();
+  });
 
   it('stores nothing', async () => {
     assert.equal(await page.evaluate(() => localStorage.length + sessionStorage.length + document.cookie.length), 0);

@@ -6,6 +6,7 @@ import { after, before, describe, it } from 'node:test';
 import { chromiumPath, drop, openBrowser, openDrawer, until } from './browser.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
+const noneLit = () => window.wisp.burning?.lit === 0;
 const bytesOf = (name) => readFileSync(new URL(`../public/models/${name}`, import.meta.url));
 
 describe('sharing', { skip }, () => {
@@ -20,9 +21,10 @@ describe('sharing', { skip }, () => {
     const flame = bytesOf('flame-2.wisp');
     await drop(page, 'mine.wisp', flame);
     await until(page, 'it plays', () => /Playing mine.wisp/.test(document.getElementById('notices').textContent));
-    await openDrawer(page);
-    await page.click('[data-file=link]');
-    await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=link]').textContent));
+    await page.click('#share');
+    await until(page, 'it is open', () => !document.getElementById('card').hidden);
+    await page.click('[data-file=send]');
+    await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=send]').textContent));
     const link = page.url();
     assert.match(link, /model=packed/);
     assert.ok(link.length < 16_000, `${link.length} letters`);
@@ -52,38 +54,177 @@ describe('sharing', { skip }, () => {
     await far.close();
   });
 
-  it('the round button copies a link to what plays', async () => {
-    const plain = await opened.page('#scene=candle&seed=9&candles=5&detail=0.2');
+  it('the round button opens what something is made with, and copies a link to it', async () => {
+    const plain = await opened.page('#scene=candle&seed=9&detail=0.2');
     await plain.context().grantPermissions(['clipboard-read', 'clipboard-write']);
     await plain.click('#share');
-    await until(plain, 'it says so', () => /link is copied/.test(document.getElementById('notices').textContent));
-    const copied = await plain.evaluate(() => navigator.clipboard.readText());
-    assert.match(copied, /candles=5/);
-    assert.match(copied, /seed=9/);
+    await until(plain, 'it is open', () => !document.getElementById('card').hidden);
+    await plain.fill('#card-name', 'Ada');
+    await plain.fill('#card-from', 'Ben');
+    await plain.fill('#card-wish', 'Happy birthday, dear Ada!');
+    await plain.fill('#card-age', '36');
+    await until(plain, '36 candles', () => window.wisp.burning.of === 36);
+    await plain.check('#card-figures');
+    await until(plain, 'two figures', () => window.wisp.burning.of === 2);
+    await plain.click('[data-file=send]');
+    await until(plain, 'it says so', () => document.querySelector('[data-file=send]').textContent === 'Copied');
+    const copied = new URL(await plain.evaluate(() => navigator.clipboard.readText()));
+    const said = Object.fromEntries(new URLSearchParams(copied.hash.slice(1)));
+    assert.deepEqual({ ...said, detail: undefined }, { scene: 'candle', seed: '9', candles: '36', age: '36', name: 'Ada', from: 'Ben', wish: 'Happy birthday, dear Ada!', detail: undefined });
+    assert.deepEqual(plain.errors, []);
     await plain.close();
   });
 
-  it('a picture is saved, and three seconds that move', async () => {
+  it('whoever gets it blows it out, reads the wish, and sends one back by one button', async () => {
+    const got = await opened.page('#scene=candle&seed=9&age=7&name=Ada&from=Ben&wish=Happy+birthday&detail=0.2');
+    await got.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    assert.match(await got.getAttribute('#stage', 'aria-label'), /A cake for Ada with candles that say 7/);
+    assert.equal(await got.textContent('#greeting'), 'from Ben');
+    assert.equal(await got.isVisible('#back'), false);
+    await got.focus('#stage');
+    await got.keyboard.down('Space');
+    await until(got, 'it is out', noneLit);
+    await got.keyboard.up('Space');
+    await until(got, 'the wish', () => document.getElementById('greeting').textContent === 'Happy birthday');
+    await until(got, 'all is here', () => document.querySelector('#card button') !== null);
+    await got.click('#back');
+    await until(got, 'it says so', () => /your thanks in its smoke/.test(document.getElementById('notices').textContent));
+    const back = new URLSearchParams(new URL(await got.evaluate(() => navigator.clipboard.readText())).hash.slice(1));
+    assert.deepEqual([back.get('name'), back.get('from'), back.get('wish'), back.get('age')], ['Ben', 'Ada', 'Thank you', null]);
+    assert.deepEqual(got.errors, []);
+    await got.close();
+  });
+
+  it('smoke writes the wish: where letters are there is light', async () => {
+    const dense = async (wish) => {
+      const got = await opened.page(`#scene=candle&seed=9&noise=0&detail=0.25${wish}`, { viewport: { width: 480, height: 480 } });
+      await until(got, 'the air is here', () => window.wisp.firstPicture > 0 && document.querySelector('#card button') !== null && window.wisp.frames > 20);
+      await got.focus('#stage');
+      await got.keyboard.down('Space');
+      await until(got, 'it is out', noneLit);
+      await got.keyboard.up('Space');
+      // A slow machine's frames are a tenth of a second each.
+      const frames = await got.evaluate(() => window.wisp.frames);
+      await got.waitForTimeout(2500);
+      await until(got, 'smoke', (many) => window.wisp.frames > many + 25, frames);
+      const light = await got.evaluate(
+        () =>
+          new Promise((resolve) =>
+            requestAnimationFrame(() => {
+              const canvas = document.getElementById('stage');
+              const gl = canvas.getContext('webgl2');
+              const [width, height] = [canvas.width, Math.round(canvas.height * 0.3)];
+              const picture = new Uint8Array(4 * width * height);
+              gl.readPixels(0, Math.round(canvas.height * 0.6), width, height, gl.RGBA, gl.UNSIGNED_BYTE, picture);
+              // Left of the wick, where no other smoke is.
+              let [sum, many] = [0, 0];
+              for (let k = 0; k < width * height; ++k) {
+                if (k % width < 0.12 * width || k % width > 0.36 * width) continue;
+                sum += picture[4 * k + 2];
+                many += 1;
+              }
+              resolve(sum / many);
+            }),
+          ),
+      );
+      await got.close();
+      return light;
+    };
+    const [plain, written] = [await dense(''), await dense('&wish=A+WISH+COMES+TRUE')];
+    assert.ok(written > 1.15 * plain, `light ${written}, without a wish ${plain}`);
+  });
+
+  it('a tune sounds only when somebody asks for it, and ends when all is out', async () => {
+    const before = () => {
+      window.notes = 0;
+      const real = OscillatorNode.prototype.start;
+      OscillatorNode.prototype.start = function (...when) {
+        window.notes += 1;
+        return real.apply(this, when);
+      };
+    };
+    const sung = await opened.page('#scene=candle&candles=3&tune=1&detail=0.2', { before });
+    await until(sung, 'all is here', () => document.querySelector('#card button') !== null);
+    assert.equal(await sung.evaluate(() => window.notes), 0);
+    await sung.click('#tune-play');
+    assert.ok((await sung.evaluate(() => window.notes)) > 70);
+    assert.equal(await sung.getAttribute('#tune-play', 'aria-pressed'), 'true');
+    await sung.focus('#stage');
+    await sung.keyboard.down('Space');
+    await until(sung, 'it is out', noneLit);
+    await sung.keyboard.up('Space');
+    await until(sung, 'it is silent', () => document.getElementById('tune-play').getAttribute('aria-pressed') === 'false');
+    assert.deepEqual(sung.errors, []);
+    await sung.close();
+  });
+
+  it('a preference for less motion is in nobody else\'s link', async () => {
+    const calm = await opened.page('#scene=candle&seed=9&detail=0.2', { reducedMotion: 'reduce' });
+    await calm.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await calm.click('#share');
+    await until(calm, 'it is open', () => !document.getElementById('card').hidden);
+    await calm.click('[data-file=send]');
+    await until(calm, 'it says so', () => document.querySelector('[data-file=send]').textContent === 'Copied');
+    assert.doesNotMatch(await calm.evaluate(() => navigator.clipboard.readText()), /noise|leaves=/);
+    // And it is slow, and can be paused by a finger.
+    assert.equal(await calm.isVisible('#pause'), true);
+    await calm.click('#pause');
+    const wick = () => calm.evaluate(() => window.wisp.answer);
+    const still = await wick();
+    await calm.waitForTimeout(600);
+    assert.equal(await wick(), still);
+    await calm.click('#pause');
+    await until(calm, 'it goes on', (before) => window.wisp.answer !== before, still);
+    await calm.close();
+  });
+
+  it('shows a card where its link is pasted: title, words, and a picture that is there', async () => {
+    const html = await (await fetch(opened.address)).text();
+    const told = Object.fromEntries([...html.matchAll(/<meta (?:property|name)="(og:[^"]+|twitter:card|description)" content="([^"]+)"/g)].map(([, name, words]) => [name, words]));
+    assert.equal(told['twitter:card'], 'summary_large_image');
+    assert.ok(told['og:title'].length < 60 && told['og:description'].length < 160, JSON.stringify(told));
+    const picture = Buffer.from(await (await fetch(new URL(told['og:image'], opened.address))).arrayBuffer());
+    assert.ok(picture.length > 10_000 && picture.length < 300_000, `${picture.length} bytes`);
+    const shown = await opened.browser.newPage();
+    await shown.setContent(`<img src="data:image/jpeg;base64,${picture.toString('base64')}">`);
+    assert.deepEqual(await shown.$eval('img', (image) => image.decode().then(() => [image.naturalWidth, image.naturalHeight])), [1200, 630]);
+    await shown.close();
+    for (const [, address] of html.matchAll(/<link rel="(?:icon|apple-touch-icon|manifest)" href="([^"]+)"/g)) assert.equal((await fetch(new URL(address, opened.address))).status, 200, address);
+  });
+
+  it('a picture is saved, and a film and a GIF in which it is blown out', async () => {
+    await page.evaluate(() => (location.hash = '#scene=candle&seed=3&detail=0.2'));
+    if (await page.evaluate(() => document.getElementById('card').hidden)) await page.click('#share');
+    await until(page, 'it is open', () => !document.getElementById('card').hidden);
     const [picture] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=picture]')]);
     assert.deepEqual([...readFileSync(await picture.path()).subarray(1, 4)], [...Buffer.from('PNG')]);
+    const wasOut = page.evaluate(
+      () =>
+        new Promise((resolve) => {
+          const look = () => (window.wisp.burning.lit === 0 ? resolve(true) : requestAnimationFrame(look));
+          look();
+        }),
+    );
     const [loop] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=loop]')]);
     assert.match(loop.suggestedFilename(), /^wisp\.(webm|mp4)$/);
     const film = readFileSync(await loop.path());
     assert.ok(film.length > 1_000, `${film.length} bytes`);
+    assert.equal(await wasOut, true, 'it was blown out while it was filmed');
+    await until(page, 'it burns again', () => window.wisp.burning.lit === 1);
     const [gif] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=gif]')]);
     const bytes = readFileSync(await gif.path());
     assert.equal(bytes.subarray(0, 6).toString('latin1'), 'GIF89a');
     assert.ok(bytes.includes('NETSCAPE2.0'), 'it goes on for ever');
-    // Its own blocks of timing: sixty pictures, of which a busy machine draws few anew.
+    // Its own blocks of timing: twenty pictures a second, of which a busy machine draws few anew.
     const pictures = bytes.toString('latin1').split('\x21\xf9\x04').slice(1);
-    assert.equal(pictures.length, 60);
+    assert.equal(pictures.length, 130);
     assert.ok(new Set(pictures).size > 1, 'it moves');
   });
 
   it('as an overlay it shows what burns on nothing, and no control', async () => {
     const over = await opened.page('#overlay&scene=candle&seed=3&detail=0.5');
     await until(over, 'some pictures', () => window.wisp.frames > 8);
-    assert.equal(await over.locator('button:visible').count(), 0);
+    assert.equal(await over.locator('button:visible:not(#notices button)').count(), 0);
     const alpha = await over.evaluate(
       () =>
         new Promise((resolve) => {

@@ -55,6 +55,19 @@ function madeBreath(seconds) {
   });
 }
 
+/** A blow at a microphone that takes its rumble away: a hiss from 0.8 to 3.2 kHz. */
+export function hiss(seconds, level) {
+  const next = noise(31);
+  const [low, high] = [800, 3200].map((hertz) => 1 - Math.exp((-2 * Math.PI * hertz) / rate));
+  const state = new Float64Array(8);
+  const passed = (value) => {
+    for (let k = 0; k < 4; ++k) value -= state[k] += low * (value - state[k]);
+    for (let k = 4; k < 8; ++k) value = state[k] += high * (value - state[k]);
+    return value;
+  };
+  return loud(Float32Array.from({ length: Math.round(seconds * rate) }, () => passed(next())), level);
+}
+
 function samplesOf(path) {
   const bytes = readFileSync(path);
   let at = 12;

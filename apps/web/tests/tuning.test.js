@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { chromiumPath, openBrowser, until } from './browser.js';
-import { breath, room, writeSound } from './sound.js';
+import { breath, hiss, room, writeSound } from './sound.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const phone = { viewport: { width: 390, height: 844 } };
@@ -138,6 +138,32 @@ describe('tuning', { skip }, () => {
     assert.equal(await page.isVisible('#tuning'), false);
   });
 
+  it('lets one of several microphones be chosen, and listens to that one', async () => {
+    const { page } = heard;
+    await page.focus('#stage');
+    await page.keyboard.press('b');
+    await until(page, 'it listens', () => window.wisp.hearing === 'listening');
+    await page.keyboard.press('t');
+    await until(page, 'a choice', () => document.querySelectorAll('#tuning-microphone option').length > 1 && !document.querySelector('.microphones').hidden);
+    const ids = await page.$$eval('#tuning-microphone option', (options) => options.map(({ value }) => value));
+    await page.evaluate(() => {
+      const real = navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices);
+      navigator.mediaDevices.getUserMedia = (wanted) => {
+        window.asked = wanted.audio.deviceId;
+        return real(wanted);
+      };
+    });
+    const other = ids.at(-1);
+    await page.selectOption('#tuning-microphone', other);
+    await until(page, 'it was asked for', () => window.asked !== undefined);
+    assert.deepEqual(await page.evaluate(() => window.asked), { exact: other });
+    await until(page, 'it listens', () => window.wisp.hearing === 'listening');
+    await page.keyboard.press('Escape');
+    await page.focus('#stage');
+    await page.keyboard.press('b');
+    await until(page, 'it is off', () => window.wisp.hearing === 'off');
+  });
+
   it('says that it did not hear a breath, and asks again', async () => {
     const { page } = heard;
     await page.focus('#stage');
@@ -165,6 +191,28 @@ describe('blow after blow that puts nothing out', { skip }, () => {
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
     await page.click('text=Tune it to my breath');
     assert.equal(await page.isVisible('#tuning'), true);
+    await opened.close();
+  });
+});
+
+describe('a microphone that takes the rumble of breath away', { skip }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
+  after(() => rmSync(folder, { recursive: true }));
+
+  it('is tuned by who blows at it, and a blow puts the candle out from then on', async () => {
+    // Soft and hard at the times of the two steps; then quiet, then hard blows.
+    const pieces = [room(7), hiss(6, 0.03), room(0.3), hiss(2.2, 0.2), room(4), ...Array.from({ length: 6 }, () => [hiss(1, 0.2), room(2)]).flat(), room(5)];
+    const { opened, page, at, between } = await hearing(folder, pieces, phone);
+    await page.click('#blow');
+    await until(page, 'it listens', () => window.wisp.hearing === 'listening');
+    await page.click('#tune');
+    await at(6);
+    await page.keyboard.press('Enter');
+    for (const step of ['Breathe gently', 'Blow hard', 'Tuned']) await until(page, step, (title) => document.getElementById('tuning-title').textContent === title, step);
+    assert.match(await page.textContent('#notices'), /goes by loudness/);
+    await page.keyboard.press('Escape');
+    await until(page, 'it is out', () => window.wisp.burning.lit === 0);
+    assert.ok((await between(0, 15)).every(({ lit }) => lit === 1), 'not before it was tuned');
     await opened.close();
   });
 });

@@ -62,7 +62,7 @@ async function timesOf(track: InputVideoTrack): Promise<number[]> {
 }
 
 /** Key frames at the ends of the film's quarters. */
-async function glimpse(engine: Engine, track: InputVideoTrack, first: number, last: number): Promise<void> {
+async function glimpse(engine: Engine, track: InputVideoTrack, first: number, last: number, stated: VideoColorSpaceInit): Promise<void> {
   const packets = new EncodedPacketSink(track);
   const frames = new VideoSampleSink(track);
   let before = first;
@@ -73,7 +73,7 @@ async function glimpse(engine: Engine, track: InputVideoTrack, first: number, la
     const sample = await frames.getSample(packet.timestamp);
     if (sample === null) continue;
     const frame = sample.toVideoFrame();
-    engine.frame(await rawOfFrame(frame, sample.rotation), 0, true);
+    engine.frame(await rawOfFrame(frame, sample.rotation, stated), 0, true);
     frame.close();
     sample.close();
   }
@@ -112,13 +112,14 @@ export async function showFilm(
     if (!(rate > 0)) throw new StudioError(`${settings.name} has ${times.length === 1 ? 'one frame' : 'no frames'}: give a film of some seconds`);
     engine.begin({ ...settings, rate });
     const [first, last] = [Math.min(...times.slice(0, 64)), times.reduce((a, b) => Math.max(a, b), 0)];
-    await glimpse(engine, track, first, last);
+    const stated = await track.getColorSpace();
+    await glimpse(engine, track, first, last, stated);
     let begin = null;
     let done = 0;
     for await (const sample of new VideoSampleSink(track).samples()) {
       begin ??= sample.timestamp;
       const frame = sample.toVideoFrame();
-      const picture = await rawOfFrame(frame, sample.rotation);
+      const picture = await rawOfFrame(frame, sample.rotation, stated);
       frame.close();
       sample.close();
       engine.frame(picture, sample.timestamp);

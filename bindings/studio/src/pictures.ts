@@ -21,8 +21,15 @@ function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderin
   return { layout: 'rgb', width, height, data, planes };
 }
 
+/**
+ * Which of the two sets of weights made luma and colour differences. A film that states none is BT.601, as in the program
+ * (src/capture/media/frame_picture.cpp), whatever the browser guesses from its size: `stated` is what its file says,
+ * undefined where there is no file and the camera's frame knows.
+ */
+export const isBt709 = (stated: VideoColorSpaceInit | undefined, frame: VideoColorSpaceInit): boolean => (stated ?? frame).matrix === 'bt709';
+
 /** A frame of a decoder or a camera, which stands until the next. `turn`: degrees clockwise by which it is to be shown. */
-export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPicture> {
+export async function rawOfFrame(frame: VideoFrame, turn = 0, stated?: VideoColorSpaceInit): Promise<RawPicture> {
   const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
   const shifts = SHIFTS[frame.format ?? ''];
   if (shifts === undefined || width * height > MAX_PIXELS) return redrawn(frame, width, height, turn);
@@ -36,8 +43,8 @@ export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPictur
     planes[1] = { offset, stride, step: 2 };
     planes[2] = { offset: offset + 1, stride, step: 2 };
   }
-  const { fullRange, matrix } = frame.colorSpace;
-  const picture: RawPicture = { layout: 'yuv', width, height, data, planes, shiftX: shifts[0], shiftY: shifts[1], fullRange: fullRange ?? false, bt709: matrix === 'bt709' };
+  const { fullRange } = frame.colorSpace;
+  const picture: RawPicture = { layout: 'yuv', width, height, data, planes, shiftX: shifts[0], shiftY: shifts[1], fullRange: fullRange ?? false, bt709: isBt709(stated, frame.colorSpace.toJSON()) };
   return turn === 0 ? picture : turned(picture, turn / 90);
 }
 

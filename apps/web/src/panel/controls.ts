@@ -1,6 +1,6 @@
 // The controls over the picture: scenes, how many, blow, the scene's own action.
 
-import { MAX_LEAVES, type SceneName, type Settings } from '../link.js';
+import { MAX_CANDLES, MAX_LEAVES, type SceneName, type Settings } from '../link.js';
 import { byId, element } from './element.js';
 
 /** Scenes that have a tab. Another scene is a line here and one in player.ts. */
@@ -8,8 +8,6 @@ const SCENES: readonly { name: SceneName; title: string }[] = [
   { name: 'candle', title: 'Candle' },
   { name: 'leaves', title: 'Leaves' },
 ];
-
-const MAX_CANDLES = 12;
 
 /** What the microphone is doing. */
 export type Hearing = 'off' | 'asking' | 'listening' | 'asleep';
@@ -56,9 +54,9 @@ export class Controls {
     this.countName.textContent = leaves ? 'Leaves' : 'Candles';
     this.act.textContent = leaves ? 'Kick' : tab === null ? 'Start again' : 'Light';
     const many = leaves ? settings.leaves : settings.candles;
-    this.countShown.value = many.toLocaleString('en');
+    this.countShown.value = !leaves && settings.age > 0 ? String(settings.age) : many.toLocaleString('en');
     if (document.activeElement !== this.count) {
-      this.count.value = String(leaves ? Math.log(many) / Math.log(MAX_LEAVES) : (many - 1) / (MAX_CANDLES - 1));
+      this.count.value = String(Math.log(many) / Math.log(leaves ? MAX_LEAVES : MAX_CANDLES));
     }
     this.count.setAttribute('aria-valuetext', this.countShown.value);
   }
@@ -69,7 +67,7 @@ export class Controls {
       const leaves = Math.round(way > 0 ? settings.leaves * 1.5 + 1 : settings.leaves / 1.5 - 1);
       this.events.change({ leaves: Math.max(1, Math.min(MAX_LEAVES, leaves)) });
     } else if (this.tab === 'candle') {
-      this.events.change({ candles: Math.max(1, Math.min(MAX_CANDLES, settings.candles + way)) });
+      this.events.change({ candles: Math.max(1, Math.min(MAX_CANDLES, settings.candles + way)), age: 0 });
     }
   }
 
@@ -103,6 +101,6 @@ export class Controls {
 
   private counted(share: number): Partial<Settings> {
     if (this.tab === 'leaves') return { leaves: Math.round(MAX_LEAVES ** share) };
-    return { candles: 1 + Math.round(share * (MAX_CANDLES - 1)) };
+    return { candles: Math.round(MAX_CANDLES ** share), age: 0 };
   }
 }

@@ -5,13 +5,13 @@ import { ORDERS, type Settings } from '../link.js';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
 import type { Reading } from '@wisp/player/parts/stage/scene';
 import { element } from './element.js';
+import { telling } from './telling.js';
 import { factsOf } from './facts.js';
 import { saveFile } from '../saving.js';
 import { introductionTo } from './introduction.js';
 import { Lesson } from './lesson.js';
 import { Plot, type Ink } from './plot.js';
 import { PlotRecord } from './record.js';
-import { telling } from './telling.js';
 
 /** What the drawer shows of. */
 export interface Shown {
@@ -29,11 +29,9 @@ export interface DrawerEvents {
   change(change: Partial<Settings>): void;
   open(file: File): void;
   closed(): void;
-  link(): Promise<string>;
-  /** saves a picture, or a few seconds of it; says how that went */
-  picture(): Promise<string>;
-  loop(): Promise<string>;
-  gif(): Promise<string>;
+  send(): void;
+  /** opens the viewing test */
+  viewing(): Promise<string>;
   /** sound and touch on or off; returns which */
   senses(): boolean;
 }
@@ -149,7 +147,8 @@ export class Drawer {
       this.lesson = new Lesson(this.wisp, settings.seed);
       room.append(this.lesson.place, element('p', {}, 'Poles, and predictions beside the free run, of a flame or a table of your own: under Yours.'));
     });
-    return element('div', {}, element('div', { class: 'actions' }, button), room);
+    const test = telling('Which one was filmed?', 'viewing', 'One moment…', () => this.events.viewing());
+    return element('div', {}, element('div', { class: 'actions' }, test, button), room);
   }
 
   private closeLesson(): void {
@@ -207,6 +206,8 @@ export class Drawer {
     this.address = URL.createObjectURL(new Blob([shown.bytes.slice()], { type: 'application/octet-stream' }));
     const save = element('a', { class: 'tool', href: this.address, download: shown.file, 'data-file': 'save' }, 'Save this model');
     const chosen = element('input', { type: 'file', accept: '.wisp', hidden: true, 'data-file': 'open' });
+    const send = element('button', { type: 'button', class: 'tool', 'data-file': 'card' }, 'Send it…');
+    send.addEventListener('click', () => this.events.send());
     const open = element('button', { type: 'button', class: 'tool' }, 'Open a model…');
     open.addEventListener('click', () => chosen.click());
     chosen.addEventListener('change', () => {
@@ -219,16 +220,7 @@ export class Drawer {
       {},
       element('h3', {}, 'The file'),
       element('p', {}, 'A .wisp file can be dropped anywhere on this page to play it.'),
-      element('div', { class: 'actions' }, save, open, chosen),
-      element('h3', {}, 'Show it to somebody'),
-      element(
-        'div',
-        { class: 'actions' },
-        telling('Copy a link', 'link', '', () => this.events.link()),
-        telling('Save a picture', 'picture', 'One moment…', () => this.events.picture()),
-        telling('Save three seconds', 'loop', 'Recording…', () => this.events.loop()),
-        telling('As a GIF', 'gif', 'Recording…', () => this.events.gif()),
-      ),
+      element('div', { class: 'actions' }, save, open, chosen, send),
     );
   }
 }

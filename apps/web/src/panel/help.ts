@@ -1,5 +1,6 @@
 // The help: every gesture and key.
 
+import type { App } from '../app.js';
 import { element } from './element.js';
 
 const GESTURES: readonly (readonly [string, string])[] = [
@@ -20,7 +21,7 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['−', '+'], 'fewer, more'],
   [['1', '2', '3'], 'candle, leaves, a flame of your own'],
   [['I'], 'what was learned'],
-  [['S'], 'send a link to this'],
+  [['S'], 'send it: name, age, wish'],
   [['A'], 'sound and touch: crackle, breath, a phone that trembles, tilt as wind'],
   [['N'], 'learned noise on and off'],
   [['P'], 'pause'],
@@ -29,18 +30,23 @@ const KEYS: readonly (readonly [string[], string])[] = [
 ];
 
 /** Fills the dialog. */
-export function fillHelp(dialog: HTMLDialogElement): void {
+export function fillHelp(dialog: HTMLDialogElement, app: App): void {
   const rows = GESTURES.map(([what, how]) => element('tr', {}, element('th', { scope: 'row' }, what), element('td', {}, how)));
   for (const [keys, how] of KEYS) {
     const cell = element('th', { scope: 'row' });
     keys.forEach((key, k) => cell.append(...(k > 0 ? [' '] : []), element('kbd', {}, key)));
     rows.push(element('tr', {}, cell, element('td', {}, how)));
   }
+  const single = element('input', { type: 'checkbox', checked: true, 'data-knob': 'keys' });
+  single.addEventListener('input', () => (app.singleKeys = single.checked));
+  const pause = element('button', { type: 'button', class: 'tool', 'data-knob': 'pause' }, 'Pause, or go on');
+  pause.addEventListener('click', () => app.pause());
   const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close', autofocus: true }, '×');
   close.addEventListener('click', () => dialog.close());
   dialog.replaceChildren(
     element('header', {}, element('h2', {}, 'Blow on it'), close),
     element('table', {}, ...rows),
+    element('div', { class: 'actions' }, element('label', { class: 'check' }, single, 'Single keys do this'), pause),
     element(
       'p',
       {},

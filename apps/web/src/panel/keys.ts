@@ -16,7 +16,7 @@ function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
 }
 
 /** Listens to the keyboard for as long as the page lives. */
-export function listenToKeys(breath: KeyBreath, actions: KeyActions, touched: () => void): void {
+export function listenToKeys(breath: KeyBreath, actions: KeyActions, touched: () => void, single: () => boolean): void {
   window.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || keeps(event.target, event)) return;
     if (KeyBreath.blows(event.code)) {
@@ -26,7 +26,7 @@ export function listenToKeys(breath: KeyBreath, actions: KeyActions, touched: ()
       return;
     }
     const action = actions[event.key.toLowerCase()];
-    if (action === undefined || event.repeat) return;
+    if (action === undefined || event.repeat || (event.key.length === 1 && !single())) return;
     event.preventDefault();
     action();
   });

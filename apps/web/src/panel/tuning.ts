@@ -29,6 +29,8 @@ export class Tuning {
   private readonly passed = element('progress', { max: 1, value: 0, 'aria-label': 'Time to listen' });
   private readonly steps = element('ol', { 'aria-hidden': 'true' }, ...STEPS.map(({ title }) => element('li', {}, title)));
   private readonly actions = element('div', { class: 'actions' });
+  private readonly choice = element('select', { id: 'tuning-microphone' });
+  private readonly choices = element('label', { class: 'microphones', for: 'tuning-microphone', hidden: true }, 'Microphone ', this.choice);
   /** counts openings and steps: what was left behind goes no further */
   private turn = 0;
   private since = 0;
@@ -39,7 +41,8 @@ export class Tuning {
     private readonly place: HTMLElement,
     private readonly returnTo: HTMLElement,
   ) {
-    place.append(this.title, this.steps, this.words, this.passed, this.actions);
+    this.choice.addEventListener('change', () => void this.ear.choose(this.choice.value).then(() => this.listChoices()));
+    place.append(this.title, this.steps, this.words, this.choices, this.passed, this.actions);
   }
 
   get isOpen(): boolean {
@@ -53,6 +56,7 @@ export class Tuning {
     this.place.hidden = false;
     document.body.classList.add('tuning-on');
     this.show(null, 'Tune it to your breath', 'Two short sounds, so that a soft breath leans the flame and a hard one puts it out.');
+    void this.listChoices();
     this.offer(['Begin', () => void this.begin()], ['Not now', () => this.close()]);
   }
 
@@ -63,6 +67,13 @@ export class Tuning {
     document.body.classList.remove('tuning-on');
     this.ear.tune(false);
     this.returnTo.focus();
+  }
+
+  /** Shown where there is more than one. */
+  private async listChoices(): Promise<void> {
+    const found = await this.ear.choices();
+    this.choice.replaceChildren(...found.map(({ id, name, open }) => element('option', { value: id, selected: open }, name)));
+    this.choices.hidden = found.length < 2;
   }
 
   /** Once a frame: how much time has passed. What is heard, the ring of Blow shows. */
@@ -113,6 +124,7 @@ export class Tuning {
   /** `index` of the step that is on; null: before the first. */
   private show(index: number | null, title: string, words: string): void {
     this.lasts = 0;
+    if (index !== null) this.choices.hidden = true;
     this.place.classList.remove('listening');
     this.place.classList.toggle('measuring', index !== null && index < STEPS.length);
     this.title.textContent = title;

@@ -7,6 +7,7 @@ import type { PictureSettings, Recipe, Seen, TableSettings } from '@wisp/studio'
 import type { Dropped } from '../drops.js';
 import { DEFAULTS } from '../link.js';
 import { element } from '../panel/element.js';
+import { fetchPart } from '../part.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
 import { fallsPlayed, plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
@@ -59,6 +60,9 @@ const LEARNING: Readonly<Record<Thing, string>> = {
 
 /** Share of a table's rows that are kept back to judge by. */
 const KEPT_BACK = 0.25;
+
+/** Order of the point systems whose model fits in a link: some 6 kB. */
+const LINK_ORDER = 4;
 
 /** Bytes of a table: text, its numbers and what is learned from them stand beside each other in memory. */
 const MAX_TABLE_BYTES = 100e6;
@@ -495,6 +499,16 @@ export class Room {
     else this.showLook(last);
   }
 
+  /** The film of these outlines against what was learned. */
+  private async compare(outlines: Outlines | null, model: Uint8Array, file: string): Promise<string> {
+    if (outlines === null) return 'There is no outline';
+    const { ANSWERS, filmPairs, Viewing } = await fetchPart(() => import('../viewing/index.js'));
+    const pairs = filmPairs(this.host.wisp, model, outlines, ANSWERS);
+    if (pairs.length < 5) return 'The film is too short for it';
+    new Viewing(pairs, { model: file, from: 'the film that it learned from' });
+    return 'Answered';
+  }
+
   private showResult(): void {
     const { session, host } = this;
     const thing = thingOf(session);
@@ -510,15 +524,25 @@ export class Room {
     this.showPanel(
       resultPanel(session, {
         blow: () => void host.blow(file, learned.model).catch((error: unknown) => host.say(wordsOf(error))),
+        compare: () => this.compare(outlines, learned.model, file),
         more: () => this.gather(),
         anew: () => this.anew(),
         again: (change) => this.learnAgain(change),
         film: (kind) => host.film(file, learned.model, kind),
         make: (format) => this.make(format, learned.model),
+        small: () => this.small(),
       }),
     );
     const { title, reason } = verdictOf(learned, thing);
     this.announce(`${title}. ${reason}`);
+  }
+
+  /** A model of the same films that fits in a link: the paper's point systems. */
+  private async small(): Promise<Uint8Array> {
+    const { takes, recipe } = this.session;
+    const studio = await this.engine.open();
+    const { model } = await studio.learn(takes.map(({ captured }) => captured.csv), { ...recipe, paper: LINK_ORDER, name: sessionName(this.session), sources: takes.map(({ name }) => name) });
+    return model;
   }
 
   /** Makes files for other tools and saves them. */

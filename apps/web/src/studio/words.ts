@@ -120,6 +120,9 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
 /** Whether something was kept back to judge by. */
 export const isHeldOut = (report: Report): boolean => (figure(report, 'samples', 'held_out') ?? 0) > 0;
 
+/** Seconds of film; the guide's half minute is a little less where a camera starts late. */
+const ENOUGH = 25;
+
 /** What to film to make it better: at most three things, the most telling first. */
 export function adviceOf(captured: readonly Captured[], report: Report | null): string[] {
   const made: string[] = [];
@@ -128,7 +131,7 @@ export function adviceOf(captured: readonly Captured[], report: Report | null): 
   const heard = captured.some((one) => within(one.report, 'wind', 'heard') === true);
   if (!windy) made.push('Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.');
   else if (!heard) made.push('Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.');
-  if (seconds < 30) made.push(`Only ${Math.round(seconds)} s were filmed. Forty, with a soft breath from the side now and then, make it surer.`);
+  if (seconds < ENOUGH) made.push(`Only ${Math.round(seconds)} s were filmed. Forty, with a soft breath from the side now and then, make it surer.`);
   const out = captured.some((one) => figure(one.report, 'out_at') !== null);
   if (report !== null && windy && !out && within(report, 'extinction', 'source') !== 'learned') {
     made.push('It has not been seen to go out. Blow it out once or twice while you film, and light it again.');

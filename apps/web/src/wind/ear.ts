@@ -20,6 +20,15 @@ const VAIN_BLOWS = 3;
 /** Share of samples at full scale from which a microphone is too sensitive to tell soft from hard by itself. */
 const CLIPPED = 0.02;
 
+/** Sound that rises by so much over the quietest is believed to be what was asked for, though it is unlike a blow. */
+const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 2, 'blow hard': 6 };
+
+/** By loudness alone: from this share of the loud blow on, for so many seconds, it blows; the loud blow itself is that strong. */
+const PLAIN = { share: 0.4, seconds: 0.12, strong: 1.8 };
+
+const HISS =
+  'Blowing is hardly more than a hiss at this microphone, so from now on it goes by loudness: loud words may put it out too.';
+
 const STEADY =
   'It has become louder here: a fan, rain or an engine may pass for breath. Press Blow twice, and I take it for the room.';
 
@@ -56,10 +65,18 @@ export class Ear {
   private louder = false;
   /** what a guided calibration has found out: kept for when the microphone is opened again */
   private known: Calibration | null = null;
+  private device: string | undefined;
   private tuning = false;
   private answer: ((heard: boolean) => void) | null = null;
   /** how strong a breath is, also while nothing of it reaches the scene */
   private heard = 0;
+  /** of sound, root mean squares: the quietest by now, what came during a step of the calibration, what a loud blow has
+   * where it has no rumble; null: it has */
+  private quietest = Infinity;
+  private stepped: number[] = [];
+  private asked: Asked = 'breathe gently';
+  private plain: number | null = null;
+  private plainSince = 0;
   private blowing = false;
   private loudSince = 0;
   private vain = 0;
@@ -85,6 +102,7 @@ export class Ear {
     try {
       const microphone = await openMicrophone(this.wisp, {
         ...(this.known === null ? {} : { calibration: this.known }),
+        ...(this.device === undefined ? {} : { deviceId: this.device }),
         onWind: (frame) => {
           this.hear(frame);
           this.watchRoom(frame.roomRise);
@@ -92,7 +110,8 @@ export class Ear {
         },
         onCalibrated: (known, heard) => {
           if (this.tuning && heard) this.known = known;
-          this.answered(heard);
+          this.answered(heard || this.believes());
+          if (heard && this.asked === 'blow hard') this.plain = null;
         },
         onAsleep: (asleep) => {
           if (this.state !== 'off') this.state = asleep ? 'asleep' : 'listening';
@@ -113,6 +132,22 @@ export class Ear {
     } catch (error) {
       if (turn === this.turn) this.fail(error);
     }
+  }
+
+  /** The microphones that there are, by their names, and which one is open; none before one was allowed. */
+  async choices(): Promise<{ id: string; name: string; open: boolean }[]> {
+    const devices = (await navigator.mediaDevices?.enumerateDevices?.()) ?? [];
+    const own = this.microphone?.settings.deviceId;
+    return devices.filter(({ kind, label }) => kind === 'audioinput' && label !== '').map(({ deviceId, label }) => ({ id: deviceId, name: label, open: deviceId === own }));
+  }
+
+  /** Listens to another one; what was found out of the first is not true of it. */
+  async choose(id: string): Promise<void> {
+    this.device = id;
+    this.known = null;
+    this.plain = null;
+    this.close();
+    await this.open();
   }
 
   /** Gives the microphone back. */
@@ -137,6 +172,8 @@ export class Ear {
   /** Listens for one step of the calibration; whether it was heard. Never when the microphone is off. */
   listenFor(asked: Asked, seconds: number): Promise<boolean> {
     this.answered(false);
+    this.asked = asked;
+    this.stepped = [];
     if (this.microphone === null) return Promise.resolve(false);
     this.microphone.calibrate(asked, seconds);
     return new Promise((resolve) => (this.answer = resolve));
@@ -154,10 +191,32 @@ export class Ear {
     answer?.(heard);
   }
 
-  private hear({ wind, speed, confidence }: Wind): void {
+  private hear(frame: Wind): void {
+    const { rms, speed, confidence } = frame;
+    this.quietest = Math.min(rms, 1.0005 * this.quietest);
+    this.stepped.push(rms);
     this.heard = confidence > 0.5 ? speed : 0;
-    this.wind = this.tuning ? 0 : wind;
-    if (!this.tuning) this.events.wind(wind);
+    this.wind = this.tuning ? 0 : Math.max(frame.wind, this.byLoudness(frame));
+    if (!this.tuning) this.events.wind(this.wind);
+  }
+
+  /** Whoever was asked to blow has blown: what rose above the quiet was that. */
+  private believes(): boolean {
+    const sorted = this.stepped.sort((a, b) => a - b);
+    const loud = sorted[Math.floor(0.8 * sorted.length)] ?? 0;
+    const rose = loud > RISES[this.asked] * Math.min(this.quietest, sorted[Math.floor(0.1 * sorted.length)] ?? Infinity);
+    if (rose && this.tuning && this.asked === 'blow hard') {
+      this.plain = loud;
+      this.events.trouble(HISS);
+    }
+    return rose && this.tuning;
+  }
+
+  /** Where blows have no rumble: what is as loud as the one that was asked for, and lasts. */
+  private byLoudness({ rms, time }: Wind): number {
+    if (this.plain === null) return 0;
+    if (rms < PLAIN.share * this.plain) this.plainSince = time;
+    return time - this.plainSince > PLAIN.seconds ? PLAIN.strong * Math.min(1, rms / this.plain) : 0;
   }
 
   /** Offers tuning where a microphone is overdriven by breath, or where blow after blow puts nothing out. */

@@ -10,12 +10,16 @@ import pressFragment from './shaders/press.frag.js';
 import smokeFragment from './shaders/smoke.frag.js';
 import sootFragment from './shaders/soot.frag.js';
 import wholeVertex from './shaders/whole.vert.js';
+import { Words } from './words.js';
 
 /** Cells of the air's grid, and how much finer that of the smoke is. */
 const CELLS = 22_000;
 const FINER = 3;
 /** Steps towards the pressure in a frame; the last frame's is where they begin. */
 const PRESSINGS = 10;
+const WISH_FONT = '600 96px ui-rounded, "Trebuchet MS", system-ui, sans-serif';
+/** Half of a line's height, at most. */
+const WISH_LINE = 0.05;
 /** Longest step; a longer frame makes two of them. */
 const LONGEST = 1 / 30;
 
@@ -30,6 +34,9 @@ export interface Stirring {
   breath: number;
   breathHeight: number;
   hand: readonly [x: number, y: number, speedX: number, speedY: number];
+  /** what smoke is to say now, '' nothing; and where its middle is */
+  wish: string;
+  wishAt: readonly [x: number, y: number];
 }
 
 /** A pair of pictures: one is read while the other is written. */
@@ -76,6 +83,7 @@ export class Air {
   private readonly smoke: Pair;
   readonly programs: Record<'carry' | 'press' | 'free' | 'soot' | 'smoke', Program>;
   private aspect = 1;
+  private readonly words: Words;
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -84,6 +92,7 @@ export class Air {
     this.flow = new Pair(gl);
     this.pressure = new Pair(gl);
     this.smoke = new Pair(gl);
+    this.words = new Words(gl);
     const made = (fragment: string): Program => new Program(gl, wholeVertex, noise + fluid + fragment);
     this.programs = {
       carry: made(carryFragment),
@@ -123,6 +132,7 @@ export class Air {
 
   dispose(): void {
     for (const pair of [this.flow, this.pressure, this.smoke]) pair.dispose();
+    this.words.dispose();
     for (const program of Object.values(this.programs)) program.dispose();
   }
 
@@ -178,7 +188,12 @@ export class Air {
     flow.turn();
     flow.now.bindTexture(0);
     smoke.now.bindTexture(1);
+    const { wish, wishAt } = stirring;
+    const shape = this.words.write(wish, WISH_FONT, this.aspect < 1 ? 11 : 17, 2);
+    const half = Math.min(0.42 * this.aspect, WISH_LINE * this.words.lines * shape);
     this.set('soot', seconds)
+      .setInteger('uWish', 2)
+      .set('uWishBox', ...wishAt, half, wish === '' ? 0 : half / shape)
       .setInteger('uFlow', 0)
       .setInteger('uSmoke', 1)
       .setInteger('uCount', stirring.count)

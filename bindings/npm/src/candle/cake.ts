@@ -1,3 +1,4 @@
-// What only a cake needs of the room's shaders; fetched when there is one.
+// What only a cake needs of the room; fetched when there is one.
 
 export { default as cake } from './shaders/cake.glsl.js';
+export { Lettering } from './lettering.js';

@@ -6,7 +6,8 @@ import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
 import type { RoomView, Setting, Stand } from './room.js';
-import { flameFoot, MAX_CANDLES } from './room.js';
+import { flameFoot, MAX_LAMPS } from './room.js';
+import type { Lettering } from './lettering.js';
 import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
@@ -18,8 +19,8 @@ import room from './shaders/room.glsl.js';
 import surfaceFragment from './shaders/surface.frag.js';
 import table from './shaders/table.glsl.js';
 
-/** Most flames that give light: the candles, the match, one to spare. */
-const MAX_LIGHTS = MAX_CANDLES + 2;
+/** Most lights: of the candles, the match, one to spare. */
+const MAX_LIGHTS = MAX_LAMPS + 2;
 /** How much of the light strays in the eye. */
 const GLARING = 0.13;
 /** How far heat shifts what is behind it, shares of the picture. */
@@ -67,6 +68,9 @@ export interface CandlePicture {
   /** what stirs the air: breath, 1 is strong; the pointer, pixels and pixels a second */
   breath: number;
   hand: { x: number; y: number; speedX: number; speedY: number; present: boolean };
+  /** on the cake; and what smoke says by now, '' nothing */
+  name: string;
+  wish: string;
 }
 
 /** What draws the room with what stands in it. */
@@ -95,7 +99,7 @@ export class CandleRenderer {
   private readonly halos = new Float32Array(4 * MAX_LIGHTS);
   private readonly spread = new Float32Array(MAX_LIGHTS);
   private readonly standNumbers = new Float32Array(4 * MAX_LIGHTS);
-  private readonly sticks = new Float32Array(4 * MAX_CANDLES);
+  private readonly sticks = new Float32Array(4 * MAX_LAMPS);
   private readonly heats = new Float32Array(4 * MAX_LIGHTS);
   private readonly wicks = new Float32Array(4 * MAX_LIGHTS);
   private readonly smokeLamps = new Float32Array(4 * MAX_LIGHTS);
@@ -103,6 +107,8 @@ export class CandleRenderer {
   private surfaceOf = '';
   private after: After | null = null;
   private bringing = false;
+  /** what only a cake needs: its name, candles that are figures */
+  private lettering: Lettering | null = null;
   private exposure = EXPOSURES.lit;
   private gone = false;
 
@@ -130,7 +136,7 @@ export class CandleRenderer {
     this.adapt(shown);
     const after = this.ready(look);
     if (after !== null) after.air.update(view.width / view.height, this.stirring(view, shown));
-    if (!look.clear) this.drawSurface(room.surface, view, shown.setting);
+    if (!look.clear) this.drawSurface(room.surface, view, shown);
     this.picture.begin();
     if (look.clear) {
       gl.clearColor(0, 0, 0, 0);
@@ -139,7 +145,8 @@ export class CandleRenderer {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const candle of shown.candles) {
-      this.drawCandle(view, candle, shown);
+      if (candle.stand.figure === null) this.drawCandle(view, candle, shown);
+      else this.drawFigure(view, candle);
       this.drawFlame(view, candle, candle.stand, flameFoot(candle.stand), shown.clock);
     }
     if (after !== null) this.drawLate(after, view, shown, look);
@@ -155,6 +162,7 @@ export class CandleRenderer {
     this.surface.dispose();
     this.picture.dispose();
     this.after?.dispose();
+    this.lettering?.dispose();
     for (const program of Object.values(this.programs)) program.dispose();
     for (const { surface, light } of Object.values(this.rooms)) {
       surface.dispose();
@@ -174,9 +182,11 @@ export class CandleRenderer {
     }
     if (this.bringing) return null;
     this.bringing = true;
-    void import('./cake.js').then(({ cake }) => {
+    void import('./cake.js').then(({ cake, Lettering }) => {
       this.bringing = false;
-      if (!this.gone) this.furnish('cake', cake);
+      if (this.gone) return;
+      this.lettering = new Lettering(this.gl);
+      this.furnish('cake', cake);
     });
     return null;
   }
@@ -221,42 +231,46 @@ export class CandleRenderer {
       .set('uCake', cake?.radius ?? 0, cake?.height ?? 0, cake?.x ?? 0);
   }
 
-  private drawSurface(program: Program, view: RoomView, setting: Setting): void {
-    const of = [view.width, view.height, view.scale, view.horizon, setting.cake?.radius, setting.cake?.x].join();
+  private drawSurface(program: Program, view: RoomView, { setting, name }: CandlePicture): void {
+    const of = [view.width, view.height, view.scale, view.horizon, setting.cake?.radius, setting.cake?.x, name].join();
     this.surface.resize(view.width, view.height);
     if (of === this.surfaceOf) return;
     this.surfaceOf = of;
+    const plaque = setting.cake === null ? [0, 0] : (this.lettering?.name(name, 0) ?? [0, 0]);
     this.surface.begin();
-    this.setRoom(program, view, setting);
+    this.setRoom(program, view, setting).setInteger('uName', 0).set('uPlaque', ...plaque);
     this.quad.draw();
   }
 
   private gatherLamps(view: RoomView, shown: CandlePicture): void {
     this.lamps.length = 0;
-    for (const { stand, shape } of shown.candles) {
-      const foot = flameFoot(stand);
-      this.addLamp(view, stand.x, foot, stand.z, stand.unit, shape, stand);
-    }
+    const groups: DrawnCandle[][] = [];
+    for (const candle of shown.candles) (groups[candle.stand.lamp] ??= []).push(candle);
+    for (const group of groups) this.addLamp(view, group.map(({ stand, shape }) => ({ ...stand, y: flameFoot(stand), shape })), group.length === 1 && group[0]?.stand.figure === null ? group[0].stand : null);
     const { match } = shown;
-    if (match.burning) this.addLamp(view, match.x, match.y, match.z, match.unit, match.shape, null);
+    if (match.burning) this.addLamp(view, [match], null);
   }
 
-  private addLamp(view: RoomView, x: number, y: number, z: number, unit: number, shape: FlameShape, stand: Stand | null): void {
+  /** One light of flames that are side by side; of one alone, and the stand that hides it. */
+  private addLamp(view: RoomView, flames: readonly { x: number; y: number; z: number; unit: number; shape: FlameShape }[], stand: Stand | null): void {
     const k = this.lamps.length;
-    const lamp: Lamp = {
-      x: x + unit * shape.middleX,
-      y: y + unit * Math.max(0.2, shape.middleY),
-      z,
-      // Small flames on a cake are many.
-      light: shape.empty ? 0 : shape.light * unit ** 1.3,
-    };
+    const lamp: Lamp = { x: 0, y: 0, z: 0, light: 0 };
+    for (const { x, y, z, unit, shape } of flames) {
+      lamp.x += (x + unit * shape.middleX) / flames.length;
+      lamp.y += (y + unit * Math.max(0.2, shape.middleY)) / flames.length;
+      lamp.z += z / flames.length;
+      // Small flames on a cake are many, and of a hundred each is less than of one.
+      lamp.light += shape.empty ? 0 : (shape.light * unit ** 1.3) / flames.length ** 0.6;
+    }
     this.lamps.push(lamp);
     this.lights.set([lamp.x, lamp.y, lamp.z, lamp.light], 4 * k);
-    this.halos[4 * k] = view.pixelX(x, z);
-    this.halos[4 * k + 1] = view.pixelY(y + 0.25 * unit * shape.tipY, z);
-    this.halos[4 * k + 2] = view.pixelX(x + 0.8 * unit * shape.tipX, z);
-    this.halos[4 * k + 3] = view.pixelY(y + 0.72 * unit * shape.tipY, z);
-    this.spread[k] = view.scale * view.nearness(z) * Math.max(0.3, unit);
+    // Their glow lies along them: from the first one's base to the last one's tip.
+    const [first, last] = [flames[0]!, flames.at(-1)!];
+    this.halos[4 * k] = view.pixelX(first.x, first.z);
+    this.halos[4 * k + 1] = view.pixelY(first.y + 0.25 * first.unit * first.shape.tipY, first.z);
+    this.halos[4 * k + 2] = view.pixelX(last.x + 0.8 * last.unit * last.shape.tipX, last.z);
+    this.halos[4 * k + 3] = view.pixelY(last.y + 0.72 * last.unit * last.shape.tipY, last.z);
+    this.spread[k] = view.scale * view.nearness(lamp.z) * Math.max(0.3, first.unit);
     this.standNumbers.set(stand === null ? [0, 0, 0.01, 0] : [stand.x, stand.z, stand.radius, stand.height], 4 * k);
   }
 
@@ -274,7 +288,8 @@ export class CandleRenderer {
       .setNumbers('uSpread', this.spread);
     if (shown.setting.cake !== null) {
       this.sticks.fill(0);
-      shown.candles.forEach(({ stand }, k) => this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
+      // The streaks of more would be no streaks.
+      if (shown.candles.length <= MAX_LAMPS) shown.candles.forEach(({ stand }, k) => stand.figure === null && this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
       program.setVectors4('uSticks', this.sticks);
     }
     this.quad.draw();
@@ -301,7 +316,7 @@ export class CandleRenderer {
       if (lamp.x === own && lamp.z === stand.z) continue;
       const dx = lamp.x - stand.x;
       const dz = lamp.z - stand.z;
-      const flat2 = dx * dx + dz * dz;
+      const flat2 = Math.max(0.1, dx * dx + dz * dz);
       const light = (0.9 * lamp.light) / (0.2 + flat2);
       const flat = Math.sqrt(Math.max(1e-6, flat2));
       sum[0] += light * Math.max(0, -dx / flat);
@@ -335,6 +350,24 @@ export class CandleRenderer {
       .set('uClock', clock)
       .set('uWax', ...stand.wax)
       .set('uOthers', ...this.lightFromOthers(candle));
+    this.quad.draw();
+  }
+
+  /** A candle that is a digit. */
+  private drawFigure(view: RoomView, { stand, shape, ember }: DrawnCandle): void {
+    const { lettering } = this;
+    if (lettering === null) return;
+    const height = stand.height / stand.unit;
+    const points = lettering.figure(stand.figure ?? '', height);
+    this.setBoard(lettering.program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, [-height, -height - 0.1, height, 0.3])
+      .setVectors3('uOutline', points)
+      .setInteger('uPoints', points.length / 3)
+      .set('uRadius', stand.radius / stand.unit)
+      .set('uHeight', height)
+      .set('uLight', shape.empty ? 0 : shape.light)
+      .set('uEmber', ember)
+      .set('uWax', ...stand.wax)
+      .set('uOthers', ...this.lightFromOthers({ stand, shape } as DrawnCandle));
     this.quad.draw();
   }
 
@@ -379,7 +412,7 @@ export class CandleRenderer {
   }
 
   /** What acts on the air, in heights of the picture. */
-  private stirring(view: RoomView, { candles, match, seconds, clock, breath, hand }: CandlePicture): Stirring {
+  private stirring(view: RoomView, { candles, match, seconds, clock, breath, hand, wish }: CandlePicture): Stirring {
     this.heats.fill(0);
     this.wicks.fill(0);
     const tall = view.height;
@@ -391,7 +424,10 @@ export class CandleRenderer {
       this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
       count += 1;
     };
-    for (const { stand, shape, smoking } of candles) {
+    // Of many, one for each light.
+    const apart = Math.ceil(candles.length / MAX_LAMPS);
+    for (const [k, { stand, shape, smoking }] of candles.entries()) {
+      if (k % apart !== 0) continue;
       const lit = !shape.empty && shape.light > 0;
       add(stand.x + 0.03 * stand.unit, stand.ground + stand.height + 0.17 * stand.unit, stand.z, stand.unit, shape, lit, smoking);
     }
@@ -407,6 +443,9 @@ export class CandleRenderer {
       breath: Math.max(-1, Math.min(1, 0.6 * breath)),
       breathHeight: blown,
       hand: hand.present ? [hand.x / tall, hand.y / tall, hand.speedX / tall, hand.speedY / tall] : [0, 0, 0, 0],
+      wish,
+      // Above what smokes, where the picture has room for it.
+      wishAt: [view.width / 2 / tall, Math.min(0.7, blown + 0.2)],
     };
   }
 

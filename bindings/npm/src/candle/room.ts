@@ -18,6 +18,10 @@ export interface Stand {
   /** radius of the dish that it stands in; 0: none */
   saucer: number;
   seed: number;
+  /** which of at most MAX_LAMPS lights its flame belongs to: those of many candles shine together */
+  lamp: number;
+  /** the digit that the candle is; null: a stick */
+  figure: string | null;
 }
 
 /** What stands on the table. */
@@ -26,8 +30,14 @@ export interface Setting {
   cake: { x: number; radius: number; height: number } | null;
 }
 
-/** Most candles on a cake. */
-export const MAX_CANDLES = 12;
+/** Most candles on a cake, and most lights that they are to the room. */
+export const MAX_CANDLES = 100;
+export const MAX_LAMPS = 12;
+/** Digits of the largest number that stands on a cake. */
+const MAX_DIGITS = 3;
+
+/** Figures instead of candles: what of a text can stand on a cake. */
+export const figuresOf = (text: string): string => text.replace(/\D/g, '').slice(0, MAX_DIGITS);
 
 /** From the upper end of a candle to the base of its flame, in flame units. */
 const WICK_GAP = 0.085;
@@ -43,32 +53,60 @@ const PASTELS: readonly (readonly [number, number, number])[] = [
   [0.72, 0.54, 0.86],
 ];
 
-/** One candle by itself, or a cake with 2 to MAX_CANDLES of them. */
-export function settingFor(candles: number): Setting {
-  if (candles <= 1) {
+/** One candle by itself, or a cake with 2 to MAX_CANDLES of them; or with figures in their place. */
+export function settingFor(candles: number, figures = ''): Setting {
+  const plain = { lamp: 0, figure: null, striped: false, saucer: 0, z: 0, ground: 0 };
+  if (candles <= 1 && figures === '') {
     const wax = [0.93, 0.86, 0.74] as const;
-    return {
-      cake: null,
-      stands: [{ x: 0, z: 0, ground: 0, height: 1.72, radius: 0.335, unit: 1, wax, striped: false, saucer: 0.74, seed: 3 }],
-    };
+    return { cake: null, stands: [{ ...plain, x: 0, height: 1.72, radius: 0.335, unit: 1, wax, saucer: 0.74, seed: 3 }] };
   }
   const cake = { x: 0, radius: 1.9, height: 1.06 };
-  const stands = places(candles).map(
+  const on = { ...plain, ground: cake.height };
+  const hue = (k: number): (typeof PASTELS)[number] => PASTELS[k % PASTELS.length] as (typeof PASTELS)[number];
+  if (figures !== '') {
+    const middle = (figures.length - 1) / 2;
+    const stands = [...figures].map((figure, k): Stand => ({ ...on, x: 0.92 * (k - middle), z: 0.5, height: FIGURE_HEIGHT, radius: 0.1, unit: 0.5, wax: hue(k), seed: k + 1, lamp: k, figure }));
+    return { cake, stands };
+  }
+  // The more there are, the smaller they are.
+  const small = candles <= MAX_LAMPS ? 1 : Math.max(0.5, (MAX_LAMPS / candles) ** 0.3);
+  const spots = candles <= MAX_LAMPS ? places(candles) : rings(candles);
+  const stands = spots.map(
     ([x, z], k): Stand => ({
+      ...on,
       x,
       z,
-      ground: cake.height,
-      height: 0.74,
-      radius: 0.072,
-      unit: 0.46,
-      wax: PASTELS[k % PASTELS.length] as (typeof PASTELS)[number],
+      height: 0.74 * (0.4 + 0.6 * small),
+      radius: 0.072 * small,
+      unit: 0.46 * small,
+      wax: hue(k),
       striped: true,
-      saucer: 0,
       seed: k + 1,
+      lamp: candles <= MAX_LAMPS ? k : Math.floor((k * MAX_LAMPS) / candles),
     }),
   );
   // The farthest first: nearer ones are drawn over them.
   return { cake, stands: stands.sort((a, b) => a.z - b.z) };
+}
+
+/** Of a candle that is a figure. */
+export const FIGURE_HEIGHT = 0.95;
+
+/** Places of many candles: on rings, as far apart on each as the rings are. */
+function rings(candles: number): [number, number][] {
+  const radii = [1.42, 1.16, 0.9, 0.64, 0.38, 0.12].slice(0, candles <= 30 ? 2 : candles <= 50 ? 3 : 6);
+  const around = radii.reduce((sum, radius) => sum + radius, 0);
+  let left = candles;
+  let total = around;
+  return radii.flatMap((radius, ring) => {
+    const many = ring === radii.length - 1 ? left : Math.round((left * radius) / total);
+    left -= many;
+    total -= radius;
+    return Array.from({ length: many }, (_, k): [number, number] => {
+      const turn = (2 * Math.PI * (k + 0.5 * (ring % 2))) / Math.max(1, many) + 0.4;
+      return [radius * Math.cos(turn), radius * Math.sin(turn)];
+    });
+  });
 }
 
 const DISTANCE = 11;
@@ -109,16 +147,16 @@ export class RoomView {
 
   /**
    * Frames what stands on the table in a picture of that size. `footer`: share of its height that controls cover below;
-   * `clear`: a cake's candles are drawn without it.
+   * `clear`: a cake's candles are drawn without it; `above`: how much higher than sticks what stands on the cake is.
    */
-  frame(width: number, height: number, cake: boolean, footer: number, clear: boolean): void {
+  frame(width: number, height: number, cake: boolean, footer: number, clear: boolean, above = 0): void {
     this.width = width;
     this.height = height;
     this.footer = footer;
     this.clear = clear;
     const free = height * (1 - footer);
     // Height from the nearest edge of what is drawn to above the highest flame, its width, and where that edge is.
-    const [tall, wide, low] = cake ? (clear ? [1.95, 3.4, -0.6] : [4, 5, 0.94]) : [3.6, 2.9, 0.4];
+    const [tall, wide, low] = cake ? (clear ? [1.95, 3.4, -0.6] : [4 + above, 5, 0.94]) : [3.6, 2.9, 0.4];
     this.scale = Math.min(free / tall, width / wide);
     this.middle = width / 2;
     // Where the picture is tall, what stands there stays near its middle.

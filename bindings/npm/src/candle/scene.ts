@@ -12,6 +12,8 @@ import { WindDelay } from '../air/delay.js';
 /** Points of a flame's outline; smooth at 500 pixels' height. */
 const OUTLINE_POINTS = 40;
 const NANOSECONDS = 1e9;
+/** Seconds after the last flame went out between which a wish rises. */
+const WISH = { from: 0.9, to: 5 };
 
 export class CandleScene implements Scene {
   readonly bank: Bank;
@@ -84,7 +86,8 @@ export class CandleScene implements Scene {
     if (view.width !== width || view.height !== height || view.footer !== look.footer || view.clear !== look.clear) this.frame(width, height, look.footer, look.clear);
     if (this.renderer === null) return false;
     const { setting, candles, match, passed, clock, breath, hand } = this;
-    const shown = { setting, candles, match, seconds: passed, clock, breath, hand };
+    const { name = '', wish = '' } = this.settings;
+    const shown = { setting, candles, match, seconds: passed, clock, breath, hand, name, wish: this.wishing() ? wish : '' };
     this.passed = 0;
     return this.renderer.draw(view, shown, look);
   }
@@ -123,7 +126,8 @@ export class CandleScene implements Scene {
   }
 
   apply(settings: SceneSettings): void {
-    const reseat = settings.count !== this.settings.count || settings.seed !== this.settings.seed;
+    const before = this.settings;
+    const reseat = settings.count !== before.count || settings.seed !== before.seed || settings.figures !== before.figures;
     this.settings = { ...settings };
     this.bank.setNoise(settings.noise);
     if (reseat) this.seat();
@@ -131,8 +135,16 @@ export class CandleScene implements Scene {
 
   describe(): string {
     const lit = this.candles.filter((candle) => candle.lit).length;
-    if (this.candles.length === 1) return lit === 1 ? 'A candle burns in a dark room.' : 'The candle is out.';
-    return `A cake with ${this.candles.length} candles, ${lit} of them burning.`;
+    const { figures = '', name = '' } = this.settings;
+    if (this.setting.cake === null) return lit === 1 ? 'A candle burns in a dark room.' : 'The candle is out.';
+    const what = figures === '' ? `${this.candles.length} candles` : `candles that say ${figures}`;
+    return `A cake${name === '' ? '' : ` for ${name}`} with ${what}, ${lit} of them burning.`;
+  }
+
+  /** Whether the last flame has gone out so lately that its smoke still says what was wished. */
+  private wishing(): boolean {
+    const latest = Math.min(...this.candles.map(({ sinceOut }) => sinceOut));
+    return this.candles.every(({ lit }) => !lit) && latest > WISH.from && latest < WISH.to;
   }
 
   /** How many burn, of how many. */
@@ -169,7 +181,7 @@ export class CandleScene implements Scene {
 
   private frame(width: number, height: number, footer: number, clear: boolean): void {
     const cake = this.setting.cake !== null;
-    this.view.frame(width, height, cake, footer, clear);
+    this.view.frame(width, height, cake, footer, clear, (this.settings.figures ?? '') === '' ? 0 : 0.35);
     const z = cake ? 2.6 : 1.4;
     const edge = this.view.roomX(width, z);
     this.match.rest(Math.min(edge - 0.55, cake ? 2.3 : 1.35), z);
@@ -181,7 +193,7 @@ export class CandleScene implements Scene {
       this.bank.end(id);
       if (lent !== null) this.lender?.bank.end(lent);
     }
-    this.setting = settingFor(this.settings.count);
+    this.setting = settingFor(this.settings.count, this.settings.figures);
     this.candles = this.setting.stands.map((stand) => new Candle(stand, this.bank.spawn(BigInt(stand.seed))));
     if (this.lender !== null) for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
     this.dragged = null;

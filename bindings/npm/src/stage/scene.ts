@@ -40,6 +40,10 @@ export interface SceneSettings {
   noise: number;
   /** how many candles, or leaves */
   count: number;
+  /** a number that stands on a cake in figures, whose name is on it, and what its smoke says */
+  figures?: string;
+  name?: string;
+  wish?: string;
 }
 
 /** How a picture is to be drawn. */

@@ -52,6 +52,8 @@ export class Stage {
   /** whether the last frame showed a picture */
   shown = false;
   paused = false;
+  /** of time: 1 as it is, less for who asks for less motion */
+  pace = 1;
   /** fixed pixels for each of the screen's; 0: as many as keep it smooth */
   detail = 0;
   private footer = 0;
@@ -155,7 +157,7 @@ export class Stage {
   }
 
   private frame(passed: number, now: number): void {
-    const seconds = this.paused ? 0 : Math.min(LONGEST_FRAME, Math.max(0, passed));
+    const seconds = this.paused ? 0 : this.pace * Math.min(LONGEST_FRAME, Math.max(0, passed));
     if (this.scene === null) return;
     const before = performance.now();
     this.pointer.update(seconds);

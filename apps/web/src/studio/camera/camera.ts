@@ -15,6 +15,8 @@ export class CameraTrouble extends Error {}
 
 /** More frames than that which wait to be looked at: this machine is too slow for all of them. */
 const MAX_WAITING = 6;
+/** Milliseconds without a picture after which a camera sleeps. */
+const ASLEEP = 1500;
 /** Pictures that are kept a second. */
 export const KEPT_RATE = 12;
 
@@ -88,6 +90,8 @@ export class Camera {
   /** whether sound is handed on too */
   private heeds = false;
   private ended = false;
+  /** when the last frame came, as performance.now() */
+  private latest = performance.now();
 
   /** `hears`: whether the microphone is wanted too */
   static async open(events: CameraEvents, hears: boolean): Promise<Camera> {
@@ -111,6 +115,16 @@ export class Camera {
   /** Frames a second, as the camera says. */
   get rate(): number {
     return this.picture.getSettings().frameRate ?? 30;
+  }
+
+  /** Whether no picture comes though it is open: another program or a call has it, or it is muted. */
+  get asleep(): boolean {
+    return this.picture.muted || performance.now() - this.latest > ASLEEP;
+  }
+
+  /** Lets sound come again that was interrupted. */
+  wake(): void {
+    if (this.context !== null && this.context.state !== 'running' && this.context.state !== 'closed') this.context.resume().catch(() => undefined);
   }
 
   /** Keeps exposure, colours and focus as they are now. Says which of it this camera or browser does not let be kept. */
@@ -148,6 +162,7 @@ export class Camera {
       const { value: frame } = await frames.read();
       if (frame === undefined) return;
       const seconds = frame.timestamp / 1e6;
+      this.latest = performance.now();
       if (!this.heeds) offset = Math.min(offset, performance.now() / 1000 - seconds);
       const { live } = this;
       if (live !== null && live.waiting < MAX_WAITING && count % this.every === 0) live.frame(frame, seconds + offset);
@@ -161,6 +176,7 @@ export class Camera {
     const frame = (now: number, taken?: VideoFrameCallbackMetadata): void => {
       if (this.ended) return;
       frames += 1;
+      this.latest = performance.now();
       const { live } = this;
       if (live !== null && live.waiting < MAX_WAITING && frames % this.every === 0) {
         void this.hand(live, video, (taken?.captureTime ?? now) / 1000);

@@ -14,6 +14,9 @@ const LOOK = 100;
 const PREVIEW_SHARE = 4;
 /** Milliseconds between steps towards a darker picture. */
 const DARKER_EVERY = 900;
+/** Milliseconds without a picture after which filming ends. */
+const GIVES_UP = 6000;
+const ASLEEP = 'No picture comes from the camera: a call or another program may have it. It goes on when it is free.';
 
 export interface FilmingEvents {
   /** it was filmed */
@@ -55,6 +58,8 @@ export class Filming {
   private timer = 0;
   private darkened = 0;
   private act = '';
+  /** since when no picture comes, as performance.now(); 0: it comes */
+  private sleeping = 0;
   private guide: Guide;
   private readonly hidden = (): void => {
     if (document.hidden && this.state === 'filming') this.finish('Filming stopped when the page was hidden; what was filmed till then is kept.');
@@ -203,7 +208,12 @@ export class Filming {
   private tick(): void {
     if (this.state === 'filming') this.advise();
     if (this.state === 'looking' && this.live?.alive === false) this.look();
-    const hint = this.seen === null ? '' : this.falls ? hintOfFalls(this.seen) : hintOf(this.seen);
+    const asleep = this.camera.asleep;
+    if (!asleep) this.sleeping = 0;
+    else this.sleeping ||= performance.now();
+    this.camera.wake();
+    if (asleep && this.state === 'filming' && performance.now() - this.sleeping > GIVES_UP) return this.finish('No picture came from the camera any more; what was filmed till then is kept.');
+    const hint = asleep ? ASLEEP : this.seen === null ? '' : this.falls ? hintOfFalls(this.seen) : hintOf(this.seen);
     if (this.state !== 'looking' && this.state !== 'filming') return;
     if (this.hint.textContent !== hint) this.hint.textContent = hint;
     if (this.state === 'looking') this.brighten();

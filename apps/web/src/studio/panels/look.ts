@@ -75,7 +75,7 @@ export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents
       element('h2', { tabindex: '-1' }, title),
       element('p', {}, reason),
     ),
-    element('div', { class: 'actions' }, act(takes.length > 1 ? `Learn from ${takes.length} films` : 'Learn it', 'learn', events.learn, true), act('Film more', 'more', events.more)),
+    element('div', { class: 'actions' }, act(takes.length > 1 ? `Learn from ${takes.length} films` : 'Learn it', 'learn', events.learn, good), act('Film more', 'more', events.more, !good)),
     facts,
   );
   const flames = within(report, 'flames');

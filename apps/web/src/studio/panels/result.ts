@@ -2,6 +2,7 @@
 
 import type { Learned, Recipe } from '@wisp/studio';
 import { element } from '../../panel/element.js';
+import { telling } from '../../panel/telling.js';
 import { plotsOf } from '../pictures/curves.js';
 import { outputsOf, thingOf, type Session } from '../session.js';
 import { takingOf, type TakingEvents } from './taking.js';
@@ -9,6 +10,8 @@ import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Th
 
 export interface ResultEvents extends TakingEvents {
   blow(): void;
+  /** a test in which somebody tells what was filmed from what is played; says how that went */
+  compare(): Promise<string>;
   more(): void;
   /** from the beginning, without what was gathered */
   anew(): void;
@@ -68,6 +71,7 @@ export function resultPanel(session: Session, events: ResultEvents): HTMLElement
         { class: 'actions' },
         button(TO_PLAY[thing][good ? 0 : 1], 'blow', () => events.blow(), good),
         button('Film more', 'more', () => events.more(), !good),
+        ...(flame ? [telling('Which one was filmed?', 'compare', 'One moment…', () => events.compare())] : []),
       ),
     );
   }

@@ -22,6 +22,8 @@ export type Format = ExportSettings['format'] | 'flipbook';
 export interface TakingEvents {
   /** saves three seconds of it burning in the page's room */
   film(kind: Moving): Promise<string>;
+  /** learns a model that fits in a link */
+  small(): Promise<Uint8Array>;
   /** saves it as a file for other tools; says how that went */
   make(format: Format): Promise<string>;
 }
@@ -45,11 +47,14 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
     for (const take of takes) saveFile(new Blob([take.captured.csv.slice()], { type: 'text/csv' }), `${take.name.replace(/\.[^.]*$/, '')}.csv`);
     return Promise.resolve('Saved');
   });
-  const link = telling('A link', 'link', '', async () => {
-    if (model.length > MAX_PACKED_BYTES) return 'Too large: learn it light';
+  const whole = model.length <= MAX_PACKED_BYTES;
+  const link = telling('A link', 'link', whole ? '' : 'Making it small…', async () => {
+    const sent = whole ? model : await events.small();
+    if (sent.length > MAX_PACKED_BYTES) return 'Too large for a link: send the model';
     const address = new URL(location.href);
-    address.hash = new URLSearchParams({ scene: 'candle', seed: '1', model: await packModel(model) }).toString();
-    return copy(address.href);
+    address.hash = new URLSearchParams({ scene: 'candle', seed: '1', model: await packModel(sent) }).toString();
+    const said = await copy(address.href);
+    return whole ? said : `${said}, of ${Math.round(sent.length / 1000)} kB`;
   });
   const tag = telling('A tag for a page', 'tag', '', () =>
     copy(`<script type="module" src="node_modules/@wisp/player/dist/candle/element.js"></script>\n<wisp-candle src="${name}.wisp" wind="mic"></wisp-candle>`),

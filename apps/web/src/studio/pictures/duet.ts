@@ -85,6 +85,8 @@ export class Duet {
     if (!('requestVideoFrameCallback' in this.video)) return;
     this.video.requestVideoFrameCallback((_, { mediaTime }) => {
       this.shown = mediaTime;
+      // Picture and outline of one moment: the next frame may already be another's.
+      this.drawFilm(this.rowAt(mediaTime));
       this.watchFilm();
     });
   }
@@ -99,11 +101,15 @@ export class Duet {
     } else {
       this.clock = (this.clock + seconds) % (rows / rate);
     }
-    const row = Math.min(rows - 1, Math.floor(this.clock * rate));
+    const row = this.rowAt(this.clock);
     this.play.goTo(row);
-    this.drawFilm(row);
+    if (!this.filmed || this.shown === null) this.drawFilm(row);
     this.drawFlame();
     this.moved(row / rows);
+  }
+
+  private rowAt(seconds: number): number {
+    return Math.max(0, Math.min(this.outlines.rows - 1, Math.floor(seconds * this.outlines.rate + 1e-3)));
   }
 
   private fitOf(width: number, height: number): Fit {
@@ -136,9 +142,24 @@ export class Duet {
     const { context, width, height } = surface;
     const fit = this.fitOf(width, height);
     const { base } = this.outlines;
+    this.drawCandle(context, fit, width, height);
     drawWick(context, fit.x + fit.scale * base.x, fit.y + fit.scale * base.y, fit.scale * this.outlines.height);
     const line = this.play.line().map((value, k) => (k % 2 === 0 ? fit.x : fit.y) + fit.scale * value);
     if (this.play.size > 0) paintFlame(context, line, fit.scale * this.outlines.height);
+  }
+
+  /** What the flame stands on in the film: a picture of it, from the flame's base downwards. */
+  private drawCandle(context: CanvasRenderingContext2D, fit: Fit, width: number, height: number): void {
+    const kept = this.take.reel.at(0.4 * (this.outlines.rows / this.outlines.rate));
+    if (kept === null) return;
+    const { base, height: tall } = this.outlines;
+    const foot = fit.y + fit.scale * (base.y + 0.03 * tall);
+    context.save();
+    context.beginPath();
+    context.rect(0, foot, width, height - foot);
+    context.clip();
+    drawKept(context, kept, fit);
+    context.restore();
   }
 }
 

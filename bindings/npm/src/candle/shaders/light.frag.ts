@@ -52,7 +52,7 @@ vec3 shown(Hit hit, vec4 surface) {
     vec3 way = to * inversesqrt(r2);
     float facing = level ? max(0.0, dot(way, hit.normal)) : max(0.0, 0.15 + 0.85 * dot(way, hit.normal));
     // What the cream throws back lights the side of the cake.
-    if (hit.kind == kOnCakeSide) facing = 0.30 + 0.20 * dot(way, hit.normal) - 0.16 * (uCake.y - hit.at.y);
+    if (hit.kind == kOnCakeSide) facing = 0.40 + 0.22 * dot(way, hit.normal) - 0.16 * (uCake.y - hit.at.y);
     float fall = uLights[k].w / (0.22 + r2);
     float seen = shade(hit.at, uStands[k], uLights[k].xyz);
     if (hit.kind == kOnCakeTop) seen *= sticks(hit.at, uLights[k].xyz);
@@ -67,8 +67,12 @@ vec3 shown(Hit hit, vec4 surface) {
       light += vec3(1.0, 0.30, 0.06) * uLights[k].w * 0.05 * exp(-foot * 2.2) / (0.4 + uStands[k].w);
     }
   }
+  // While it burns nobody looks at the moon.
+  float lit = 0.0;
+  for (int k = 0; k < uCount; ++k) lit += uLights[k].w;
+  float moon = mix(1.0, 0.12, min(1.0, 2.5 * lit));
   vec3 night = vec3(0.005, 0.007, 0.013) * (0.55 + 0.45 * hit.normal.y);
-  if (hit.kind == kOnWall) night += kMoon * (0.040 * window(hit.at.xy) + 0.008 * exp(-0.35 * length(hit.at.xy - vec2(1.9, 2.0))));
+  if (hit.kind == kOnWall) night += kMoon * moon * (0.040 * window(hit.at.xy) + 0.008 * exp(-0.35 * length(hit.at.xy - vec2(1.9, 2.0))));
   else night += kMoon * 0.013 * smoothstep(6.5, 0.0, length(hit.at.xz - vec2(1.2, -3.0)));
   float corner = hit.kind == kOnWall ? 0.30 + 0.70 * smoothstep(0.0, 1.9, hit.at.y) : 0.50 + 0.50 * smoothstep(-4.6, -2.4, hit.at.z);
   return albedo * (4.2 * light + 3.0 * night) * corner + 0.7 * gloss;

@@ -1,6 +1,7 @@
 export default /* glsl */ `
 // Smoke that the air carries: how dense it is.
-uniform sampler2D uFlow, uSmoke;
+uniform sampler2D uFlow, uSmoke, uWish;
+uniform vec4 uWishBox;    // where smoke writes: middle, half of its width and height; 0: it writes nothing
 uniform vec4 uWicks[14];  // where a wick smokes, how wide, how much
 uniform int uCount;
 void main() {
@@ -16,6 +17,10 @@ void main() {
     float along = clamp(dot(to, way) / max(1e-7, dot(way, way)), 0.0, 1.0);
     vec2 off = (to - along * way) / uWicks[k].z;
     smoke += uSeconds * uWicks[k].w * exp(-dot(off, off)) / (1.0 + length(way) / uWicks[k].z);
+  }
+  if (uWishBox.w > 0.0) {
+    vec2 in_ = 0.5 + 0.5 * (at - uWishBox.xy) / uWishBox.zw;
+    if (in_ == clamp(in_, 0.0, 1.0)) smoke += 6.0 * uSeconds * texture(uWish, in_).a * max(0.0, 1.4 - smoke);
   }
   colour = vec4(max(0.0, smoke - 0.004 * uSeconds), 0, 0, 1);
 }

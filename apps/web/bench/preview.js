@@ -1,0 +1,104 @@
+// The pictures that stand for the page elsewhere, made of the page itself: its icons, the picture in a message, and the
+// README's first one, which moves: a flame of the rig's model burns, is blown out, smokes, and is lit again.
+//
+//     npm run preview --workspace apps/web        after script/web build; then build once more
+
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { openBrowser } from '../tests/browser.js';
+
+const published = (name) => fileURLToPath(new URL(`../public/${name}`, import.meta.url));
+const README = fileURLToPath(new URL('../../../docs/pictures/blown-out.webp', import.meta.url));
+const MOST_BYTES = 1_000_000;
+/** CSS pixels that the page keeps free for its controls below the picture. */
+const COVERED = 118;
+const RATE = 20;
+/** Seconds at which something happens. */
+const ACTS = { blow: 1.2, breathe: 2.1, light: 4.5, end: 7 };
+
+/** In the page: time passes by steps, so that a slow machine films what a quick one shows. */
+function steps() {
+  const real = window.requestAnimationFrame.bind(window);
+  let waiting = [];
+  let clock = 0;
+  window.requestAnimationFrame = (act) => waiting.push(act);
+  window.cancelAnimationFrame = () => undefined;
+  window.step = (seconds) => {
+    clock += 1000 * seconds;
+    const now = waiting;
+    waiting = [];
+    for (const act of now) act(clock);
+    return new Promise((drawn) => real(() => drawn(window.wisp?.frames ?? 0)));
+  };
+  const free = setInterval(() => window.wisp?.firstPicture > 0 ? clearInterval(free) : window.step(1 / 60), 30);
+}
+
+const opened = await openBrowser();
+const open = async (hash, width, height) => {
+  const page = await opened.page(hash, { viewport: { width, height: height + COVERED }, bypassCSP: true, before: steps });
+  await page.addStyleTag({ content: 'body > :not(#stage) { display: none !important; }' });
+  // Coarse, until what is to be kept.
+  const pass = async (seconds) => {
+    for (let k = 0; k < seconds * 30; ++k) await page.evaluate(() => window.step(1 / 30));
+  };
+  const fine = async () => {
+    await page.evaluate(() => (location.hash = location.hash.replace('detail=0.1', 'detail=1')));
+    await page.waitForTimeout(300);
+    await page.evaluate(() => window.step(1 / 60));
+  };
+  await page.waitForFunction(() => window.wisp.firstPicture > 0);
+  await page.waitForTimeout(3000);
+  await pass(2);
+  await fine();
+  return { page, clip: { x: 0, y: 0, width, height } };
+};
+
+async function icons() {
+  const svg = readFileSync(published('icon.svg'), 'utf8');
+  for (const side of [180, 192, 512]) {
+    const page = await opened.browser.newPage({ viewport: { width: side, height: side } });
+    await page.setContent(`<style>body { margin: 0; background: #0b0b11 } svg { display: block }</style>${svg}`);
+    await page.screenshot({ path: published(`icon-${side}.png`) });
+    await page.close();
+  }
+}
+
+async function inMessages() {
+  const { page, clip } = await open('#scene=candle&seed=3&candles=5&detail=0.1', 1200, 630);
+  await page.screenshot({ path: published('preview.jpg'), type: 'jpeg', quality: 84, clip, timeout: 180_000 });
+  await page.close();
+}
+
+async function moving() {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-preview-'));
+  const { page, clip } = await open('#scene=candle&seed=3&detail=0.1', 540, 420);
+  await page.focus('#stage');
+  for (let k = 0; k < ACTS.end * RATE; ++k) {
+    const at = k / RATE;
+    if (at === ACTS.blow) await page.keyboard.down('Space');
+    if (at === ACTS.breathe) await page.keyboard.up('Space');
+    if (at === ACTS.light) await page.keyboard.press('l');
+    await page.evaluate((seconds) => window.step(seconds), 1 / RATE);
+    await page.screenshot({ path: join(folder, `${String(k).padStart(4, '0')}.png`), clip, timeout: 180_000 });
+  }
+  for (let quality = 80; ; quality -= 10) {
+    const args = ['-y', '-loglevel', 'error', '-framerate', String(RATE), '-i', join(folder, '%04d.png'), '-c:v', 'libwebp_anim', '-lossless', '0', '-q:v', String(quality), '-compression_level', '6', '-loop', '0', README];
+    execFileSync('ffmpeg', args);
+    if (statSync(README).size <= MOST_BYTES || quality < 30) break;
+  }
+  rmSync(folder, { recursive: true });
+  await page.close();
+}
+
+const wanted = process.argv.slice(2);
+for (const [name, make] of Object.entries({ icons, inMessages, moving })) {
+  if (wanted.length > 0 && !wanted.includes(name)) continue;
+  await make();
+  console.log(`${name}: made`);
+}
+await opened.close();
+for (const name of ['preview.jpg', 'icon-180.png', 'icon-192.png', 'icon-512.png']) console.log(`${name}: ${statSync(published(name)).size} bytes`);
+console.log(`${README}: ${statSync(README).size} bytes`);

@@ -1,0 +1,95 @@
+// Something to send: whom it is for, how old, what the smoke says; and the ways to send it.
+
+import { LETTERS, MAX_CANDLES, shortened, type Settings } from '../link.js';
+import { element } from './element.js';
+import { telling } from './telling.js';
+
+export interface CardEvents {
+  change(change: Partial<Settings>): void;
+  closed(): void;
+  /** sends the link by whatever this device sends things, or copies it; says how that went */
+  send(): Promise<string>;
+  /** saves a picture, or some seconds in which it is blown out; says how that went */
+  picture(): Promise<string>;
+  film(): Promise<string>;
+  gif(): Promise<string>;
+  /** plays the tune, or ends it; whether it plays */
+  tune(): boolean;
+}
+
+const FIELDS: readonly { name: keyof typeof LETTERS; words: string; hint: string }[] = [
+  { name: 'name', words: 'For', hint: 'a name on the cake' },
+  { name: 'from', words: 'From', hint: 'so that it can be sent back' },
+  { name: 'wish', words: 'What the smoke says', hint: 'when the last flame is out' },
+];
+
+export class Card {
+  private readonly fields = new Map<keyof typeof LETTERS, HTMLInputElement>();
+  private readonly age = element('input', { type: 'number', id: 'card-age', min: 1, max: 999, inputmode: 'numeric', placeholder: 'years' });
+  private readonly inFigures = element('input', { type: 'checkbox', id: 'card-figures' });
+  private readonly tune = element('input', { type: 'checkbox', id: 'card-tune' });
+  private readonly send: HTMLButtonElement;
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly events: CardEvents,
+  ) {
+    const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
+    close.addEventListener('click', () => events.closed());
+    this.send = telling('Copy the link', 'send', '', () => events.send());
+    this.send.classList.add('main');
+    const hear = element('button', { type: 'button', class: 'tool' }, 'Hear it');
+    hear.addEventListener('click', () => (hear.textContent = events.tune() ? 'Silence' : 'Hear it'));
+    place.append(
+      element('header', {}, element('h2', {}, 'Send it'), close),
+      ...FIELDS.map((field) => this.field(field)),
+      element('div', { class: 'field' }, element('label', { for: 'card-age' }, 'Turns'), this.age, element('label', { class: 'check' }, this.inFigures, 'in figures')),
+      element('div', { class: 'field' }, element('label', { class: 'check' }, this.tune, 'with a tune, for whoever asks for it'), hear),
+      element('div', { class: 'actions' }, this.send),
+      element('p', {}, 'All of it is in the link itself: nobody else reads it. Whoever opens it blows the candles out.'),
+      element(
+        'div',
+        { class: 'actions' },
+        telling('Save a film of it', 'loop', 'Filming…', () => events.film()),
+        telling('As a GIF', 'gif', 'Filming…', () => events.gif()),
+        telling('Save a picture', 'picture', 'One moment…', () => events.picture()),
+      ),
+    );
+    for (const input of [this.age, this.inFigures]) input.addEventListener('input', () => this.changeAge());
+    this.tune.addEventListener('input', () => events.change({ tune: Number(this.tune.checked) }));
+    place.addEventListener('keydown', (event) => {
+      // Letters are letters here.
+      if (event.key === 'Escape') events.closed();
+      event.stopPropagation();
+    });
+  }
+
+  get open(): boolean {
+    return !this.place.hidden;
+  }
+
+  show(open: boolean, settings: Readonly<Settings>): void {
+    this.place.hidden = !open;
+    if (!open) return;
+    for (const [name, field] of this.fields) field.value = settings[name];
+    const many = settings.age > 0 ? settings.age : settings.candles;
+    this.age.value = many > 1 || settings.age > 0 ? String(many) : '';
+    this.inFigures.checked = settings.age > 0;
+    this.tune.checked = settings.tune > 0;
+    this.send.focus();
+  }
+
+  private field({ name, words, hint }: (typeof FIELDS)[number]): HTMLElement {
+    const input = element('input', { type: 'text', id: `card-${name}`, maxlength: LETTERS[name], placeholder: hint, autocomplete: 'off', 'data-card': name });
+    input.addEventListener('input', () => this.events.change({ scene: 'candle', [name]: shortened(input.value, LETTERS[name]) }));
+    this.fields.set(name, input);
+    return element('div', { class: 'field' }, element('label', { for: `card-${name}` }, words), input);
+  }
+
+  /** More years than candles have room are figures. */
+  private changeAge(): void {
+    const years = Math.min(999, Math.max(0, Math.floor(this.age.valueAsNumber || 0)));
+    if (years > MAX_CANDLES) this.inFigures.checked = true;
+    this.events.change({ scene: 'candle', age: this.inFigures.checked ? years : 0, candles: Math.max(1, Math.min(MAX_CANDLES, years)) });
+  }
+}

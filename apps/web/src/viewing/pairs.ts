@@ -1,0 +1,104 @@
+// Pairs of a filmed and a played flame in the same wind, both as outlines of two seconds: the rig's films with the shipped
+// model, or a film of the studio with what was learned from it.
+
+import type { Library, Model } from '@wisp/player';
+import type { Outlines } from '../studio/outlines.js';
+import { evenKnots, Spline } from '../studio/spline.js';
+
+/** Outlines one after another, in heights of the flame above its base, x and y by turns. */
+export interface Clip {
+  rate: number;
+  outlines: Float32Array[];
+}
+
+export interface Pair {
+  name: string;
+  filmed: Clip;
+  played: Clip;
+}
+
+/** A stretch of a recording: what was seen, and the wind from some time before on. */
+interface Stretch {
+  name: string;
+  filmed: Clip;
+  wind: ArrayLike<number> | null;
+  /** of the wind, and of its rows before the first outline */
+  rate: number;
+  before: number;
+}
+
+const SECONDS = 2;
+const SHOWN = 30;
+const POINTS = 56;
+
+/** What a model does in the wind of a stretch. */
+function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: number): Clip {
+  const bank = model.bank({ polylinePoints: POINTS, seed });
+  const flame = bank.spawn();
+  // Its unit says so: 0.95 1 is 0.95 of the recording's.
+  const one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
+  const outlines: Float32Array[] = [];
+  const steps = before + Math.round((filmed.outlines.length * rate) / filmed.rate);
+  const every = rate / filmed.rate;
+  for (let row = 0; row < steps; ++row) {
+    if (model.inputs.length > 0) bank.setInstanceInputs(flame, [(wind?.[row] ?? 0) / one]);
+    if (model.facts.blowOut !== null && !bank.flameState(flame).lit) bank.relight(flame);
+    bank.advance(1e9 / rate);
+    if (row >= before && Math.floor((row - before) / every) === outlines.length) outlines.push(bank.polyline(flame).slice());
+  }
+  bank.free();
+  return { rate: filmed.rate, outlines };
+}
+
+const pairOf = (model: Model, stretch: Stretch, seed: number): Pair => ({ name: stretch.name, filmed: stretch.filmed, played: played(model, stretch, seed) });
+
+/** In an order of chance. */
+export function shuffled<T>(list: readonly T[], chance: () => number = Math.random): T[] {
+  return list.map((one) => [chance(), one] as const).sort(([a], [b]) => a - b).map(([, one]) => one);
+}
+
+interface FilmedFile {
+  rate: number;
+  shown: number;
+  before: number;
+  clips: { wind: number[]; outlines: number[][] }[];
+}
+
+/** Of the rig's films, with a model that has not seen them. */
+export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): Promise<Pair[]> {
+  const answer = await fetch('./models/filmed.json');
+  if (!answer.ok) throw new Error(`The films could not be fetched (${answer.status}).`);
+  const { rate, shown, before, clips } = (await answer.json()) as FilmedFile;
+  const model = wisp.model(bytes);
+  const points = (clips[0]?.outlines[0]?.length ?? 0) / 2;
+  const spline = new Spline(points, evenKnots(points), POINTS);
+  const made = shuffled([...clips.entries()]).slice(0, many).map(([k, { wind, outlines }], seed) => {
+    const lines = outlines.map((control) => {
+      const line = new Float32Array(2 * POINTS);
+      spline.draw(control.map((value) => value / 1000), line);
+      return line;
+    });
+    return pairOf(model, { name: `rig ${k + 1}`, filmed: { rate: shown, outlines: lines }, wind: wind.map((one) => one / 1000), rate, before: before * rate }, seed + 1);
+  });
+  model.free();
+  return made;
+}
+
+/** Of a film that was looked at, with what was learned from it; fewer than asked for where the film is short. */
+export function filmPairs(wisp: Library, bytes: Uint8Array, film: Outlines, many: number): Pair[] {
+  const model = wisp.model(bytes);
+  const rows = Math.round(SECONDS * film.rate);
+  const line = new Float32Array(2 * film.samples);
+  const seen = (row: number): Float32Array | null => (film.line(row, line) ? line.map((value, k) => (k % 2 === 0 ? value - film.base.x : film.base.y - value) / film.height) : null);
+  const starts = Array.from({ length: Math.floor((2 * (film.rows - rows)) / rows) }, (_, k) => rows + Math.floor((k * rows) / 2)).filter((from) => from + rows <= film.rows);
+  const made: Pair[] = [];
+  for (const from of shuffled(starts)) {
+    if (made.length === many) break;
+    const outlines = Array.from({ length: SECONDS * SHOWN }, (_, k) => seen(from + Math.floor((k * film.rate) / SHOWN)));
+    if (outlines.some((one) => one === null)) continue;
+    const stretch = { name: `${(from / film.rate).toFixed(1)} s`, filmed: { rate: SHOWN, outlines: outlines as Float32Array[] }, wind: film.wind?.slice(from - rows, from + rows) ?? null, rate: film.rate, before: rows };
+    made.push(pairOf(model, stretch, made.length + 1));
+  }
+  model.free();
+  return made;
+}

@@ -1,0 +1,158 @@
+// The viewing test: a filmed flame and a played one beside each other, twenty times; which was filmed? Who cannot tell them
+// apart is right half of the time.
+
+import { FlameShape } from '@wisp/player/parts/candle/flame_shape';
+import { element } from '../panel/element.js';
+import { telling } from '../panel/telling.js';
+import { saveFile } from '../saving.js';
+import { paintFlame } from '../studio/pictures/flame_paint.js';
+import { surfaceOf } from '../studio/pictures/surface.js';
+import type { Clip, Pair } from './pairs.js';
+
+export const ANSWERS = 20;
+const SIDES = ['left', 'right'] as const;
+type Side = (typeof SIDES)[number];
+
+/** What was answered. */
+interface Answer {
+  pair: string;
+  filmed: Side;
+  answered: Side;
+  right: boolean;
+  seconds: number;
+}
+
+/** A share of answers with the interval in which it lies in 95 of 100 such tests (Wilson, 1927). */
+export function shareOf(right: number, of: number): { share: number; low: number; high: number } {
+  const z = 1.96;
+  const share = right / of;
+  const middle = (share + z ** 2 / (2 * of)) / (1 + z ** 2 / of);
+  const half = (z * Math.sqrt((share * (1 - share)) / of + z ** 2 / (4 * of ** 2))) / (1 + z ** 2 / of);
+  return { share, low: Math.max(0, middle - half), high: Math.min(1, middle + half) };
+}
+
+/** What that says of the model. */
+export function meaningOf(right: number, of: number): string {
+  const { low, high } = shareOf(right, of);
+  const spread = `${Math.round(100 * low)} to ${Math.round(100 * high)} %`;
+  if (low > 0.5) return `You see a difference: with chance alone so many are right less than once in twenty tests. What lies between is ${spread}.`;
+  if (high < 0.5) return `You see a difference, and took the played flame for the filmed one: ${spread}.`;
+  return `You may as well have tossed a coin: in these two seconds the played flame passes for the filmed one. ${of < 60 ? `Twenty answers leave ${spread}; a class of five narrows it to a few per cent.` : `What is left is ${spread}.`}`;
+}
+
+/** A clip that runs in a canvas, over and over. */
+class Screen {
+  readonly canvas = element('canvas', { role: 'img' });
+  private readonly shape = new FlameShape();
+  private clip: Clip | null = null;
+
+  constructor(side: Side) {
+    this.canvas.setAttribute('aria-label', `A flame, ${side}`);
+  }
+
+  show(clip: Clip): void {
+    this.clip = clip;
+  }
+
+  draw(seconds: number): void {
+    const surface = surfaceOf(this.canvas);
+    const { clip } = this;
+    if (surface === null || clip === null) return;
+    const { context, width, height } = surface;
+    const many = clip.outlines.length;
+    const at = (seconds * clip.rate) % many;
+    // Both through the same hands: rounded at the base, then painted.
+    this.shape.update(clip.outlines[Math.floor(at)] as Float32Array, 1);
+    const unit = 0.56 * height;
+    const line = new Float32Array(2 * this.shape.count);
+    for (let k = 0; k < this.shape.count; ++k) {
+      line[2 * k] = width / 2 + unit * (this.shape.points[3 * k] as number);
+      line[2 * k + 1] = 0.86 * height - unit * (this.shape.points[3 * k + 1] as number);
+    }
+    // From the end to the beginning it goes through the dark.
+    context.globalAlpha = Math.min(1, at / 5, (many - at) / 5);
+    paintFlame(context, line, unit);
+    context.globalAlpha = 1;
+  }
+}
+
+export class Viewing {
+  readonly dialog = element('dialog', { class: 'help viewing', 'aria-labelledby': 'viewing-title' });
+  private readonly title = element('h2', { id: 'viewing-title' });
+  private readonly words = element('p', { 'aria-live': 'polite' });
+  private readonly screens = { left: new Screen('left'), right: new Screen('right') };
+  private readonly stage = element('div', { class: 'both' }, this.screens.left.canvas, this.screens.right.canvas);
+  private readonly actions = element('div', { class: 'actions' });
+  private readonly answers: Answer[] = [];
+  private since = 0;
+  private filmed: Side = 'left';
+
+  /** `of`: what is played, for the file. */
+  constructor(
+    private readonly pairs: readonly Pair[],
+    private readonly of: { model: string; from: string },
+  ) {
+    const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
+    close.addEventListener('click', () => this.dialog.close());
+    this.dialog.append(element('header', {}, this.title, close), this.stage, this.words, this.actions);
+    this.dialog.addEventListener('close', () => this.dialog.remove());
+    this.dialog.addEventListener('keydown', (event) => this.key(event));
+    document.body.append(this.dialog);
+    this.dialog.showModal();
+    this.ask();
+    const frame = (now: number): void => {
+      if (!this.dialog.isConnected) return;
+      if (this.since === 0) this.since = now;
+      for (const screen of Object.values(this.screens)) screen.draw((now - this.since) / 1000);
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  private ask(): void {
+    const pair = this.pairs[this.answers.length];
+    if (pair === undefined) return this.end();
+    this.filmed = SIDES[Math.random() < 0.5 ? 0 : 1];
+    this.screens[this.filmed].show(pair.filmed);
+    this.screens[this.filmed === 'left' ? 'right' : 'left'].show(pair.played);
+    this.since = 0;
+    this.title.textContent = `Which one was filmed? ${this.answers.length + 1} of ${this.pairs.length}`;
+    this.words.textContent = 'One of them was filmed. The other was worked out by the model, in the same wind, and nobody drew it.';
+    this.actions.replaceChildren(
+      ...SIDES.map((side) => {
+        const button = element('button', { type: 'button', class: 'tool main', 'data-side': side }, side === 'left' ? '← This one' : 'This one →');
+        button.addEventListener('click', () => this.take(side));
+        return button;
+      }),
+    );
+  }
+
+  private key(event: KeyboardEvent): void {
+    event.stopPropagation();
+    const side = event.key === 'ArrowLeft' ? 'left' : event.key === 'ArrowRight' ? 'right' : null;
+    if (side !== null && this.answers.length < this.pairs.length) this.take(side);
+  }
+
+  private take(answered: Side): void {
+    const pair = this.pairs[this.answers.length] as Pair;
+    const seconds = Number(((performance.now() - this.since) / 1000).toFixed(2));
+    this.answers.push({ pair: pair.name, filmed: this.filmed, answered, right: answered === this.filmed, seconds });
+    this.ask();
+  }
+
+  private end(): void {
+    const of = this.answers.length;
+    const right = this.answers.filter((answer) => answer.right).length;
+    const { share, low, high } = shareOf(right, of);
+    this.title.textContent = `${right} of ${of} were right`;
+    this.stage.hidden = true;
+    this.words.textContent = meaningOf(right, of);
+    const file = { test: 'wisp viewing test 1', ...this.of, right, of, share, interval_95: [low, high], answers: this.answers };
+    this.actions.replaceChildren(
+      telling('Take the answers away', 'answers', '', () => {
+        saveFile(new Blob([`${JSON.stringify(file, null, 1)}\n`], { type: 'application/json' }), 'wisp-viewing.json');
+        return Promise.resolve('Saved');
+      }),
+    );
+  }
+}

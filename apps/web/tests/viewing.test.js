@@ -1,0 +1,55 @@
+// The viewing test, in Chromium: twenty pairs, who is right how often, and the file to take away.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, openBrowser, openDrawer, until } from './browser.js';
+
+describe('which one was filmed', { skip: chromiumPath === undefined && 'there is no Chromium here' }, () => {
+  let opened, page;
+  before(async () => {
+    opened = await openBrowser();
+    page = await opened.page('#scene=candle&seed=3&detail=0.05', { viewport: { width: 390, height: 700 } });
+    await openDrawer(page);
+    await page.click('[data-file=viewing]');
+    await until(page, 'the first pair', () => document.querySelector('.viewing[open]') !== null);
+  });
+  after(() => opened?.close());
+
+  it('shows two flames that both move, in the same drawing', async () => {
+    const pictures = () => page.$$eval('.viewing canvas', (all) => all.map((canvas) => canvas.toDataURL()));
+    // Both are there: neither is the picture of nothing.
+    await until(page, 'both burn', () =>
+      [...document.querySelectorAll('.viewing canvas')].every((canvas) => {
+        const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+        let bright = 0;
+        for (let k = 0; k < data.length; k += 4) if (data[k] > 200) bright += 1;
+        return bright > data.length / 4 / 100;
+      }));
+    const before = await pictures();
+    await page.waitForTimeout(400);
+    const after_ = await pictures();
+    assert.ok(before.every((picture, k) => picture !== after_[k]));
+    assert.ok(await page.$eval('.viewing', (dialog) => dialog.scrollWidth <= dialog.clientWidth));
+  });
+
+  it('asks twenty times, by button or arrow, says the share with its interval, and gives the answers away', async () => {
+    for (let k = 0; k < 20; ++k) {
+      await until(page, `question ${k + 1}`, (count) => document.getElementById('viewing-title').textContent === `Which one was filmed? ${count} of 20`, k + 1);
+      if (k % 2 === 0) await page.click('[data-side=left]');
+      else await page.keyboard.press('ArrowLeft');
+    }
+    assert.match(await page.textContent('#viewing-title'), /^\d+ of 20 were right$/);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=answers]')]);
+    const file = JSON.parse(readFileSync(await download.path(), 'utf8'));
+    assert.equal(file.answers.length, 20);
+    assert.equal(new Set(file.answers.map(({ pair }) => pair)).size, 20, 'no pair twice');
+    assert.equal(file.right, file.answers.filter(({ filmed }) => filmed === 'left').length);
+    // Wilson's interval, worked out another way: its ends solve (p - share)^2 = z^2 p (1 - p) / n.
+    for (const p of file.interval_95) assert.ok(Math.abs((p - file.share) ** 2 - (1.96 ** 2 * p * (1 - p)) / 20) < 1e-9, JSON.stringify(file.interval_95));
+    const words = await page.textContent('.viewing p');
+    const sees = file.interval_95[0] > 0.5 || file.interval_95[1] < 0.5;
+    assert.match(words, sees ? /see a difference/ : /tossed a coin/);
+    assert.deepEqual(page.errors, []);
+  });
+});
