@@ -1,12 +1,14 @@
 // Pastes a link into a made-up conversation and shows the card that programs make of it: what the page says of itself in
 // its head, and the picture at the address that it gives.
 //
-//     npm run card --workspace apps/web -- [ADDRESS] [PICTURE.png]        default: the built page, /tmp/card.png
+//     npm run card --workspace apps/web -- [ADDRESS] [PICTURE.png]        default: the built page, card.png in the folder for temporary files
 
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { openBrowser } from '../tests/browser.js';
 
 const opened = await openBrowser();
-const [address = `${opened.address}#scene=candle&age=36&name=Ada&from=Ben&wish=Happy+birthday`, picture = '/tmp/card.png'] = process.argv.slice(2);
+const [address = `${opened.address}#scene=candle&age=36&name=Ada&from=Ben&wish=Happy+birthday`, picture = join(tmpdir(), 'card.png')] = process.argv.slice(2);
 const html = await (await fetch(address)).text();
 const told = Object.fromEntries([...html.matchAll(/<meta (?:property|name)="([^"]+)" content="([^"]*)"/g)].map(([, name, words]) => [name, words]));
 const image = new URL(told['og:image'] ?? '', address);

@@ -78,7 +78,7 @@ class Screen {
 
 export class Viewing {
   readonly dialog = element('dialog', { class: 'help viewing', 'aria-labelledby': 'viewing-title' });
-  private readonly title = element('h2', { id: 'viewing-title' });
+  private readonly title = element('h2', { id: 'viewing-title', tabindex: '-1' });
   private readonly words = element('p', { 'aria-live': 'polite' });
   private readonly screens = { left: new Screen('left'), right: new Screen('right') };
   private readonly stage = element('div', { class: 'both' }, this.screens.left.canvas, this.screens.right.canvas);
@@ -116,6 +116,8 @@ export class Viewing {
     this.screens[this.filmed].show(pair.filmed);
     this.screens[this.filmed === 'left' ? 'right' : 'left'].show(pair.played);
     this.since = 0;
+    // The button that was pressed is gone: arrows go on.
+    this.title.focus();
     this.title.textContent = `Which one was filmed? ${this.answers.length + 1} of ${this.pairs.length}`;
     this.words.textContent = 'One of them was filmed. The other was worked out by the model, in the same wind, and nobody drew it.';
     this.actions.replaceChildren(
