@@ -6,6 +6,7 @@ import { describe, it } from 'node:test';
 import { brotliCompressSync, gzipSync } from 'node:zlib';
 
 const dist = new URL('../dist/', import.meta.url);
+const MOST_LINES = 20_600;
 const packed = (name) => gzipSync(readFileSync(new URL(name, dist)), { level: 9 }).length;
 
 describe('the built page', () => {
@@ -62,6 +63,15 @@ describe('the built page', () => {
     assert.ok(size('flame.wisp') < 60_000);
     for (const order of [2, 4, 6]) assert.ok(size(`flame-${order}.wisp`) < 20_000);
     assert.ok(size('leaf.wisp') < 1_000_000);
+  });
+
+  it('is written in no more lines than before', () => {
+    // Of the page, its packages, tests and benches. It falls; whoever adds takes out as much.
+    const roots = ['../', '../../../bindings/'].map((path) => new URL(path, import.meta.url));
+    const mine = (path) => /\.(?:ts|js|mjs)$/.test(path) && !/(?:^|\/)(?:dist|node_modules)\//.test(path);
+    const lines = roots.flatMap((root) => readdirSync(root, { recursive: true }).filter(mine).map((path) => readFileSync(new URL(path, root), 'utf8').split('\n').length - 1));
+    const total = lines.reduce((sum, one) => sum + one, 0);
+    assert.ok(lines.length > 150 && total <= MOST_LINES, `${total} lines in ${lines.length} files`);
   });
 
   it('forbids itself every other host', () => {

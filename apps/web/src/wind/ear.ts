@@ -21,7 +21,12 @@ const VAIN_BLOWS = 3;
 const CLIPPED = 0.02;
 
 /** Sound that rises by so much over the quietest is believed to be what was asked for, though it is unlike a blow. */
-const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 2, 'blow hard': 6 };
+const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 3, 'blow hard': 5 };
+/** Frames before a step that say how quiet it is; sound below this says nothing: microphones open with silence. */
+const READY = 60;
+const SILENT = 3e-4;
+
+const shareOf = (values: readonly number[], share: number): number => [...values].sort((a, b) => a - b)[Math.floor(share * values.length)] ?? 0;
 
 /** By loudness alone: from this share of the loud blow on, for so many seconds, it blows; the loud blow itself is that strong. */
 const PLAIN = { share: 0.4, seconds: 0.12, strong: 1.8 };
@@ -70,9 +75,10 @@ export class Ear {
   private answer: ((heard: boolean) => void) | null = null;
   /** how strong a breath is, also while nothing of it reaches the scene */
   private heard = 0;
-  /** of sound, root mean squares: the quietest by now, what came during a step of the calibration, what a loud blow has
+  /** of sound, root mean squares: the quiet before a step of the calibration, what came during a step of the calibration, what a loud blow has
    * where it has no rumble; null: it has */
-  private quietest = Infinity;
+  private smooth = 0;
+  private quiet = 0;
   private stepped: number[] = [];
   private asked: Asked = 'breathe gently';
   private plain: number | null = null;
@@ -173,6 +179,7 @@ export class Ear {
   listenFor(asked: Asked, seconds: number): Promise<boolean> {
     this.answered(false);
     this.asked = asked;
+    this.quiet = shareOf(this.stepped.slice(-READY), 0.25);
     this.stepped = [];
     if (this.microphone === null) return Promise.resolve(false);
     this.microphone.calibrate(asked, seconds);
@@ -193,8 +200,10 @@ export class Ear {
 
   private hear(frame: Wind): void {
     const { rms, speed, confidence } = frame;
-    this.quietest = Math.min(rms, 1.0005 * this.quietest);
-    this.stepped.push(rms);
+    // A tenth of a second of it: noise by itself is no rise.
+    this.smooth += 0.15 * (rms - this.smooth);
+    this.stepped.push(this.smooth);
+    if (this.stepped.length > 10 * READY) this.stepped.splice(0, READY);
     this.heard = confidence > 0.5 ? speed : 0;
     this.wind = this.tuning ? 0 : Math.max(frame.wind, this.byLoudness(frame));
     if (!this.tuning) this.events.wind(this.wind);
@@ -202,9 +211,8 @@ export class Ear {
 
   /** Whoever was asked to blow has blown: what rose above the quiet was that. */
   private believes(): boolean {
-    const sorted = this.stepped.sort((a, b) => a - b);
-    const loud = sorted[Math.floor(0.8 * sorted.length)] ?? 0;
-    const rose = loud > RISES[this.asked] * Math.min(this.quietest, sorted[Math.floor(0.1 * sorted.length)] ?? Infinity);
+    const loud = shareOf(this.stepped, 0.8);
+    const rose = loud > RISES[this.asked] * Math.max(SILENT, Math.min(this.quiet, shareOf(this.stepped, 0.1)));
     if (rose && this.tuning && this.asked === 'blow hard') {
       this.plain = loud;
       this.events.trouble(HISS);

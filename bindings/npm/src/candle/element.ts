@@ -7,7 +7,7 @@ import { MAX_CANDLES } from './room.js';
 import { CandleScene } from './scene.js';
 
 /**
- * Attributes beside those of every scene: `candles`, 1 to 12. Events: `load`, `error`, `extinguish` when the last flame
+ * Attributes beside those of every scene: `candles`, 1 to 100. Events: `load`, `error`, `extinguish` when the last flame
  * goes out, `light` when all burn again.
  */
 export class WispCandle extends SceneElement {
