@@ -111,9 +111,6 @@ void bind_chains(py::module_& module) {
           "event", [](const ChainRecipe& r) { return word_of(r.event); },
           [](ChainRecipe& r, const std::string& word) { r.event = unwrapped(parse_event(word)); })
       .def_property(
-          "features", [](const ChainRecipe& r) { return word_of(r.features); },
-          [](ChainRecipe& r, const std::string& word) { r.features = unwrapped(parse_features(word)); })
-      .def_property(
           "realisation", [](const ChainRecipe& r) { return std::string(word_of(r.realisation)); },
           [](ChainRecipe& r, const std::string& word) { r.realisation = unwrapped(parse_realisation(word)); })
       .def_readwrite("modes", &ChainRecipe::modes)

@@ -139,7 +139,6 @@ class ChainRecipe:
     def __init__(self, **fields: Any) -> None: ...
     name: str
     event: str
-    features: str
     realisation: str
     modes: int
     history: int

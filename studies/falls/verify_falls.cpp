@@ -70,9 +70,9 @@ std::size_t window_rows(const LearnedLeaf& leaf) {
 Result<void> write_windows(const std::filesystem::path& file) {
   const LearnedLeaf& leaf = learned_leaf();
   const auto& real = leaf.fit.held_out;
-  const auto made = synthesize_falls(leaf.fit.model, static_cast<int>(real.size()), real.front().rows(), 1);
+  const auto made = made_falls(leaf.fit.model, static_cast<int>(real.size()), real.front().rows(), 1);
   if (!made) return made.error();
-  const auto seen = series_of(real, leaf), played = series_of(*made, leaf);
+  const auto seen = series_of(real, leaf), played = series_of(made->falls, leaf);
   const std::size_t length = window_rows(leaf);
   std::ofstream out(file);
   out.precision(8);

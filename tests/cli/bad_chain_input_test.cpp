@@ -157,7 +157,6 @@ TEST_F(BadChainInput, OrientationThatIsNoneOrOnlyInPartIsExplained) {
   EXPECT_THAT(not_learned(three), HasSubstr("has 3 of the channels q.w, q.x, q.y, q.z"));
   const auto none = record("none.csv", Falls{.header = positions, .of = first(3)});
   EXPECT_THAT(not_learned(none), HasSubstr("has no orientation, which the event's forward_speed needs"));
-  EXPECT_THAT(not_learned(none, "--event min:horizontal_speed --features spin"), HasSubstr("none.csv: the features"));
   EXPECT_THAT(not_learned(record("flat.csv", Falls{.header = "episode,y:pos.x,y:pos.y", .of = first(2)})),
               HasSubstr("has no channel pos.z"));
 }

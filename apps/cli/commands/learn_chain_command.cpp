@@ -32,14 +32,11 @@ Result<ChainRecipe> recipe_from(const Arguments& arguments) {
   if (auto ok = check_flags(arguments); !ok) return ok.error();
   auto event = parse_event(arguments.text("event"));
   if (!event) return Error{"--event: " + event.error().message};
-  auto features = parse_features(arguments.text("features"));
-  if (!features) return Error{"--features: " + features.error().message};
-  features->heading_free = arguments.text("frame") == "heading";
   auto realisation = parse_realisation(arguments.text("realisation"));
   if (!realisation) return Error{"--realisation: " + realisation.error().message};
   return ChainRecipe{.name = model_name(arguments),
                      .event = std::move(*event),
-                     .features = *features,
+                     .heading_free = arguments.text("frame") == "heading",
                      .modes = number_or_auto(arguments, "modes"),
                      .history = arguments.integer("history"),
                      .realisation = *realisation,
@@ -91,13 +88,11 @@ Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
   return hand_over(*fit, output, start, terminal);
 }
 
-std::vector<Flag> flags(const std::string& event, const std::string& features) {
+std::vector<Flag> flags(const std::string& event) {
   std::vector<Flag> all = {
       output_flag(),
       {"event", Kind::kText, "SPEC", event,
        "where motion is cut: zero:, min: or max: of a channel, or of speed, horizontal_speed, forward_speed"},
-      {"features", Kind::kNames, "LIST", features,
-       "what tells kinds of segment apart: velocity, length, direction, spin, tilt, duration"},
       {"frame",
        Kind::kChoice,
        "world|heading",
@@ -152,7 +147,7 @@ Command learn_chain_command() {
       "learn chain",
       "Learns a chain of segments from recordings of something that moves: cut at events, sorted into modes, counted.",
       {{"REC", kRecordings, true}},
-      flags("min:horizontal_speed", "velocity,length,direction"),
+      flags("min:horizontal_speed"),
       {{"wisp learn chain falls.csv -o disc.wisp --event min:horizontal_speed --smooth 7",
         "Tracks of falling paper: positions only"}},
       run_learn_chain,
@@ -164,7 +159,7 @@ Command learn_leaf_command() {
       "learn leaf",
       "Learns how a leaf falls: `learn chain`, cut where the leaf stalls.",
       {{"REC", kRecordings, true}},
-      flags("zero:forward_speed", "velocity,length,direction"),
+      flags("zero:forward_speed"),
       {{"wisp learn leaf drops.csv -o leaf.wisp", "From `wisp simulate leaf`"},
        {"wisp learn leaf drops.csv gusts.csv gusts.calm.csv -o leaf.wisp",
         "The same with its response to gusts, from `wisp simulate leaf --pairs`"},

@@ -25,21 +25,6 @@ struct EventSpec {
 /// Errors: another form.
 Result<EventSpec> parse_event(std::string_view text);
 
-/// The numbers by which segments are sorted into modes.
-struct FeatureChoice {
-  bool velocity = true;      ///< at both ends: 6 numbers
-  bool length = true;        ///< of the line between the ends: 1
-  bool direction = true;     ///< of that line, a unit vector: 3
-  bool spin = false;         ///< angular velocity at both ends: 6; needs orientation
-  bool tilt = false;         ///< the body's normal at both ends: 6; needs orientation
-  bool duration = false;     ///< 1
-  bool heading_free = true;  ///< vectors as seen along the segment's own direction over ground; otherwise the world's
-};
-
-/// `velocity,length,direction,spin,tilt,duration` or some of them.
-/// Errors: another word.
-Result<FeatureChoice> parse_features(std::string_view text);
-
 /// The realisation of a mode: what its segments are.
 enum class Realisation {
   kSegments,  ///< recorded ones
@@ -55,7 +40,6 @@ Result<Realisation> parse_realisation(std::string_view text);
 
 /// The words that the parsers read.
 std::string word_of(const EventSpec& event);
-std::string word_of(const FeatureChoice& features);
 std::string_view word_of(Realisation realisation);
 
 /// How a chain is learned from recordings of something that moves: outputs pos.x, pos.y, pos.z in metres, z up, and,
@@ -64,8 +48,8 @@ std::string_view word_of(Realisation realisation);
 struct ChainRecipe {
   std::string name = "chain";  ///< of the model
   EventSpec event{EventKind::kMinimum, "horizontal_speed"};
-  FeatureChoice features{};
-  int modes = 0;    ///< 1 … 256: kinds of segment, one of the next kind follows, as in the paper. 0: none where
+  bool heading_free = true;  ///< vectors are seen along a segment's own direction over ground; otherwise the world's
+  int modes = 0;    ///< 1 … 64: kinds of segment, one of the next kind follows, as in the paper. 0: none where
                     ///< orientation is known, else 6
   int history = 1;  ///< modes that the next one depends on, 1 or 2
   Realisation realisation = Realisation::kSegments;

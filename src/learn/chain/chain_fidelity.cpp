@@ -15,40 +15,12 @@ namespace {
 
 constexpr double kFlipMargin = 0.2;  // of the normal's height: nearer to the horizon, no side lies up
 
-// Falls with the steps at which a segment was joined.
-struct Made {
-  std::vector<Recording> falls;
-  std::vector<std::vector<std::size_t>> joins;
-};
-
 Recording empty_fall(const Model& model) {
   Recording fall;
   fall.source = "synthesized";
   fall.rate_hz = model.rate_hz;
   for (const Output& output : model.outputs) fall.channels.push_back({output.name, output.unit, Role::kOutput, {}});
   return fall;
-}
-
-Result<Made> make_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed) {
-  auto bank = Bank::create(model, {.capacity = falls, .seed = seed});
-  if (!bank) return bank.error();
-  for (int k = 0; k < falls; ++k) bank->spawn();
-  Made made{std::vector<Recording>(static_cast<std::size_t>(falls), empty_fall(model)),
-            std::vector<std::vector<std::size_t>>(static_cast<std::size_t>(falls))};
-  const std::size_t count = model.outputs.size();
-  std::vector<float> outputs(static_cast<std::size_t>(falls) * count);
-  const ChainFacet* chain = bank->chain();
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (row > 0) bank->step();
-    bank->outputs(outputs);
-    for (std::size_t k = 0; k < made.falls.size(); ++k) {
-      for (std::size_t i = 0; i < count; ++i) {
-        made.falls[k].channels[i].samples.push_back(outputs[k * count + i]);
-      }
-      if (row > 0 && chain && chain->place_of(bank->at(static_cast<int>(k)))->step == 0) made.joins[k].push_back(row);
-    }
-  }
-  return made;
 }
 
 double flips_of(const MotionPiece& piece) {
@@ -116,10 +88,30 @@ Bounded compared(std::span<const MotionSeries> real, std::span<const MotionSerie
 
 }  // namespace
 
-Result<std::vector<Recording>> synthesize_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed) {
-  auto made = make_falls(model, falls, rows, seed);
-  if (!made) return made.error();
-  return std::move(made->falls);
+Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed) {
+  auto bank = Bank::create(model, {.capacity = falls, .seed = seed});
+  if (!bank) return bank.error();
+  for (int k = 0; k < falls; ++k) bank->spawn();
+  const auto sides = static_cast<std::size_t>(falls);
+  MadeFalls made{std::vector<Recording>(sides, empty_fall(model)), std::vector<std::vector<std::size_t>>(sides),
+                 std::vector<std::vector<int>>(sides)};
+  const std::size_t count = model.outputs.size();
+  std::vector<float> outputs(static_cast<std::size_t>(falls) * count);
+  const ChainFacet* chain = bank->chain();
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (row > 0) bank->step();
+    bank->outputs(outputs);
+    for (std::size_t k = 0; k < made.falls.size(); ++k) {
+      for (std::size_t i = 0; i < count; ++i) {
+        made.falls[k].channels[i].samples.push_back(outputs[k * count + i]);
+      }
+      if (!chain) continue;
+      const ChainPlace place = *chain->place_of(bank->at(static_cast<int>(k)));
+      made.modes[k].push_back(static_cast<int>(place.mode));
+      if (row > 0 && place.step == 0) made.joins[k].push_back(row);
+    }
+  }
+  return made;
 }
 
 Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recording> real,
@@ -135,7 +127,7 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   std::size_t longest = 0;
   for (const MotionPiece& piece : seen->pieces) longest = std::max(longest, piece.rows());
   const int falls = static_cast<int>(seen->pieces.size()) * options.synthesized_per_real;
-  auto made = make_falls(model, falls, longest, options.seed);
+  auto made = made_falls(model, falls, longest, options.seed);
   if (!made) return made.error();
   // A fall that was seen only so far is only so far compared.
   for (std::size_t k = 0; k < made->falls.size(); ++k) {

@@ -46,9 +46,16 @@ struct ChainFidelity {
   double window_seconds = 0;
 };
 
-/// Falls made by a model: as many as requested, each of `rows` rows, as recordings of its rate.
-/// Errors: as Bank::create().
-Result<std::vector<Recording>> synthesize_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
+/// Falls made by a model, as recordings of its rate, and of a chain the rows of each at which a segment was joined, and
+/// the mode of every row.
+struct MadeFalls {
+  std::vector<Recording> falls;
+  std::vector<std::vector<std::size_t>> joins;
+  std::vector<std::vector<int>> modes;
+};
+
+/// As many as requested, each of `rows` rows. Errors: as Bank::create().
+Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
 
 /// Compares falls that the model makes with recorded ones, which it should not have seen.
 /// Errors: as motion_of() and segment(); the model's view is not a pose or a position; rates that differ; too little

@@ -77,8 +77,7 @@ Training training_of(std::span<const Recording> recordings, const ChainRecipe& r
     if (std::find(made.sources.begin(), made.sources.end(), name) == made.sources.end()) made.sources.push_back(name);
   }
   made.motion = MotionTraining{word_of(recipe.event), recipe.min_seconds, recipe.debounce, recipe.smooth_rows};
-  made.recipe = {{"features", word_of(recipe.features)},
-                 {"frame", recipe.features.heading_free ? "heading" : "world"},
+  made.recipe = {{"frame", recipe.heading_free ? "heading" : "world"},
                  {"modes", recipe.modes > 0 ? std::to_string(recipe.modes) : "auto"},
                  {"history", std::to_string(recipe.history)},
                  {"realisation", std::string(word_of(recipe.realisation))}};
@@ -108,11 +107,10 @@ Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   if (recipe.modes == 0 && data.motion.has_orientation) {
     return Modes{1, std::vector<std::uint16_t>(segments.size()), {data.learned_segments}, 0};
   }
-  const auto features = segment_features(data.motion, segments, recipe.features);
-  if (!features) return features.error();
+  const FeatureTable features = segment_features(data.motion, segments, recipe.heading_free);
   const int modes =
       recipe.modes > 0 ? recipe.modes : std::min(kModesWithoutOrientation, static_cast<int>(data.learned_segments));
-  return sorted_into_modes(*features, data.learned_segments, modes, recipe.seed);
+  return sorted_into_modes(features, data.learned_segments, modes, recipe.seed);
 }
 
 // How modes follow each other, and the segments that play them.
@@ -137,13 +135,13 @@ ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const Chain
                         std::vector<std::uint64_t>& origin) {
   const bool bounded_height = height_is_bounded(from.motion, from.segments);
   auto store = store_segments(from.motion, from.segments, from.mode, from.modes,
-                              {.heading_free = recipe.features.heading_free,
+                              {.heading_free = recipe.heading_free,
                                .max_bytes = recipe.max_bytes,
                                .bounded_height = bounded_height,
                                .breadth = from.motion.has_orientation || bounded_height ? recipe.best_of : 0});
   ChainModel dynamics;
   dynamics.motion = from.motion.has_orientation ? ChainMotion::kPose : ChainMotion::kPosition;
-  dynamics.heading_free = recipe.features.heading_free;
+  dynamics.heading_free = recipe.heading_free;
   dynamics.modes = from.modes;
   dynamics.segments = std::move(store.segments);
   dynamics.initial = std::move(chain.initial);
@@ -159,13 +157,13 @@ ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const Chain
 Result<RealisedSegments> realised(const SortedSegments& from, const ChainRecipe& recipe) {
   switch (recipe.realisation) {
     case Realisation::kSpline:
-      return spline_segments(from, recipe.features.heading_free);
+      return spline_segments(from, recipe.heading_free);
     case Realisation::kLinear:
       return system_segments(from, 1, recipe.seed);
     case Realisation::kOde:
       return system_segments(from, 2, recipe.seed);
     default:
-      return half_segments(from, recipe.features, recipe.seed);
+      return half_segments(from, recipe.heading_free, recipe.seed);
   }
 }
 

@@ -1,19 +1,12 @@
 #include "wisp/learn/chain_recipe.hpp"
 
-#include <algorithm>
 #include <array>
-#include <utility>
 
 namespace wisp {
 namespace {
 
 constexpr std::array<std::string_view, 3> kKinds = {"zero", "min", "max"};
 constexpr std::array<std::string_view, 5> kRealisations = {"segments", "linear", "ode", "chain", "spline"};
-
-constexpr std::pair<std::string_view, bool FeatureChoice::*> kFeatures[] = {
-    {"velocity", &FeatureChoice::velocity},   {"length", &FeatureChoice::length},
-    {"direction", &FeatureChoice::direction}, {"spin", &FeatureChoice::spin},
-    {"tilt", &FeatureChoice::tilt},           {"duration", &FeatureChoice::duration}};
 
 }  // namespace
 
@@ -27,24 +20,6 @@ Result<EventSpec> parse_event(std::string_view text) {
                "\", expected zero:SIGNAL, min:SIGNAL or max:SIGNAL, such as min:horizontal_speed"};
 }
 
-Result<FeatureChoice> parse_features(std::string_view text) {
-  FeatureChoice choice{.velocity = false, .length = false, .direction = false};
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(','));
-    bool known = false;
-    for (const auto& [name, feature] : kFeatures) {
-      if (word != name) continue;
-      choice.*feature = known = true;
-    }
-    if (!known) {
-      return Error{"a feature is \"" + std::string(word) +
-                   "\", expected velocity, length, direction, spin, tilt or duration, separated by commas"};
-    }
-    text.remove_prefix(std::min(text.size(), word.size() + 1));
-  }
-  return choice;
-}
-
 Result<Realisation> parse_realisation(std::string_view text) {
   for (std::size_t k = 0; k < kRealisations.size(); ++k) {
     if (text == kRealisations[k]) return static_cast<Realisation>(k);
@@ -55,14 +30,6 @@ Result<Realisation> parse_realisation(std::string_view text) {
 
 std::string word_of(const EventSpec& event) {
   return std::string(kKinds[static_cast<std::size_t>(event.kind)]) + ":" + event.signal;
-}
-
-std::string word_of(const FeatureChoice& features) {
-  std::string words;
-  for (const auto& [name, feature] : kFeatures) {
-    if (features.*feature) words += (words.empty() ? "" : ",") + std::string(name);
-  }
-  return words;
 }
 
 std::string_view word_of(Realisation realisation) { return kRealisations[static_cast<std::size_t>(realisation)]; }

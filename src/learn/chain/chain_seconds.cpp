@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/statistics.hpp"
 #include "learn/fidelity/fidelity_distance.hpp"
 #include "learn/fidelity/fidelity_stretch.hpp"
 #include "learn/numeric/constants.hpp"
@@ -83,13 +84,12 @@ double power_at(std::span<const double> values, double mean, double cycles) {
 
 void add_bands(const Signal& signal, std::size_t first, std::size_t rows, double rate_hz, std::vector<double>& out) {
   const auto part = std::span(signal.values).subspan(first, rows);
-  const double mean = std::accumulate(part.begin(), part.end(), 0.0) / static_cast<double>(rows);
-  const double seconds = static_cast<double>(rows) / rate_hz;
+  const double seconds = static_cast<double>(rows) / rate_hz, middle = mean(part);
   for (std::size_t band = 0; band + 1 < kBandEdges.size(); ++band) {
     double power = 0;
     for (double cycle = std::ceil(kBandEdges[band] * seconds); cycle < kBandEdges[band + 1] * seconds; ++cycle) {
       const double unseen = signal.unseen * (signal.is_rate ? 2 * std::numbers::pi * cycle / seconds : 1);
-      power += power_at(part, mean, cycle) + unseen * unseen;
+      power += power_at(part, middle, cycle) + unseen * unseen;
     }
     out.push_back(std::log(power + 1e-30));
   }
@@ -131,13 +131,6 @@ double distance_of(FeatureWindows x, FeatureWindows y, std::size_t most, std::ui
   return energy_test(x, y, 0, seed).distance;
 }
 
-double quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return kMissing;
-  const auto at = static_cast<long>(std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
 // Mean squared distance over ground after so many rows.
 double spread_of(const Pieces& pieces, std::size_t lag) {
   double sum = 0, count = 0;
@@ -166,8 +159,11 @@ FallExtremes extremes_of(const Pieces& pieces, double rate_hz) {
       acceleration.push_back(std::sqrt(square) * rate_hz * rate_hz);
     }
   }
-  for (std::size_t k = 0; k < 4; ++k) out.vertical_speed[k] = quantile(speed, kTailValues[k]);
-  for (std::size_t k = 0; k < 2; ++k) out.acceleration[k] = quantile(acceleration, kTailValues[2 + k]);
+  const auto share_of = [](std::vector<double>& values, double share) {
+    return values.empty() ? kMissing : quantile_in_place(std::span(values), share);
+  };
+  for (std::size_t k = 0; k < 4; ++k) out.vertical_speed[k] = share_of(speed, kTailValues[k]);
+  for (std::size_t k = 0; k < 2; ++k) out.acceleration[k] = share_of(acceleration, kTailValues[2 + k]);
   for (std::size_t k = 0; k < kLags.size(); ++k) out.spread[k] = spread_of(pieces, rows_in(kLags[k], rate_hz));
   return out;
 }

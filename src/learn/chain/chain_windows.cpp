@@ -23,8 +23,7 @@ void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, do
     out.push_back(std::abs(piece.spin[row][2]));
     const Triple normal = in_world_axes(piece.orientation[row], {0, 0, 1});
     out.push_back(std::acos(std::clamp(normal[2], -1.0, 1.0)));
-    const Triple& spin = piece.spin[row];
-    out.push_back(std::sqrt(spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]));
+    out.push_back(length_of(piece.spin[row]));
   } else {
     const Triple& next = piece.velocity[std::min(row + 1, piece.rows() - 1)];
     const double speed = v[0] * v[0] + v[1] * v[1];

@@ -4,9 +4,6 @@
 #include <limits>
 #include <string>
 
-#include "wisp/run/bank.hpp"
-#include "wisp/run/chain_facet.hpp"
-
 namespace wisp::chain {
 namespace {
 
@@ -56,40 +53,15 @@ void add_marked(const Motion& motion, const Segmentation& cut, ReportSection& se
   section.series.push_back(events_of("recorded", piece, events));
 }
 
-// One fall of the model, the mode of every row, and the rows of its joins.
-struct FallWalk {
-  MotionPiece piece;
-  std::vector<int> mode;
-  std::vector<double> joins;
-};
-
-Result<FallWalk> fall_walk(const Model& model, std::size_t rows, std::uint64_t seed) {
-  auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
-  if (!bank) return bank.error();
-  const InstanceId id = bank->spawn();
-  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
-  FallWalk walk;
-  std::vector<float> values(model.outputs.size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (row > 0) bank->step();
-    bank->outputs(id, values);
-    walk.piece.position.push_back({values[0], values[1], values[2]});
-    const ChainPlace place = *bank->chain()->place_of(id);
-    walk.mode.push_back(segments.mode[place.segment]);
-    if (place.step == 0) walk.joins.push_back(static_cast<double>(row));
-  }
-  return walk;
-}
-
-// The parts of a walk that are of one mode.
-ReportSeries mode_track(const FallWalk& walk, int mode) {
+// The parts of a fall's first rows that are of one mode.
+ReportSeries mode_track(const MotionPiece& piece, std::span<const int> modes, int mode) {
   const std::string number = std::to_string(mode);
   ReportSeries track{"segments.synthesized.mode_" + number, "mode " + number, "x, m", "height, m", {}, {}};
-  for (std::size_t row = 0; row + 1 < walk.mode.size(); ++row) {
-    if (walk.mode[row] != mode) continue;
-    add_point(walk.piece, walk.piece.position[row], 2, track);
-    if (walk.mode[row + 1] == mode) continue;
-    add_point(walk.piece, walk.piece.position[row + 1], 2, track);
+  for (std::size_t row = 0; row + 1 < modes.size(); ++row) {
+    if (modes[row] != mode) continue;
+    add_point(piece, piece.position[row], 2, track);
+    if (modes[row + 1] == mode) continue;
+    add_point(piece, piece.position[row + 1], 2, track);
     track.x.push_back(track.x.back());  // a y that is not finite breaks the line
     track.y.push_back(std::numeric_limits<double>::quiet_NaN());
   }
@@ -105,21 +77,25 @@ Result<ReportSection> fall_tracks(const Model& model, std::span<const Recording>
   const auto cut = segment(*seen, real, options.segmentation);
   if (!cut) return cut.error();
   const MotionPiece& first = seen->pieces.front();
-  const auto falls =
-      synthesize_falls(model, static_cast<int>(kFalls), rows_of(first, kShownSeconds, seen->rate_hz), options.seed);
-  if (!falls) return falls.error();
-  const auto made = motion_of(*falls, options.smooth_rows);
+  const auto played =
+      made_falls(model, static_cast<int>(kFalls), rows_of(first, kShownSeconds, seen->rate_hz), options.seed);
+  if (!played) return played.error();
+  const auto made = motion_of(played->falls, options.smooth_rows);
   if (!made) return made.error();
-  const auto walk = fall_walk(model, rows_of(first, kMarkedSeconds, seen->rate_hz), options.seed);
-  if (!walk) return walk.error();
   ReportSection section;
   add_tracks(*seen, "recorded", section);
   add_tracks(*made, "synthesized", section);
   add_marked(*seen, *cut, section);
+  const MotionPiece& walk = made->pieces.front();
+  const std::span modes = std::span(played->modes.front()).first(rows_of(walk, kMarkedSeconds, made->rate_hz));
   for (int mode = 0; mode < std::get<ChainModel>(model.dynamics).modes; ++mode) {
-    section.series.push_back(mode_track(*walk, mode));
+    section.series.push_back(mode_track(walk, modes, mode));
   }
-  section.series.push_back(events_of("synthesized", walk->piece, walk->joins));
+  std::vector<double> joins = {0};
+  for (std::size_t row : played->joins.front()) {
+    if (row < modes.size()) joins.push_back(static_cast<double>(row));
+  }
+  section.series.push_back(events_of("synthesized", walk, joins));
   return section;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/chain/motion/join_jumps.hpp"
+#include "base/statistics.hpp"
 
 namespace wisp::chain {
 namespace {
@@ -15,16 +15,18 @@ struct Jumps {
   std::vector<double> rotation;
 };
 
-void add_jump(const MotionPiece& piece, std::size_t row, Jumps& jumps) {
-  const Jump jump = jump_at(piece, row);
-  jumps.position.push_back(jump.position);
-  if (!piece.orientation.empty()) jumps.rotation.push_back(jump.rotation);
+template <std::size_t kSize>
+double jump_of(std::span<const std::array<double, kSize>> values, std::size_t row) {
+  double square = 0;
+  for (std::size_t k = 0; k < kSize; ++k) {
+    square += std::pow(values[row][k] - 2 * values[row - 1][k] + values[row - 2][k], 2);
+  }
+  return std::sqrt(square);
 }
 
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<long>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
+void add_jump(const MotionPiece& piece, std::size_t row, Jumps& jumps) {
+  jumps.position.push_back(jump_of<3>(piece.position, row));
+  if (!piece.orientation.empty()) jumps.rotation.push_back(jump_of<4>(piece.orientation, row));
 }
 
 JoinJumps compared(const std::vector<double>& joins, const std::vector<double>& all) {

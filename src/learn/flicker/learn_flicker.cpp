@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/markov/markov_rows.hpp"
@@ -25,6 +26,13 @@ namespace flicker {
 namespace {
 
 using Traces = std::vector<std::vector<double>>;
+
+std::vector<double> joined(const Traces& traces) {
+  std::vector<double> all;
+  for (const auto& trace : traces) all.insert(all.end(), trace.begin(), trace.end());
+  return all;
+}
+
 constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
 constexpr double kHoldout = 0.3;                           // share of every stretch, its end, that judges
 constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
@@ -73,16 +81,11 @@ struct Figures {
 };
 
 Figures figures_of(const Traces& traces, double rate_hz) {
-  Figures figures;
+  const std::vector<double> all = joined(traces);
+  Figures figures{mean(all), deviation(all)};
   const std::size_t window = half_second(rate_hz);
-  double sum = 0, square = 0, rows = 0, calm = 0, windows = 0;
+  double calm = 0, windows = 0;
   for (const auto& trace : traces) {
-    for (const double value : trace) sum += value;
-    rows += static_cast<double>(trace.size());
-  }
-  figures.mean = sum / rows;
-  for (const auto& trace : traces) {
-    for (const double value : trace) square += (value - figures.mean) * (value - figures.mean);
     if (trace.size() < window) continue;
     const auto restless = restlessness(trace, window);
     for (std::size_t middle = window / 2; middle + window - window / 2 <= trace.size(); middle += window) {
@@ -90,17 +93,14 @@ Figures figures_of(const Traces& traces, double rate_hz) {
       windows += 1;
     }
   }
-  figures.sd = std::sqrt(square / rows);
   figures.calm_share = calm / windows;
   return figures;
 }
 
 // Centroids of k-means of the logarithm of restlessness, calmest first.
 std::vector<double> levels_of(const Traces& restless, int modes, std::uint64_t seed) {
-  std::vector<double> values;
-  for (const auto& trace : restless) {
-    for (const double value : trace) values.push_back(level(value));
-  }
+  std::vector<double> values = joined(restless);
+  for (double& value : values) value = level(value);
   auto levels = k_means(values, 1, {.clusters = modes, .seed = seed})->centroids;
   std::sort(levels.begin(), levels.end());
   return levels;
@@ -192,20 +192,17 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
   if (!light) return light;
   const double shortest = 4 * static_cast<double>(half_second(light->rate_hz)) + 1;
   std::erase_if(light->learned, [&](const auto& trace) { return static_cast<double>(trace.size()) < shortest; });
-  double sum = 0, rows = 0;
-  for (const auto& trace : light->learned) {
-    for (const double value : trace) sum += value;
-    rows += static_cast<double>(trace.size());
-  }
+  const std::vector<double> all = joined(light->learned);
+  const double rows = static_cast<double>(all.size()), middle = mean(all);
   const std::string others = recordings.size() > 1 ? " and " + std::to_string(recordings.size() - 1) + " more" : "";
   const auto wrong = [&](const std::string& what) { return Error{recordings.front().source + others + ": " + what}; };
   if (rows < kMinSeconds * light->rate_hz) {
     return wrong("the light lasts " + number_text(rows / light->rate_hz, 3) + " s in stretches of at least " +
                  number_text(shortest / light->rate_hz, 2) + " s, expected at least 20 s; record for longer");
   }
-  if (!(sum > 0)) return wrong("the light is not above 0 on average; is the channel right, and dark at 0?");
+  if (!(middle > 0)) return wrong("the light is not above 0 on average; is the channel right, and dark at 0?");
   for (auto& trace : light->learned) {
-    for (double& value : trace) value /= sum / rows;
+    for (double& value : trace) value /= middle;
   }
   hold_out(*light);
   return light;
@@ -319,14 +316,9 @@ void match_shocks(const Light& light, const std::vector<std::vector<int>>& modes
 
 Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Recording> recordings) {
   Model model{.name = recipe.name, .rate_hz = light.rate_hz};
-  Output output{"brightness", "", 1, 1};
-  for (const auto& trace : light.learned) {
-    for (const double value : trace) {
-      output.lowest = std::min(output.lowest, value);
-      output.highest = std::max(output.highest, value);
-    }
-  }
-  model.outputs = {output};
+  const std::vector<double> all = joined(light.learned);
+  const auto [lowest, highest] = std::minmax_element(all.begin(), all.end());
+  model.outputs = {{"brightness", "", std::min(1.0, *lowest), std::max(1.0, *highest)}};
   for (const Recording& recording : recordings) model.training.sources.push_back(recording.source);
   model.training.recipe = {{"modes", std::to_string(recipe.modes)}, {"order", std::to_string(recipe.order)}};
   return model;

@@ -200,9 +200,6 @@ TEST(FitChain, OptionsOutOfRangeAreErrors) {
   EXPECT_FALSE(learned(recording, {.history = 99}));
   EXPECT_FALSE(learned(recording, {.blend = 0.7}));
   EXPECT_FALSE(learned(recording, {.holdout = 1}));
-  EXPECT_FALSE(parse_features("velocity,colour"));
-  const Recording track = made_falls({.falls = 2, .orientation = false});
-  EXPECT_THAT(learned(track, {.features = {.spin = true}}, kHorizontal).error().message, HasSubstr("need orientation"));
 }
 
 TEST(FitChain, CopiedStretchesAreFound) {

@@ -11,8 +11,6 @@ namespace {
 constexpr double kStill = 1e-3;  // m/s: wind below it is none
 constexpr const char* kWinds[] = {"wind.x", "wind.y", "wind.z"};
 
-double size_of(const Triple& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 void add(Triple& sum, const Triple& value, double factor) {
   for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += factor * value[axis];
 }
@@ -86,7 +84,7 @@ GustSpan span_of(const GustPairs& pairs, std::size_t gust, double after_seconds)
   std::size_t onset = rows, last = 0;
   for (std::size_t k = first; k < first + pairs.clones; ++k) {
     for (std::size_t row = 0; row < rows; ++row) {
-      if (size_of(pairs.wind_at(k, row)) < kStill) continue;
+      if (length_of(pairs.wind_at(k, row)) < kStill) continue;
       onset = std::min(onset, row);
       last = std::max(last, row);
     }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/statistics.hpp"
 #include "learn/chain/gusts/gust_ensembles.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -118,14 +119,7 @@ struct Angles {
   std::vector<double> clear;
 
   GustDirection direction() const {
-    GustDirection out;
-    if (all.empty()) return out;
-    std::vector<double> sorted = all;
-    std::sort(sorted.begin(), sorted.end());
-    out.median = sorted[sorted.size() / 2];
-    for (double angle : all) out.mean += angle / static_cast<double>(all.size());
-    for (double angle : clear) out.mean_clear += angle / static_cast<double>(clear.size());
-    return out;
+    return {median(all), mean(all), mean(clear)};
   }
 };
 
@@ -181,19 +175,6 @@ GustScene scene_of(const GustPairs& pairs, std::size_t gust, const GustSpan& spa
   return scene;
 }
 
-GustEnd end_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, const GustEnsemble& recorded) {
-  GustEnd end{.recorded = recorded.displacement.back()};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const Triple& wind : recorded.wind) end.wind[axis] += wind[axis] / static_cast<double>(span.rows());
-    for (std::size_t k = gust * pairs.clones; k < (gust + 1) * pairs.clones; ++k) {
-      const auto& position = pairs.calm.pieces[k].position;
-      end.recorded_calm[axis] +=
-          (position[span.end - 1][axis] - position[span.onset][axis]) / static_cast<double>(pairs.clones);
-    }
-  }
-  return end;
-}
-
 // At even shares of all gusts by how far they carry.
 std::vector<GustScene> chosen(std::vector<std::pair<double, GustScene>>& scenes, std::size_t count) {
   std::stable_sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -245,7 +226,6 @@ Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Re
   Tally tally;
   GustPlayFigures figures{.clones = pairs->clones};
   std::vector<std::pair<double, GustScene>> scenes;
-  std::vector<GustEnd> ends;
   for (std::size_t gust = 0; gust < pairs->gusts(); ++gust) {
     const GustSpan span = span_of(*pairs, gust, options.after_seconds);
     if (span.rows() < 3) continue;
@@ -255,9 +235,6 @@ Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Re
     const double carried = length_over_ground(recorded.displacement.back());
     const bool clear = carried > options.clear_errors * recorded.displacement_error;
     judge(recorded, place, pairs->windy.rate_hz, clear, tally);
-    ends.push_back(end_of(*pairs, gust, span, recorded));
-    ends.back().played = place.back();
-    ends.back().clear = clear;
     if (pairs->clones >= 4) judge_halves(*pairs, gust, span, clear, tally);
     ++figures.gusts;
     figures.left_after = std::max(figures.left_after, ways.left);
@@ -266,7 +243,7 @@ Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Re
     if (options.scenes > 0) scenes.emplace_back(carried, scene_of(*pairs, gust, span, std::move(ways)));
   }
   if (figures.gusts == 0) return Error{windy.source + ": no wind blows in it, expected gusts"};
-  return GustPlay{figures_of(tally, figures), std::move(ends), chosen(scenes, options.scenes)};
+  return GustPlay{figures_of(tally, figures), chosen(scenes, options.scenes)};
 }
 
 }  // namespace wisp::chain

@@ -57,18 +57,8 @@ struct GustScene {
   Triple strongest{};       ///< the wind at its height, m/s
 };
 
-/// One gust as means over its clones, from the onset to the end.
-struct GustEnd {
-  Triple wind{};           ///< of all rows, m/s
-  Triple recorded{};       ///< displacement by the wind, metres
-  Triple recorded_calm{};  ///< the way of the calm fall, metres
-  Triple played{};         ///< displacement by the wind, metres
-  bool clear = false;      ///< what was recorded stands out of chance
-};
-
 struct GustPlay {
   GustPlayFigures figures;
-  std::vector<GustEnd> ends;  ///< of every gust, in their order
   std::vector<GustScene> scenes;
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/statistics.hpp"
 #include "learn/chain/gusts/gust_ensembles.hpp"
 #include "learn/numeric/normal_equations.hpp"
 
@@ -19,8 +20,6 @@ constexpr double kMuchBetter = 0.8;  // of the squared error
 
 using Axis = GustResponse::Axis;
 using Ensemble = GustEnsemble;
-
-double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The change of velocity that a response makes of a gust, by itself.
 std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response) {
@@ -206,11 +205,8 @@ Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const
   for (const Ensemble& gust : judged) judge(gust, fit.response, pairs->windy.rate_hz, found, fit.figures);
   fit.figures.fit_percent = found.displacement.fit_percent();
   fit.figures.velocity_fit_percent = found.velocity.fit_percent();
-  std::sort(found.angles.begin(), found.angles.end());
-  fit.figures.direction_degrees = found.angles[found.angles.size() / 2];
-  for (double angle : found.angles) {
-    fit.figures.direction_degrees_mean += angle / static_cast<double>(found.angles.size());
-  }
+  fit.figures.direction_degrees = median(found.angles);
+  fit.figures.direction_degrees_mean = mean(found.angles);
   return fit;
 }
 

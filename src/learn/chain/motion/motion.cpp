@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "base/statistics.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/chain_recipe.hpp"
 
@@ -200,17 +201,15 @@ Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
   for (std::size_t row = 1; row < piece.rows(); ++row) {
     steps.push_back(distance_between(piece.position[row - 1], piece.position[row]));
   }
-  auto sorted = steps;
-  const auto usual = sorted.begin() + static_cast<long>(kUsualStep * static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), usual, sorted.end());
+  const double usual = quantile(steps, kUsualStep);
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    double around = *usual;
+    double around = usual;
     for (std::size_t other = k > 2 ? k - 2 : 0; other < std::min(k + 3, steps.size()); ++other) {
       if (other != k) around = std::max(around, steps[other]);
     }
     if (!(around > 0) || steps[k] <= kMaxJump * around) continue;
     return Error{recording.source + ": row " + std::to_string(piece.first_row + k + 2) + " lies " +
-                 number_text(steps[k], 3) + " m from the row before it, where steps are " + number_text(*usual, 3) +
+                 number_text(steps[k], 3) + " m from the row before it, where steps are " + number_text(usual, 3) +
                  " m: expected motion without jumps; begin a new episode there, or leave the row empty"};
   }
   return {};

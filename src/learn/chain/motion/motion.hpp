@@ -3,6 +3,7 @@
 // uninterrupted stretch.
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -15,6 +16,9 @@ namespace wisp::chain {
 
 using Triple = std::array<double, 3>;
 using Quad = std::array<double, 4>;
+
+inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double length_of(const Triple& v) { return std::sqrt(dot(v, v)); }
 
 /// Consecutive rows of one episode of one recording, nothing missing.
 struct MotionPiece {

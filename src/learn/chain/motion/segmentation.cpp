@@ -6,13 +6,11 @@
 namespace wisp::chain {
 namespace {
 
-double length(const Triple& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 Result<std::vector<double>> signal_of(const Motion& motion, const MotionPiece& piece,
                                       std::span<const Recording> recordings, const std::string& name) {
   std::vector<double> signal;
   if (name == "speed") {
-    for (const Triple& v : piece.velocity) signal.push_back(length(v));
+    for (const Triple& v : piece.velocity) signal.push_back(length_of(v));
   } else if (name == "horizontal_speed") {
     for (const Triple& v : piece.velocity) signal.push_back(std::hypot(v[0], v[1]));
   } else if (name == "forward_speed") {

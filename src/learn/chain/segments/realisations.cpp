@@ -50,26 +50,6 @@ MatrixXd smoother(int steps) {
   return out;
 }
 
-// The rows of one segment as a piece of motion of its own, which begins at the origin.
-MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free) {
-  const MotionPiece& from = motion.pieces[segment.piece];
-  const double heading = heading_free ? heading_of(motion, segment) : 0;
-  const auto last = static_cast<double>(from.rows() - 1);
-  const double begin = std::min(std::round(segment.begin), last - segment.steps);
-  const Triple origin = at_row(from.position, begin);
-  MotionPiece piece;
-  for (int step = 0; step <= segment.steps; ++step) {
-    const double row = begin + step;
-    const Triple at = at_row(from.position, row);
-    piece.position.push_back(turned_about_z(Triple{at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]}, -heading));
-    piece.velocity.push_back(turned_about_z(at_row(from.velocity, row), -heading));
-    if (!motion.has_orientation) continue;
-    piece.orientation.push_back(turned_about_z(at_row(from.orientation, row), -heading));
-    piece.spin.push_back(turned_about_z(at_row(from.spin, row), -heading));
-  }
-  return piece;
-}
-
 MatrixXd numbers_of(const MotionPiece& piece) {
   const bool pose = !piece.orientation.empty();
   MatrixXd rows(static_cast<long>(piece.rows()), pose ? 7 : 3);
@@ -317,10 +297,9 @@ Result<RealisedSegments> system_segments(const SortedSegments& from, int degree,
   return made;
 }
 
-Result<RealisedSegments> half_segments(const SortedSegments& from, const FeatureChoice& features, std::uint64_t seed) {
+Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed) {
   auto [segments, group] = halves_of(from);
-  const auto table = segment_features(from.motion, segments, features);
-  if (!table) return table.error();
+  const FeatureTable table = segment_features(from.motion, segments, heading_free);
   RealisedSegments out{from.motion, std::move(segments), std::vector<std::uint16_t>(group.size()), 0};
   for (std::size_t which = 0; which < static_cast<std::size_t>(from.modes) * 2; ++which) {
     std::vector<std::size_t> members;
@@ -328,12 +307,12 @@ Result<RealisedSegments> half_segments(const SortedSegments& from, const Feature
     for (std::size_t k = 0; k < group.size(); ++k) {
       if (group[k] != which) continue;
       members.push_back(k);
-      const auto row = table->values.begin() + static_cast<long>(k * table->features);
-      values.insert(values.end(), row, row + static_cast<long>(table->features));
+      const auto row = table.values.begin() + static_cast<long>(k * table.features);
+      values.insert(values.end(), row, row + static_cast<long>(table.features));
     }
     if (members.empty()) continue;
     const auto kinds = static_cast<int>(std::min(kKinds, members.size()));
-    const auto found = k_means(values, table->features, {.clusters = kinds, .seed = seed});
+    const auto found = k_means(values, table.features, {.clusters = kinds, .seed = seed});
     if (!found) return found.error();
     for (std::size_t k = 0; k < members.size(); ++k) {
       out.mode[members[k]] = static_cast<std::uint16_t>(out.modes + found->cluster[k]);

@@ -37,7 +37,7 @@ RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
 Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
 
 /// Halves of the segments, in two kinds of each mode and half: a mode is then a chain of its own.
-/// Errors: as segment_features(); more than 256 kinds.
-Result<RealisedSegments> half_segments(const SortedSegments& from, const FeatureChoice& features, std::uint64_t seed);
+/// Errors: more than 64 kinds.
+Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 
 }  // namespace wisp::chain

@@ -1,49 +1,28 @@
 #include "learn/chain/segments/segment_features.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace wisp::chain {
 namespace {
 
 constexpr double kNoLength = 1e-9;  // metres: a line shorter than this has no direction
 
-class Row {
- public:
-  Row(std::vector<double>& values, double heading) : values_(values), heading_(heading) {}
-  void add(double value) { values_.push_back(value); }
-  void add(const Triple& vector) {
-    for (double x : turned_about_z(vector, -heading_)) values_.push_back(x);
-  }
-
- private:
-  std::vector<double>& values_;
-  double heading_;
-};
-
 Triple line_of(const MotionPiece& piece, const Segment& segment) {
   const Triple from = at_row(piece.position, segment.begin), to = at_row(piece.position, segment.end);
   return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 }
 
-void add_line(const Triple& line, const FeatureChoice& choice, Row& row) {
-  const double length = std::sqrt(line[0] * line[0] + line[1] * line[1] + line[2] * line[2]);
-  if (choice.length) row.add(length);
-  if (!choice.direction) return;
+void add_features(const MotionPiece& piece, const Segment& segment, double heading, std::vector<double>& out) {
+  const auto add = [&](const Triple& vector) {
+    for (double x : turned_about_z(vector, -heading)) out.push_back(x);
+  };
+  for (double end : {segment.begin, segment.end}) add(at_row(piece.velocity, end));
+  const Triple line = line_of(piece, segment);
+  const double length = length_of(line);
   const double share = length > kNoLength ? 1 / length : 0;
-  row.add({line[0] * share, line[1] * share, line[2] * share});
-}
-
-void add_features(const Motion& motion, const Segment& segment, const FeatureChoice& choice, std::vector<double>& out) {
-  const MotionPiece& piece = motion.pieces[segment.piece];
-  Row row(out, choice.heading_free ? heading_of(motion, segment) : 0);
-  for (double end : {segment.begin, segment.end}) {
-    if (choice.velocity) row.add(at_row(piece.velocity, end));
-    if (choice.spin) row.add(at_row(piece.spin, end));
-    if (choice.tilt) row.add(in_world_axes(at_row(piece.orientation, end), {0, 0, 1}));
-  }
-  if (choice.length || choice.direction) add_line(line_of(piece, segment), choice, row);
-  if (choice.duration) row.add((segment.end - segment.begin) / motion.rate_hz);
+  out.push_back(length);
+  add({line[0] * share, line[1] * share, line[2] * share});
 }
 
 void standardise(FeatureTable& table) {
@@ -72,20 +51,33 @@ double heading_of(const Motion& motion, const Segment& segment) {
   return std::hypot(line[0], line[1]) > kNoLength ? std::atan2(line[1], line[0]) : 0.0;
 }
 
-Result<FeatureTable> segment_features(const Motion& motion, std::span<const Segment> segments,
-                                      const FeatureChoice& choice) {
-  if ((choice.spin || choice.tilt) && !motion.has_orientation) {
-    return Error{"the features spin and tilt need orientation (q.w, q.x, q.y, q.z), which the recordings have not"};
+MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free) {
+  const MotionPiece& from = motion.pieces[segment.piece];
+  const double heading = heading_free ? heading_of(motion, segment) : 0;
+  const auto last = static_cast<double>(from.rows() - 1);
+  const double begin = std::min(std::round(segment.begin), last - segment.steps);
+  const Triple origin = at_row(from.position, begin);
+  MotionPiece piece;
+  for (int step = 0; step <= segment.steps; ++step) {
+    const double row = begin + step;
+    const Triple at = at_row(from.position, row);
+    piece.position.push_back(turned_about_z(Triple{at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]}, -heading));
+    piece.velocity.push_back(turned_about_z(at_row(from.velocity, row), -heading));
+    if (!motion.has_orientation) continue;
+    piece.orientation.push_back(turned_about_z(at_row(from.orientation, row), -heading));
+    piece.spin.push_back(turned_about_z(at_row(from.spin, row), -heading));
   }
-  if (!choice.velocity && !choice.length && !choice.direction && !choice.spin && !choice.tilt && !choice.duration) {
-    return Error{"no feature is chosen, expected at least one of velocity, length, direction, spin, tilt, duration"};
-  }
+  return piece;
+}
+
+FeatureTable segment_features(const Motion& motion, std::span<const Segment> segments, bool heading_free) {
   FeatureTable table;
   for (const Segment& segment : segments) {
-    add_features(motion, segment, choice, table.values);
-    if (table.features == 0) table.features = table.values.size();
+    add_features(motion.pieces[segment.piece], segment, heading_free ? heading_of(motion, segment) : 0, table.values);
   }
-  if (table.features > 0) standardise(table);
+  if (segments.empty()) return table;
+  table.features = table.values.size() / segments.size();
+  standardise(table);
   return table;
 }
 

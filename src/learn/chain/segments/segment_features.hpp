@@ -9,8 +9,6 @@
 
 #include "learn/chain/motion/motion.hpp"
 #include "learn/chain/motion/segmentation.hpp"
-#include "wisp/base/result.hpp"
-#include "wisp/learn/chain_recipe.hpp"
 
 namespace wisp::chain {
 
@@ -24,9 +22,12 @@ struct FeatureTable {
 /// Direction over ground of the line between a segment's ends, as an angle from x; 0 where it has none.
 double heading_of(const Motion& motion, const Segment& segment);
 
-/// A feature that does not vary is 0.
-/// Errors: features that need orientation where there is none, no feature at all.
-Result<FeatureTable> segment_features(const Motion& motion, std::span<const Segment> segments,
-                                      const FeatureChoice& choice);
+/// The rows of one segment, from whole row to whole row, as a piece of motion of its own, which begins at the origin
+/// and, where heading is free, leads along x.
+MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free);
+
+/// Vectors are seen along the segment's own direction over ground where heading is free. A feature that does not vary
+/// is 0.
+FeatureTable segment_features(const Motion& motion, std::span<const Segment> segments, bool heading_free);
 
 }  // namespace wisp::chain

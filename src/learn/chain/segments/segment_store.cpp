@@ -15,38 +15,6 @@ constexpr double kRowShare = 0.005;        // of a usual step: what positions ar
 constexpr double kRateShare = 0.002;       // of a usual rate: what rates are rounded to
 constexpr double kTurnScale = 1.0 / 4096;  // of quaternions: rounds an orientation by 0.03° at most
 
-// What a segment consists of, in its own frame, before it is rounded.
-struct Piece {
-  std::vector<Triple> position;
-  std::vector<Quad> orientation;
-  std::array<Triple, 2> velocity;
-  std::array<Triple, 2> spin;
-};
-
-Piece piece_of(const Motion& motion, const Segment& segment, bool heading_free) {
-  const MotionPiece& from = motion.pieces[segment.piece];
-  const double heading = heading_free ? heading_of(motion, segment) : 0;
-  const double rows = segment.end - segment.begin, stretch = rows / segment.steps;
-  const Triple origin = at_row(from.position, segment.begin);
-  Piece piece;
-  for (int step = 0; step <= segment.steps; ++step) {
-    const double row = segment.begin + stretch * step;
-    const Triple at = at_row(from.position, row);
-    piece.position.push_back(turned_about_z(Triple{at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]}, -heading));
-    if (motion.has_orientation) piece.orientation.push_back(turned_about_z(at_row(from.orientation, row), -heading));
-  }
-  for (std::size_t end : {0U, 1U}) {
-    const double row = end ? segment.end : segment.begin;
-    piece.velocity[end] = turned_about_z(at_row(from.velocity, row), -heading);
-    if (motion.has_orientation) piece.spin[end] = turned_about_z(at_row(from.spin, row), -heading);
-    for (double& x : piece.velocity[end]) x *= stretch;
-    for (double& x : piece.spin[end]) x *= stretch;
-  }
-  return piece;
-}
-
-double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double largest(double so_far, const Triple& vector) {
   for (double x : vector) so_far = std::max(so_far, std::abs(x));
   return so_far;
@@ -68,8 +36,8 @@ void put(const std::array<double, kSize>& values, double scale, std::vector<std:
 std::pair<double, double> usual_rates(const Motion& motion) {
   double speed = 0, spin = 0, rows = 0;
   for (const MotionPiece& piece : motion.pieces) {
-    for (const Triple& v : piece.velocity) speed += v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    for (const Triple& w : piece.spin) spin += w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+    for (const Triple& v : piece.velocity) speed += dot(v, v);
+    for (const Triple& w : piece.spin) spin += dot(w, w);
     rows += static_cast<double>(piece.rows());
   }
   return {std::sqrt(speed / rows), std::sqrt(spin / rows)};
@@ -118,7 +86,7 @@ std::array<double, 3> extremes_of(const Motion& motion, const Segment& segment) 
     const Triple& v = piece.velocity[row];
     out[0] = row == first ? v[2] : std::min(out[0], v[2]);
     out[1] = std::max(out[1], std::hypot(v[0], v[1]));
-    if (motion.has_orientation) out[2] += std::sqrt(dot(piece.spin[row], piece.spin[row]));
+    if (motion.has_orientation) out[2] += length_of(piece.spin[row]);
   }
   return out;
 }
@@ -190,14 +158,16 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   const std::vector<Segment> segments = on_rows(motion, found);
   SegmentStore store;
   store.source = kept_segments(motion, segments, cluster, modes, motion.has_orientation, options);
-  std::vector<Piece> pieces;
+  std::vector<MotionPiece> pieces;
   double farthest = 0, fastest = 0, quickest = 0;
   const auto [speed, spin_speed] = usual_rates(motion);
   for (std::size_t source : store.source) {
-    pieces.push_back(piece_of(motion, segments[source], options.heading_free));
+    pieces.push_back(cut_out(motion, segments[source], options.heading_free));
     for (const Triple& at : pieces.back().position) farthest = largest(farthest, at);
-    for (const Triple& velocity : pieces.back().velocity) fastest = largest(fastest, velocity);
-    for (const Triple& spin : pieces.back().spin) quickest = largest(quickest, spin);
+    for (const std::size_t row : {std::size_t{0}, pieces.back().rows() - 1}) {
+      fastest = largest(fastest, pieces.back().velocity[row]);
+      if (motion.has_orientation) quickest = largest(quickest, pieces.back().spin[row]);
+    }
   }
   ChainSegments& out = store.segments;
   out.row_scale = {scale_for(farthest, kRowShare * speed / motion.rate_hz)};
@@ -209,11 +179,11 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     out.mode.push_back(cluster[store.source[k]]);
     out.steps.push_back(static_cast<std::uint16_t>(segments[store.source[k]].steps));
-    for (std::size_t row = 0; row < pieces[k].position.size(); ++row) {
+    for (std::size_t row = 0; row < pieces[k].rows(); ++row) {
       put(pieces[k].position[row], out.row_scale[0], out.rows);
       if (motion.has_orientation) put(pieces[k].orientation[row], out.row_scale[1], out.rows);
     }
-    for (std::size_t end : {0U, 1U}) {
+    for (const std::size_t end : {std::size_t{0}, pieces[k].rows() - 1}) {
       put(pieces[k].velocity[end], out.rate_scale[0], out.rates);
       if (motion.has_orientation) put(pieces[k].spin[end], out.rate_scale[1], out.rates);
     }

@@ -119,25 +119,6 @@ TEST(GustPlay, ABankThatIsBlownAtGoesWhereTheWindTookWhatWasRecorded) {
   EXPECT_EQ(play->scenes[0].recorded[0].size(), play->scenes[0].blows.size());
 }
 
-TEST(GustPlay, EveryGustsEndIsGivenWithItsWindAndTheCalmFallsWay) {
-  const MadePairs pairs = made_pairs(0.85, 0.12);
-  const auto play = play_gusts(blown_model(pairs), pairs.windy, pairs.calm, {.after_seconds = 0.1});
-  ASSERT_TRUE(play);
-  ASSERT_EQ(play->ends.size(), 24U);
-  for (std::size_t fall = 0; fall < 24; ++fall) {
-    const GustEnd& end = play->ends[fall];
-    // The wind blows in 30 of the 36 rows from 30 to 65.
-    const double speed = 0.5 + 0.05 * static_cast<double>(fall), direction = static_cast<double>(fall);
-    EXPECT_NEAR(end.wind[0], speed * 30 / 36 * std::cos(direction), 1e-9);
-    EXPECT_NEAR(end.recorded[1] / end.recorded[0], std::tan(direction), 1e-6 * std::abs(std::tan(direction)));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto& samples = pairs.calm.channels[axis].samples;
-      EXPECT_NEAR(end.recorded_calm[axis], samples[fall * 120 + 65] - samples[fall * 120 + 30], 1e-9);
-    }
-    EXPECT_NEAR(end.played[0], end.recorded[0], 0.15 * std::hypot(end.recorded[0], end.recorded[1]));
-  }
-}
-
 TEST(GustPlay, AResponseThatBlowsTheOtherWayIsSeen) {
   const MadePairs pairs = made_pairs(0.85, 0.12);
   Model model = blown_model(pairs);
