@@ -1,18 +1,15 @@
-// Models and banks of their living instances.
+// Models.
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 
 #include "module.hpp"
+#include "wisp/base/file.hpp"
+#include "wisp/export/export.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/run/bank.hpp"
-#include "wisp/run/extinction_facet.hpp"
 
 namespace wisp::python {
 namespace {
-
-using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 py::bytes bytes_of(const Model& model) {
   const auto bytes = unwrapped(model_bytes(model));
@@ -31,112 +28,145 @@ std::vector<std::string> names(const Channels& channels) {
   return found;
 }
 
-/// A new array, or the one that is given, after a look at its shape.
-py::array_t<float> room(const py::object& out, std::vector<py::ssize_t> shape) {
-  if (out.is_none()) return py::array_t<float>(shape);
-  if (!py::isinstance<py::array_t<float, py::array::c_style>>(out))
-    throw py::type_error("out: expected a contiguous array of float32");
-  auto array = out.cast<py::array_t<float>>();
-  if (!array.writeable() || std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()) != shape)
-    throw py::value_error("out: expected a writable array of " + std::to_string(shape[0]) + " rows, see Bank.slots");
-  return array;
+const char* kind_of(const ArxModel&) { return "arx"; }
+const char* kind_of(const SwitchedArxModel&) { return "switched"; }
+const char* kind_of(const ChainModel&) { return "chain"; }
+
+const char* word_of(const View& view) {
+  constexpr const char* kWords[] = {"plain", "outline", "pose", "position"};
+  return kWords[std::holds_alternative<OutlineView>(view)    ? 1
+                : std::holds_alternative<PoseView>(view)     ? 2
+                : std::holds_alternative<PositionView>(view) ? 3
+                                                             : 0];
 }
 
-std::span<float> values_of(py::array_t<float>& array) {
-  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
-}
-
-/// One row a slot, or one row for all.
-void set_inputs(Bank& bank, const Floats& values) {
-  const std::span<const float> all(values.data(), static_cast<std::size_t>(values.size()));
-  const auto width = static_cast<std::size_t>(bank.input_count());
-  if (all.size() == width && values.ndim() <= 1) return bank.set_common_inputs(all);
-  if (all.size() != width * static_cast<std::size_t>(bank.slots()))
-    throw py::value_error("inputs: found " + std::to_string(all.size()) + " numbers, expected " +
-                          std::to_string(width) + " for all or " + std::to_string(width) + " for each of " +
-                          std::to_string(bank.slots()) + " slots");
-  bank.set_inputs(all);
-}
-
-std::vector<bool> lit(const Bank& bank) {
-  const ExtinctionFacet* extinction = bank.extinction();
-  if (extinction == nullptr) throw py::attribute_error("nothing extinguishes this model");
-  std::vector<bool> burning;
-  for (int slot = 0; slot < bank.slots(); ++slot) {
-    const auto state = extinction->state_of(bank.at(slot));
-    burning.push_back(state && state->lit);
+// The ARX models of a model's modes.
+std::vector<ArxModel> arx_of(const Model& model) {
+  if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) return {*arx};
+  std::vector<ArxModel> modes;
+  if (const auto* switched = std::get_if<SwitchedArxModel>(&model.dynamics)) {
+    for (std::size_t mode = 0; mode < switched->modes.size(); ++mode) modes.push_back(mode_model(*switched, mode));
+    return modes;
   }
-  return burning;
+  throw py::attribute_error("the model is a chain of segments, which has no coefficients");
 }
 
-void relight(Bank& bank) {
-  if (ExtinctionFacet* extinction = bank.extinction())
-    for (int slot = 0; slot < bank.slots(); ++slot) extinction->relight(bank.at(slot));
+// Dense coefficients [mode, if switched][lag][output][output or regressor].
+py::array_t<double> coefficients(const Model& model, bool of_inputs) {
+  const auto modes = arx_of(model);
+  const int outputs = modes[0].orders.outputs(), columns = of_inputs ? modes[0].orders.inputs() : outputs;
+  int lags = 0;
+  for (int i = 0; i < outputs; ++i) {
+    for (int k = 0; k < columns; ++k) {
+      const ArxOrders& orders = modes[0].orders;
+      lags = std::max(lags, of_inputs ? orders.nk(i, k) + orders.nb(i, k) : orders.na(i, k));
+    }
+  }
+  py::array_t<double> array(std::vector<py::ssize_t>{static_cast<py::ssize_t>(modes.size()), lags, outputs, columns});
+  auto values = array.mutable_unchecked<4>();
+  std::fill_n(array.mutable_data(), array.size(), 0.0);
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    for (int i = 0; i < outputs; ++i) {
+      for (int k = 0; k < columns; ++k) {
+        const auto found = of_inputs ? modes[mode].b(i, k) : modes[mode].a(i, k);
+        const int first = of_inputs ? modes[mode].orders.nk(i, k) : 0;
+        for (std::size_t l = 0; l < found.size(); ++l) {
+          values(static_cast<py::ssize_t>(mode), first + static_cast<int>(l), i, k) = found[l];
+        }
+      }
+    }
+  }
+  if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) return array;
+  return array[py::int_(0)].cast<py::array_t<double>>();
 }
 
-py::bytes save(const Bank& bank) {
-  std::string bytes(bank.save_bytes(), '\0');
-  bank.save(std::as_writable_bytes(std::span(bytes)));
-  return bytes;
+py::dict training_of(const Model& model) {
+  py::dict recipe, figures, all;
+  for (const auto& note : model.training.recipe) recipe[py::str(note.name)] = note.value;
+  for (const auto& figure : model.training.figures) figures[py::str(figure.name)] = figure.value;
+  all["program"] = model.training.program;
+  all["sources"] = model.training.sources;
+  all["recipe"] = recipe;
+  all["figures"] = figures;
+  return all;
 }
 
-void bind_bank(py::module_& module) {
-  py::class_<Bank>(module, "Bank", "Living instances of one model, stepped together. Rows of arrays are slots.")
-      .def(py::init([](const Model& model, int instances, std::uint64_t seed, int polyline_points) {
-             Bank bank = unwrapped(
-                 Bank::create(model, {.capacity = instances, .seed = seed, .polyline_points = polyline_points}));
-             for (int k = 0; k < instances; ++k) bank.spawn();
-             return bank;
-           }),
-           py::arg("model"), py::arg("instances") = 1, py::kw_only(), py::arg("seed") = 1,
-           py::arg("polyline_points") = 32)
-      .def_property_readonly("slots", &Bank::slots)
-      .def_property("noise", &Bank::noise, &Bank::set_noise)
-      .def("set_inputs", &set_inputs, py::arg("values"), "One row for all instances, or one for each slot.")
-      .def(
-          "step", [](Bank& bank, int steps) { bank.step(std::max(steps, 0)); }, py::arg("steps") = 1,
-          py::call_guard<py::gil_scoped_release>())
-      .def(
-          "advance",
-          [](Bank& bank, double seconds) {
-            return bank.advance(
-                std::chrono::nanoseconds(static_cast<std::int64_t>(std::clamp(seconds, 0.0, 60.0) * 1e9)));
-          },
-          py::arg("seconds"), py::call_guard<py::gil_scoped_release>(), "Returns the steps that were made.")
-      .def(
-          "outputs",
-          [](const Bank& bank, const py::object& out) {
-            auto array = room(out, {bank.slots(), bank.output_count()});
-            bank.outputs(values_of(array));
-            return array;
-          },
-          py::arg("out") = py::none(), "slots x outputs; into `out` where it is given.")
-      .def(
-          "polylines",
-          [](const Bank& bank, const py::object& out) {
-            if (bank.polyline_points() == 0) throw py::attribute_error("the model's view is not an outline");
-            auto array = room(out, {bank.slots(), bank.polyline_points(), 2});
-            bank.polylines(values_of(array));
-            return array;
-          },
-          py::arg("out") = py::none(), "slots x points x 2; into `out` where it is given.")
-      .def_property_readonly("lit", &lit, "Whether each slot burns.")
-      .def("relight", &relight, "Lights what is out.")
-      .def("reset", [](Bank& bank) { bank.reset(); })
-      .def("save", &save, "The whole state, as bytes.")
-      .def(
-          "restore",
-          [](Bank& bank, const py::bytes& bytes) {
-            const std::string_view view = bytes;
-            unwrap(bank.restore(std::as_bytes(std::span(view))));
-          },
-          py::arg("bytes"));
+py::dict ranges_of(const Model& model) {
+  py::dict ranges;
+  for (const Input& input : model.inputs) ranges[py::str(input.name)] = py::make_tuple(input.lowest, input.highest);
+  for (const Output& output : model.outputs)
+    ranges[py::str(output.name)] = py::make_tuple(output.lowest, output.highest);
+  return ranges;
+}
+
+std::string shown(const Model& model) {
+  const auto kind = std::visit([](const auto& dynamics) { return kind_of(dynamics); }, model.dynamics);
+  return "<wisp.Model '" + model.name + "': " + kind + ", " + word_of(model.view) + ", " +
+         std::to_string(model.inputs.size()) + " inputs, " + std::to_string(model.outputs.size()) + " outputs, " +
+         py::str(py::float_(model.rate_hz)).cast<std::string>() + " Hz, " +
+         (model.training.usable.verdict ? "usable" : "not usable") + ">";
+}
+
+// A file that another tool opens, by its name: .glb, .json (Lottie) or .c with its .h.
+void export_to(const Model& model, const std::filesystem::path& path, double seconds, bool loop, int instances,
+               std::uint64_t seed, bool noise, const std::vector<double>& inputs) {
+  const std::string kind = path.extension().string();
+  if (kind == ".c") {
+    const auto lamp = unwrapped(firmware_source(model, path.stem().string()));
+    std::filesystem::path header = path;
+    unwrap(write_file(header.replace_extension(".h"), lamp.header));
+    return unwrap(write_file(path, lamp.source));
+  }
+  if (kind != ".glb" && kind != ".json") throw Failure(path.string() + ": expected a name in .glb, .json or .c");
+  const auto taken = unwrapped(
+      take(model,
+           {.seconds = seconds, .loop = loop, .instances = instances, .seed = seed, .noise = noise, .inputs = inputs}));
+  if (kind == ".glb") return unwrap(write_file(path, unwrapped(gltf_bytes(model, taken))));
+  unwrap(write_file(path, unwrapped(lottie_text(model, taken))));
 }
 
 }  // namespace
 
 void bind_models(py::module_& module) {
-  py::class_<Model>(module, "Model")
+  py::class_<Model>(module, "Model", "What a thing is like: equal where its file is.")
+      .def(py::init(&from_bytes), py::arg("bytes"), "From the bytes of a .wisp file.")
+      .def_property_readonly(
+          "dynamics",
+          [](const Model& self) {
+            return std::visit([](const auto& dynamics) { return kind_of(dynamics); }, self.dynamics);
+          },
+          "'arx', 'switched' or 'chain'.")
+      .def_property_readonly(
+          "view", [](const Model& self) { return word_of(self.view); },
+          "'plain', 'outline', 'pose' or 'position': what the outputs mean.")
+      .def_property_readonly(
+          "usable", [](const Model& self) { return self.training.usable.verdict; },
+          "Whether the learner found it fit for use.")
+      .def_property_readonly(
+          "reason", [](const Model& self) { return self.training.usable.reason; }, "Why, or why not.")
+      .def_property_readonly("training", &training_of, "What it was learned from and how: a dictionary.")
+      .def_property_readonly("ranges", &ranges_of, "Trained or seen range of each channel: name to (lowest, highest).")
+      .def_property_readonly(
+          "a", [](const Model& self) { return coefficients(self, false); },
+          "A[lag - 1, i, j] of y(t) + A1 y(t-1) + ... = B u + e; of each mode of a switched model.")
+      .def_property_readonly(
+          "b", [](const Model& self) { return coefficients(self, true); },
+          "B[lag, i, k] from lag 0, of inputs as the dynamics see them (signs split).")
+      .def_property_readonly(
+          "noise_sd", [](const Model& self) { return arx_of(self)[0].noise.sd; },
+          "Standard deviation of each output's own noise.")
+      .def("export", &export_to, py::arg("path"), py::kw_only(), py::arg("seconds") = 4.0, py::arg("loop") = false,
+           py::arg("instances") = 1, py::arg("seed") = 1, py::arg("noise") = true,
+           py::arg("inputs") = std::vector<double>{}, py::call_guard<py::gil_scoped_release>(),
+           "Writes .glb, .json (Lottie) or .c, as `wisp export` does.")
+      .def(
+          "__eq__",
+          [](const Model& self, const Model& other) {
+            return unwrapped(model_bytes(self)) == unwrapped(model_bytes(other));
+          },
+          py::is_operator())
+      .def("__hash__", [](const Model& self) { return py::hash(bytes_of(self)); })
+      .def("__repr__", &shown)
       .def_readonly("name", &Model::name)
       .def_readonly("rate_hz", &Model::rate_hz)
       .def_property_readonly("inputs", [](const Model& self) { return names(self.inputs); })
@@ -148,7 +178,6 @@ void bind_models(py::module_& module) {
       .def(py::pickle(&bytes_of, &from_bytes));
   module.def(
       "read_model", [](const std::filesystem::path& path) { return unwrapped(read_model(path)); }, py::arg("path"));
-  bind_bank(module);
 }
 
 }  // namespace wisp::python

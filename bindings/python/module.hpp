@@ -8,6 +8,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
@@ -20,6 +21,18 @@ namespace py = pybind11;
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// Failures of this extension are the wisp.Error of the core, too: each extension has a Failure of its own.
+inline void share_error(const py::module_& core) {
+  static const py::object error = core.attr("Error");
+  py::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const Failure& failure) {
+      PyErr_SetString(error.ptr(), failure.what());
+    }
+  });
+}
 
 /// The value, or the exception with the error's sentence.
 template <class T>
@@ -69,22 +82,73 @@ class Watch {
   bool raised_ = false;
 };
 
-/// Sets each keyword as a field; an unknown one is Python's AttributeError, which names it.
+/// What the library's headers say of a field, TYPE.FIELD; "" where they say nothing. field_docs.py reads them.
+const char* doc_of(std::string_view type, std::string_view field);
+
+/// Sets each keyword as a field. One that is unknown, or a value that does not fit, is a TypeError that names it.
 template <class T>
 T from_keywords(const py::kwargs& fields) {
   T made;
   const py::object seen = py::cast(&made, py::return_value_policy::reference);
+  const auto type = py::type::of<T>().attr("__name__").template cast<std::string>();
   for (const auto& [name, value] : fields) {
-    if (!py::hasattr(seen, name)) throw py::type_error("there is no field '" + py::str(name).cast<std::string>() + "'");
-    py::setattr(seen, name, value);
+    const auto field = py::str(name).cast<std::string>();
+    if (!py::hasattr(seen, name)) throw py::type_error(type + ": there is no field '" + field + "'");
+    try {
+      py::setattr(seen, name, value);
+    } catch (py::error_already_set& error) {
+      if (!error.matches(PyExc_TypeError)) throw;
+      throw py::type_error(type + "." + field + " does not take " + py::repr(value).template cast<std::string>() +
+                           ": " + doc_of(type, field));
+    }
   }
   return made;
+}
+
+/// A class of options: fields are keywords, and help() has the headers' words.
+template <class T, class... Bases>
+class Options : public py::class_<T, Bases...> {
+ public:
+  using Class = py::class_<T, Bases...>;
+  Options(py::module_& module, const char* name) : Class(module, name), name_(name) {
+    Class::def(py::init(&from_keywords<T>));
+    Class::def("__repr__", [](const py::object& self) {
+      std::string text = py::type::of(self).attr("__name__").template cast<std::string>() + "(";
+      const py::object type = py::type::of(self);
+      for (const auto& field : py::module_::import("builtins").attr("dir")(type)) {
+        const auto word = py::str(field).cast<std::string>();
+        if (word.starts_with("_")) continue;
+        text += (text.ends_with("(") ? "" : ", ") + word + "=" +
+                py::repr(self.attr(word.c_str())).template cast<std::string>();
+      }
+      return text + ")";
+    });
+  }
+  template <class Member>
+  Options& def_readwrite(const char* field, Member member) {
+    Class::def_readwrite(field, member, doc_of(name_, field));
+    return *this;
+  }
+  template <class Get, class Set>
+  Options& def_property(const char* field, Get get, Set set) {
+    Class::def_property(field, get, set, doc_of(name_, field));
+    return *this;
+  }
+
+ private:
+  const char* name_;
+};
+
+template <class T, class... Bases>
+Options<T, Bases...> options(py::module_& module, const char* name) {
+  return Options<T, Bases...>(module, name);
 }
 
 void bind_recording(py::module_& module);
 void bind_report(py::module_& module);
 void bind_recipes(py::module_& module);
 void bind_models(py::module_& module);
+void bind_banks(py::module_& module);
 void bind_sound(py::module_& module);
 
 }  // namespace wisp::python

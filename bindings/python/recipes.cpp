@@ -1,15 +1,10 @@
-// Recipes, capture, learn and validate.
+// Recipes, learn and validate.
 
 #include "module.hpp"
 #include "wisp/learn.hpp"
 
 namespace wisp::python {
 namespace {
-
-template <class T, class... Bases>
-py::class_<T, Bases...> options(py::module_& module, const char* name) {
-  return py::class_<T, Bases...>(module, name).def(py::init(&from_keywords<T>));
-}
 
 void bind_words(py::module_& module) {
   py::enum_<ArxOffset>(module, "ArxOffset")
@@ -125,25 +120,6 @@ void bind_chains(py::module_& module) {
   options<LeafRecipe, ChainRecipe>(module, "LeafRecipe");
 }
 
-void bind_capture(py::module_& module) {
-  options<ClipCapture>(module, "ClipCapture")
-      .def_readwrite("points", &ClipCapture::points)
-      .def_readwrite("dark", &ClipCapture::dark)
-      .def_readwrite("flame", &ClipCapture::flame)
-      .def_readwrite("rate_hz", &ClipCapture::rate_hz);
-  options<FlameCapture, ClipCapture>(module, "FlameCapture");
-  py::class_<Captured>(module, "Captured")
-      .def_readonly("recording", &Captured::recording)
-      .def_readonly("report", &Captured::report);
-  module.def(
-      "capture",
-      [](const std::filesystem::path& path, const ClipCapture& how, py::object progress) {
-        return Watch(std::move(progress)).run([&](const Progress& watch) { return capture(path, how, watch); });
-      },
-      py::arg("path"), py::arg("options") = FlameCapture{}, py::kw_only(), py::arg("progress") = py::none(),
-      "The outline in a video or a folder of images, and the wind in its sound. The default follows a flame.");
-}
-
 Fit learned(const std::vector<Recording>& recordings, const Recipe& recipe, py::object progress) {
   return Watch(std::move(progress)).run([&](const Progress& watch) { return learn(recordings, recipe, watch); });
 }
@@ -155,7 +131,6 @@ void bind_recipes(py::module_& module) {
   bind_arx(module);
   bind_outlines(module);
   bind_chains(module);
-  bind_capture(module);
   py::class_<Fit>(module, "Fit").def_readonly("model", &Fit::model).def_readonly("report", &Fit::report);
   // The one recording first: it has rows, and would pass for a list.
   module.def(

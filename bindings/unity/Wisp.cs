@@ -96,6 +96,50 @@ namespace Wisp
             public IntPtr Event, Name;
         }
 
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Provenance
+        {
+            public uint Size, Sources, Options, Figures, Usable, Reserved;
+            public IntPtr Program, Reason;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct ChainSettings
+        {
+            public uint Size, HasGround;
+            public float Ground;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Place
+        {
+            public uint Size, Segment, Step, Mode;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct BodyMoment
+        {
+            public uint Size;
+            public float X, Y, Z, Qw, Qx, Qy, Qz, Vx, Vy, Vz, Wx, Wy, Wz;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Target
+        {
+            public uint Size;
+            public float X, Y, Z;
+            public long Nanoseconds;
+            public float Within;
+            public uint Reserved;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Calibration
+        {
+            public uint Size;
+            public float BackgroundRms, BackgroundLevel, FloorDb, GustRms;
+        }
+
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_version();
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_last_error();
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_load(byte[] bytes, UIntPtr size, out IntPtr model);
@@ -129,6 +173,36 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_create(ref WindOptions options, out IntPtr wind);
         [DllImport(Library, CallingConvention = C)] internal static extern void wisp_wind_free(IntPtr wind);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_feed(IntPtr wind, float[] samples, UIntPtr count, [Out] WindFrame[] frames, UIntPtr room, out UIntPtr taken, out UIntPtr made);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_get_provenance(IntPtr model, ref Provenance provenance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_get_source(IntPtr model, uint index, out IntPtr name);
+        [DllImport(Library, CallingConvention = C)] internal static extern ulong wisp_bank_at(IntPtr bank, uint slot);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_get_noise(IntPtr bank, out float scale);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_advance_seconds(IntPtr bank, double seconds, out int steps);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_step_many(IntPtr bank, uint steps, float[] inputs, UIntPtr inputCount, [Out] float[] outputs, UIntPtr outputCount);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_flame_sizes(IntPtr bank, [Out] float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_get_chain_place(IntPtr bank, ulong instance, ref Place place);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_place(IntPtr bank, ulong instance, ref BodyMoment body);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_steer(IntPtr bank, ulong instance, ref Target target);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_release(IntPtr bank, ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_can_steer(IntPtr bank);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_set_ground(IntPtr bank, float height);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_clear_ground(IntPtr bank);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_get_chain_settings(IntPtr bank, ref ChainSettings settings);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_reset_instance(IntPtr bank, ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_reset(IntPtr bank);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_save_bytes(IntPtr bank, out UIntPtr bytes);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_save(IntPtr bank, [Out] byte[] bytes, UIntPtr size);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_restore(IntPtr bank, byte[] bytes, UIntPtr size);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_latest(IntPtr wind, out WindFrame frame);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrate(IntPtr wind, uint what, double seconds);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrating(IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrated(IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern double wisp_wind_room_rise(IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_get_calibration(IntPtr wind, ref Calibration calibration);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_set_calibration(IntPtr wind, ref Calibration calibration);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_reset(IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern double wisp_wind_latency(IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_recording_set_attribute(IntPtr recording, byte[] name, byte[] value);
 
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_recording_create(double rateHz, out IntPtr recording);
         [DllImport(Library, CallingConvention = C)] internal static extern void wisp_recording_free(IntPtr recording);
@@ -140,6 +214,8 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_get_model(IntPtr fit, out IntPtr bytes, out UIntPtr size);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_usable(IntPtr fit);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_fit_reason(IntPtr fit);
+
+        internal static int Version { get { return wisp_version(); } }
 
         internal static byte[] Utf8(string text)
         {
@@ -162,7 +238,7 @@ namespace Wisp
 
         internal static UIntPtr Count(Array values)
         {
-            return (UIntPtr)(ulong)values.Length;
+            return values == null ? UIntPtr.Zero : (UIntPtr)(ulong)values.Length;
         }
     }
 
@@ -207,6 +283,28 @@ namespace Wisp
         public Dynamics Dynamics { get { return (Dynamics)facts.Dynamics; } }
         public string Name { get { return Native.Text(Native.wisp_model_name(Handle)); } }
 
+        /// <summary>Why the learner found it fit for use, or not; what wrote it; the recordings that it was learned from.</summary>
+        public string Reason { get { return Native.Text(Origin().Reason); } }
+        public string Program { get { return Native.Text(Origin().Program); } }
+        public string[] Sources()
+        {
+            var names = new string[Origin().Sources];
+            for (uint k = 0; k < names.Length; ++k)
+            {
+                IntPtr name;
+                Native.Check(Native.wisp_model_get_source(Handle, k, out name));
+                names[k] = Native.Text(name);
+            }
+            return names;
+        }
+
+        private Native.Provenance Origin()
+        {
+            var origin = new Native.Provenance { Size = (uint)Marshal.SizeOf(typeof(Native.Provenance)) };
+            Native.Check(Native.wisp_model_get_provenance(Handle, ref origin));
+            return origin;
+        }
+
         public Channel Input(int index)
         {
             Native.Channel channel = Empty();
@@ -239,6 +337,18 @@ namespace Wisp
         }
 
         ~Model() { Native.wisp_model_free(Handle); }
+    }
+
+    /// <summary>A body at one moment: metres, seconds, radians, z up; a quaternion that is all zeros is level.</summary>
+    public struct Body
+    {
+        public float X, Y, Z, Qw, Qx, Qy, Qz, Vx, Vy, Vz, Wx, Wy, Wz;
+    }
+
+    /// <summary>Where in its chain an instance is.</summary>
+    public struct ChainPlace
+    {
+        public int Segment, Step, Mode;
     }
 
     /// <summary>Living instances of one model, stepped together. Bulk arrays have a row for each slot.</summary>
@@ -290,6 +400,16 @@ namespace Wisp
         public void SetCommonInputs(params float[] values) { Native.Check(Native.wisp_bank_set_common_inputs(handle, values, Native.Count(values))); }
         public void SetInputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_set_instance_inputs(handle, instance, values, Native.Count(values))); }
 
+        /// <summary>The instance in a slot; 0 when it is empty.</summary>
+        public ulong At(int slot) { return Native.wisp_bank_at(handle, (uint)slot); }
+
+        public float Noise()
+        {
+            float scale;
+            Native.Check(Native.wisp_bank_get_noise(handle, out scale));
+            return scale;
+        }
+
         /// <summary>Scale of the noise: 1 as learned, 0 none.</summary>
         public void SetNoise(float scale) { Native.Check(Native.wisp_bank_set_noise(handle, scale)); }
 
@@ -299,8 +419,22 @@ namespace Wisp
         public int Advance(double seconds)
         {
             int steps;
-            Native.Check(Native.wisp_bank_advance(handle, (long)(seconds * 1e9), out steps));
+            Native.Check(Native.wisp_bank_advance_seconds(handle, seconds, out steps));
             return steps;
+        }
+
+        /// <summary>Advances by whole nanoseconds, as a replay needs. Returns the number of steps.</summary>
+        public int AdvanceNanoseconds(long nanoseconds)
+        {
+            int steps;
+            Native.Check(Native.wisp_bank_advance(handle, nanoseconds, out steps));
+            return steps;
+        }
+
+        /// <summary>Many steps in one call: inputs (steps x slots x inputs) and outputs (steps x slots x outputs), or null.</summary>
+        public void Step(int steps, float[] inputs = null, float[] outputs = null)
+        {
+            Native.Check(Native.wisp_bank_step_many(handle, (uint)steps, inputs, Native.Count(inputs), outputs, Native.Count(outputs)));
         }
 
         /// <summary>Writes outputs into an array of slots x outputs, or one instance's.</summary>
@@ -319,8 +453,71 @@ namespace Wisp
             return state.Lit != 0;
         }
 
+        /// <summary>0 to 1, what outlines are already multiplied by: slots.</summary>
+        public void FlameSizes(float[] values) { Native.Check(Native.wisp_bank_flame_sizes(handle, values, Native.Count(values))); }
+
         public void Relight(ulong instance) { Native.Check(Native.wisp_bank_relight(handle, instance)); }
         public void Extinguish(ulong instance) { Native.Check(Native.wisp_bank_extinguish(handle, instance)); }
+
+        /// <summary>Leaves: sets an instance where a body is, as after a throw or a collision. Wisp's z is up, metres, seconds.</summary>
+        public void Place(ulong instance, Body body)
+        {
+            var moment = new Native.BodyMoment
+            {
+                Size = (uint)Marshal.SizeOf(typeof(Native.BodyMoment)), X = body.X, Y = body.Y, Z = body.Z, Qw = body.Qw, Qx = body.Qx, Qy = body.Qy, Qz = body.Qz,
+                Vx = body.Vx, Vy = body.Vy, Vz = body.Vz, Wx = body.Wx, Wy = body.Wy, Wz = body.Wz
+            };
+            if (body.Qw == 0 && body.Qx == 0 && body.Qy == 0 && body.Qz == 0) moment.Qw = 1;
+            Native.Check(Native.wisp_bank_place(handle, instance, ref moment));
+        }
+
+        /// <summary>The segment that an instance plays, the step in it, and its mode.</summary>
+        public ChainPlace PlaceInChain(ulong instance)
+        {
+            var place = new Native.Place { Size = (uint)Marshal.SizeOf(typeof(Native.Place)) };
+            Native.Check(Native.wisp_bank_get_chain_place(handle, instance, ref place));
+            return new ChainPlace { Segment = (int)place.Segment, Step = (int)place.Step, Mode = (int)place.Mode };
+        }
+
+        /// <summary>Steers an instance to a place, in metres, that it is to reach in so many seconds; Release ends that.</summary>
+        public void Steer(ulong instance, float x, float y, float z, double seconds, float within = 0.1f)
+        {
+            var target = new Native.Target { Size = (uint)Marshal.SizeOf(typeof(Native.Target)), X = x, Y = y, Z = z, Nanoseconds = (long)(seconds * 1e9), Within = within };
+            Native.Check(Native.wisp_bank_steer(handle, instance, ref target));
+        }
+
+        public void Release(ulong instance) { Native.Check(Native.wisp_bank_release(handle, instance)); }
+        public bool CanSteer { get { return Native.wisp_bank_can_steer(handle) != 0; } }
+
+        /// <summary>Level ground at that height, metres; null: leaves fall for ever.</summary>
+        public float? Ground
+        {
+            get { var settings = Settings(); return settings.HasGround != 0 ? settings.Ground : (float?)null; }
+            set { Native.Check(value.HasValue ? Native.wisp_bank_set_ground(handle, value.Value) : Native.wisp_bank_clear_ground(handle)); }
+        }
+
+        private Native.ChainSettings Settings()
+        {
+            var settings = new Native.ChainSettings { Size = (uint)Marshal.SizeOf(typeof(Native.ChainSettings)) };
+            Native.Check(Native.wisp_bank_get_chain_settings(handle, ref settings));
+            return settings;
+        }
+
+        /// <summary>Back to where they were when spawned: all and the bank's time, or one.</summary>
+        public void Reset() { Native.Check(Native.wisp_bank_reset(handle)); }
+        public void Reset(ulong instance) { Native.Check(Native.wisp_bank_reset_instance(handle, instance)); }
+
+        /// <summary>The whole state; a bank of the same model and capacity restored from it goes on with the same bits.</summary>
+        public byte[] Save()
+        {
+            UIntPtr size;
+            Native.Check(Native.wisp_bank_save_bytes(handle, out size));
+            var bytes = new byte[(int)size];
+            Native.Check(Native.wisp_bank_save(handle, bytes, size));
+            return bytes;
+        }
+
+        public void Restore(byte[] bytes) { Native.Check(Native.wisp_bank_restore(handle, bytes, Native.Count(bytes))); }
 
         public void Dispose()
         {
@@ -355,8 +552,42 @@ namespace Wisp
             Native.Check(Native.wisp_wind_create(ref options, out handle));
         }
 
-        /// <summary>The latest frame.</summary>
-        public WindFrame Latest { get; private set; }
+        /// <summary>The latest frame; all zero before the first.</summary>
+        public WindFrame Latest
+        {
+            get
+            {
+                WindFrame frame;
+                Native.Check(Native.wisp_wind_latest(handle, out frame));
+                return frame;
+            }
+        }
+
+        /// <summary>Takes the coming seconds of sound for gentle breath or for hard blowing.</summary>
+        public void Calibrate(bool blowHard, double seconds = 3) { Native.Check(Native.wisp_wind_calibrate(handle, blowHard ? 1u : 0u, seconds)); }
+        public bool Calibrating { get { return Native.wisp_wind_calibrating(handle) != 0; } }
+        public bool Calibrated { get { return Native.wisp_wind_calibrated(handle) != 0; } }
+
+        /// <summary>dB by which the room is louder than at first; from 6 on something steady may be taken for wind.</summary>
+        public double RoomRise { get { return Native.wisp_wind_room_rise(handle); } }
+        public double Latency { get { return Native.wisp_wind_latency(handle); } }
+        public void Reset() { Native.Check(Native.wisp_wind_reset(handle)); }
+
+        /// <summary>What a microphone was found to be, to keep for the next start: background RMS and level, floor in dB, gust RMS.</summary>
+        public float[] Calibration
+        {
+            get
+            {
+                var kept = new Native.Calibration { Size = (uint)Marshal.SizeOf(typeof(Native.Calibration)) };
+                Native.Check(Native.wisp_wind_get_calibration(handle, ref kept));
+                return new[] { kept.BackgroundRms, kept.BackgroundLevel, kept.FloorDb, kept.GustRms };
+            }
+            set
+            {
+                var kept = new Native.Calibration { Size = (uint)Marshal.SizeOf(typeof(Native.Calibration)), BackgroundRms = value[0], BackgroundLevel = value[1], FloorDb = value[2], GustRms = value[3] };
+                Native.Check(Native.wisp_wind_set_calibration(handle, ref kept));
+            }
+        }
 
         /// <summary>Takes interleaved samples, full scale +-1. Returns the number of completed frames.</summary>
         public int Feed(float[] samples)
@@ -368,7 +599,6 @@ namespace Wisp
             {
                 Native.Check(Native.wisp_wind_feed(handle, block, Native.Count(block), frames, Native.Count(frames), out taken, out made));
                 int count = (int)made, used = (int)taken;
-                if (count > 0) Latest = frames[count - 1];
                 all += count;
                 if (used == block.Length) return all;
                 var rest = new float[block.Length - used];  // only for more than 64 frames in one block
@@ -403,6 +633,9 @@ namespace Wisp
         {
             Native.Check(Native.wisp_recording_add(Handle, (uint)role, Native.Utf8(name), Native.Utf8(unit), samples, Native.Count(samples)));
         }
+
+        /// <summary>A fact about the whole recording ("knots", "pair", …).</summary>
+        public void SetAttribute(string name, string value) { Native.Check(Native.wisp_recording_set_attribute(Handle, Native.Utf8(name), Native.Utf8(value))); }
 
         /// <summary>The episode of each row; no history crosses from one episode to the next.</summary>
         public void SetEpisodes(long[] ids) { Native.Check(Native.wisp_recording_set_episodes(Handle, ids, Native.Count(ids))); }

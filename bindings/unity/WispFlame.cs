@@ -13,7 +13,7 @@ public sealed class WispFlame : MonoBehaviour
 
     private const int Points = 48;
     private readonly float[] outline = new float[2 * Points];
-    private readonly float[] inputs = new float[1];
+    private float[] inputs;  // the first one is wind; a model of a silent clip has none
     private readonly Vector3[] corners = new Vector3[Points + 1];
     private Wisp.Model model;
     private Wisp.Bank bank;
@@ -23,6 +23,8 @@ public sealed class WispFlame : MonoBehaviour
     private void Start()
     {
         model = new Wisp.Model(Model.bytes);
+        if (model.View != Wisp.View.Outline) throw new System.ArgumentException(Model.name + " is no outline; a leaf needs Wisp.Bank.Outputs");
+        inputs = new float[model.Inputs];
         bank = new Wisp.Bank(model, 1, (ulong)Seed, Points);
         flame = bank.Spawn();
         mesh = new Mesh();
@@ -41,7 +43,7 @@ public sealed class WispFlame : MonoBehaviour
 
     private void Update()
     {
-        inputs[0] = Wind;
+        if (inputs.Length > 0) inputs[0] = Wind;
         bank.SetCommonInputs(inputs);
         bank.Advance(Time.deltaTime);
         bank.Polyline(flame, outline);

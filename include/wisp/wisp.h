@@ -261,7 +261,8 @@ typedef struct wisp_bank_facts {
 
 /* From here to wisp_bank_restore() is the frame path.
  *
- * Bulk buffers have one row per slot. Rows of empty slots are ignored on the way in and are zeros on the way out. */
+ * Bulk buffers have one row per slot, or more: `count` is at least the stated one, so a buffer of capacity rows always
+ * serves. Rows of empty slots, and what lies beyond, are ignored on the way in and are zeros on the way out. */
 
 WISP_API wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts);
 
@@ -298,6 +299,23 @@ WISP_API wisp_status wisp_bank_step(wisp_bank* bank);
 /* Lets time pass and shows what lies between the last two steps, one step late. Negative time counts as none, more than
  * ten seconds as ten. Sets *steps, unless NULL, to the steps made. */
 WISP_API wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int32_t* steps);
+
+/* The same with seconds; what is not a number counts as none. */
+WISP_API wisp_status wisp_bank_advance_seconds(wisp_bank* bank, double seconds, int32_t* steps);
+
+/* Many steps in one call, for play offline: the same bits as so many single ones. Row t of `inputs` (steps * slots *
+ * inputs, or none) is set before step t and row t of `outputs` (steps * slots * outputs, or none) is read after it. */
+WISP_API wisp_status wisp_bank_step_many(wisp_bank* bank, uint32_t steps, const float* inputs, size_t input_count,
+                                         float* outputs, size_t output_count);
+
+/* Threads of the caller's that step parts of a bank at once. `run` calls task(of, part) for every part from 0 below
+ * `parts`, each once and on any thread, and returns when all calls have returned. */
+typedef void (*wisp_crew_task)(void* of, int32_t part);
+typedef void (*wisp_crew_run)(void* pool, int32_t parts, wisp_crew_task task, void* of);
+
+/* From now on steps are shared by a crew, with the same bits; `pool` is handed to `run`. Worth its while from some
+ * thousand instances on. NULL: the calling thread does all. */
+WISP_API wisp_status wisp_bank_set_crew(wisp_bank* bank, uint32_t parts, wisp_crew_run run, void* pool);
 
 /* Outputs, in their units: of all (slots * outputs), of one (outputs). */
 WISP_API wisp_status wisp_bank_outputs(const wisp_bank* bank, float* values, size_t count);
@@ -358,13 +376,28 @@ typedef struct wisp_body {
  * WISP_BAD_ARGUMENT where a number is not finite. */
 WISP_API wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
 
+/* Where a body is to be, and when. */
+typedef struct wisp_target {
+  uint32_t size;       /* sizeof(wisp_target), set by the caller */
+  float position[3];   /* in the world, metres */
+  int64_t nanoseconds; /* from now; above 0, at most 10 000 s */
+  float within;        /* metres, 0.001 to 1000: how near is near enough; 0: 0.1 */
+} wisp_target;
+
+/* Steers an instance of a chain: at joins it prefers what leads to the target, until the time has come; or lets it fall
+ * as it will. Placing and resetting end it too. WISP_BAD_ARGUMENT where a number is out of its range or the chain does
+ * not know where its segments lead, which wisp_bank_can_steer() says (1 or 0). */
+WISP_API wisp_status wisp_bank_steer(wisp_bank* bank, wisp_instance instance, const wisp_target* target);
+WISP_API wisp_status wisp_bank_release(wisp_bank* bank, wisp_instance instance);
+WISP_API int32_t wisp_bank_can_steer(const wisp_bank* bank);
+
 /* Level ground at that height, on which instances of a chain come to rest until they are placed or reset; or none, as
  * at first: they fall for ever. WISP_BAD_ARGUMENT for a height that is not finite. */
 WISP_API wisp_status wisp_bank_set_ground(wisp_bank* bank, float height);
 WISP_API wisp_status wisp_bank_clear_ground(wisp_bank* bank);
 
 typedef struct wisp_chain_settings {
-  uint32_t size;            /* sizeof(wisp_chain_settings), set by the caller */
+  uint32_t size;       /* sizeof(wisp_chain_settings), set by the caller */
   uint32_t has_ground; /* 0: none */
   float ground;
 } wisp_chain_settings;

@@ -14,6 +14,8 @@ namespace {
 using namespace wisp::c;
 using wisp::InstanceId;
 
+constexpr std::uint32_t kMaxSteps = 1U << 24, kMaxParts = 4096;
+
 std::size_t rows(const wisp_bank* bank, int columns) {
   return static_cast<std::size_t>(bank->bank.slots()) * static_cast<std::size_t>(columns);
 }
@@ -143,7 +145,7 @@ wisp_instance wisp_bank_at(const wisp_bank* bank, uint32_t slot) {
 
 wisp_status wisp_bank_set_inputs(wisp_bank* bank, const float* values, size_t count) {
   if (!bank) return null_argument(__func__);
-  if (!buffer_is_right(__func__, values, count, rows(bank, bank->bank.input_count()))) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, rows(bank, bank->bank.input_count()), true)) return WISP_BAD_ARGUMENT;
   bank->bank.set_inputs({values, count});
   return WISP_OK;
 }
@@ -188,9 +190,35 @@ wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int32_t* ste
   return WISP_OK;
 }
 
+wisp_status wisp_bank_advance_seconds(wisp_bank* bank, double seconds, int32_t* steps) {
+  if (!bank) return null_argument(__func__);
+  const int made = bank->bank.advance(seconds);
+  if (steps) *steps = made;
+  return WISP_OK;
+}
+
+wisp_status wisp_bank_step_many(wisp_bank* bank, uint32_t steps, const float* inputs, size_t input_count,
+                                float* outputs, size_t output_count) {
+  if (!bank) return null_argument(__func__);
+  if (steps > kMaxSteps) return fail(WISP_BAD_ARGUMENT, "%s was asked for more than 2^24 steps", __func__);
+  const size_t in = inputs ? steps * rows(bank, bank->bank.input_count()) : 0;
+  const size_t out = outputs ? steps * rows(bank, bank->bank.output_count()) : 0;
+  if (!buffer_is_right(__func__, inputs, input_count, in)) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, outputs, output_count, out)) return WISP_BAD_ARGUMENT;
+  bank->bank.step(static_cast<int>(steps), {inputs, in}, {outputs, out});
+  return WISP_OK;
+}
+
+wisp_status wisp_bank_set_crew(wisp_bank* bank, uint32_t parts, wisp_crew_run run, void* pool) {
+  if (!bank) return null_argument(__func__);
+  if (parts < 1 || parts > kMaxParts) return fail(WISP_BAD_ARGUMENT, "%s: parts are 1 to 4096", __func__);
+  bank->bank.set_crew({.parts = static_cast<int>(parts), .run = run, .pool = pool});
+  return WISP_OK;
+}
+
 wisp_status wisp_bank_outputs(const wisp_bank* bank, float* values, size_t count) {
   if (!bank) return null_argument(__func__);
-  if (!buffer_is_right(__func__, values, count, rows(bank, bank->bank.output_count()))) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, rows(bank, bank->bank.output_count()), true)) return WISP_BAD_ARGUMENT;
   bank->bank.outputs({values, count});
   return WISP_OK;
 }
@@ -206,7 +234,7 @@ wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t cou
   if (!bank) return null_argument(__func__);
   if (!has_outline(__func__, bank)) return WISP_BAD_ARGUMENT;
   const size_t expected = rows(bank, 2 * bank->bank.polyline_points());
-  if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, expected, true)) return WISP_BAD_ARGUMENT;
   bank->bank.polylines({values, count});
   return WISP_OK;
 }
@@ -235,11 +263,12 @@ wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance insta
 
 wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count) {
   if (!bank) return null_argument(__func__);
-  if (!buffer_is_right(__func__, values, count, rows(bank, 1))) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, rows(bank, 1), true)) return WISP_BAD_ARGUMENT;
   for (int slot = 0; slot < bank->bank.slots(); ++slot) {
     const auto found = state_of(bank, bank->bank.at(slot));
     values[slot] = found ? found->size : 0.0f;
   }
+  std::fill(values + bank->bank.slots(), values + count, 0.0f);
   return WISP_OK;
 }
 

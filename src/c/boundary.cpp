@@ -29,13 +29,14 @@ wisp_status not_alive(const char* function) {
   return fail(WISP_NOT_ALIVE, "%s was given an instance that is not alive", function);
 }
 
-bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected) {
-  if (!values && expected > 0) {
+bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected, bool or_more) {
+  if (!values && found + expected > 0) {
     null_argument(function);
     return false;
   }
-  if (found == expected) return true;
-  fail(WISP_BAD_ARGUMENT, "%s was given room for %zu, expected %zu", function, found, expected);
+  if (found == expected || (or_more && found > expected)) return true;
+  fail(WISP_BAD_ARGUMENT, "%s was given room for %zu, expected %s%zu", function, found, or_more ? "at least " : "",
+       expected);
   return false;
 }
 

@@ -28,8 +28,9 @@ wisp_status fail(wisp_status status, const Error& error);
 wisp_status null_argument(const char* function);
 wisp_status not_alive(const char* function);
 
-/// Checks that a buffer is not null and has the stated number of values; stores an error otherwise.
-bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected);
+/// Checks that a buffer is not null and has the stated number of values, or more; stores an error otherwise.
+bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected,
+                     bool or_more = false);
 
 /// Checks that an index is below a count; stores an error otherwise.
 bool index_is_right(const char* function, std::uint32_t index, std::size_t count);

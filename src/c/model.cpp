@@ -1,5 +1,6 @@
 // Models: reading from bytes, and their properties.
 
+#include <type_traits>
 #include <utility>
 
 #include "c/boundary.hpp"
@@ -60,24 +61,21 @@ std::uint32_t kind_of(const wisp::ArxModel&) { return WISP_DYNAMICS_ARX; }
 std::uint32_t kind_of(const wisp::ChainModel&) { return WISP_DYNAMICS_CHAIN; }
 std::uint32_t kind_of(const wisp::SwitchedArxModel&) { return WISP_DYNAMICS_SWITCHED; }
 
-const wisp::ArxModel* arx_of(const char* function, const wisp_model* model) {
-  const auto* arx = std::get_if<wisp::ArxModel>(&model->model.dynamics);
-  if (!arx) fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not ARX", function);
-  return arx;
-}
-
-const wisp::ChainModel* chain_of(const char* function, const wisp_model* model) {
-  const auto* chain = std::get_if<wisp::ChainModel>(&model->model.dynamics);
-  if (!chain) fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not a chain", function);
-  return chain;
-}
-
-wisp_status hand_out_orders(const char* function, const wisp_model* model, wisp::OrderMatrix wisp::ArxOrders::*which,
-                            std::int32_t* values, std::size_t count) {
+// Calls use(dynamics) of a model whose dynamics are of that kind; what it returns is the outcome.
+template <class Kind, class Use>
+wisp_status on_dynamics(const char* function, const wisp_model* model, Use use) {
   if (!model) return null_argument(function);
-  const wisp::ArxModel* arx = arx_of(function, model);
-  if (!arx) return WISP_BAD_ARGUMENT;
-  return hand_out_values(function, (arx->orders.*which).values(), values, count);
+  if (const auto* dynamics = std::get_if<Kind>(&model->model.dynamics)) return use(*dynamics);
+  const bool arx = std::is_same_v<Kind, wisp::ArxModel>;
+  return fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not %s", function, arx ? "ARX" : "a chain");
+}
+
+// Fills an array with what take(dynamics) returns.
+template <class Kind, class Take, class Value>
+wisp_status hand_out_of(const char* function, const wisp_model* model, Take take, Value* values, std::size_t count) {
+  return on_dynamics<Kind>(function, model, [&](const Kind& dynamics) {
+    return guarded(function, [&] { return hand_out_values(function, take(dynamics), values, count); });
+  });
 }
 
 }  // namespace
@@ -176,72 +174,70 @@ wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_
 wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
   if (!model || !facts) return null_argument(__func__);
   if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
-  const wisp::ArxModel* arx = arx_of(__func__, model);
-  if (!arx) return WISP_BAD_ARGUMENT;
-  wisp_arx_facts filled{};
-  filled.outputs = static_cast<uint32_t>(arx->orders.outputs());
-  filled.regressors = static_cast<uint32_t>(arx->orders.inputs());
-  filled.history = static_cast<uint32_t>(arx->orders.history());
-  filled.shocks = static_cast<uint32_t>(arx->noise.rank);
-  filled.resamples = arx->noise.resampled.empty() ? 0 : 1;
-  hand_out(filled, facts);
-  return WISP_OK;
+  return on_dynamics<wisp::ArxModel>(__func__, model, [&](const wisp::ArxModel& arx) {
+    wisp_arx_facts filled{};
+    filled.outputs = static_cast<uint32_t>(arx.orders.outputs());
+    filled.regressors = static_cast<uint32_t>(arx.orders.inputs());
+    filled.history = static_cast<uint32_t>(arx.orders.history());
+    filled.shocks = static_cast<uint32_t>(arx.noise.rank);
+    filled.resamples = arx.noise.resampled.empty() ? 0 : 1;
+    hand_out(filled, facts);
+    return wisp_status{WISP_OK};
+  });
 }
 
 wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values, size_t count) {
-  return hand_out_orders(__func__, model, &wisp::ArxOrders::na, values, count);
+  return hand_out_of<wisp::ArxModel>(
+      __func__, model, [](auto& arx) { return arx.orders.na.values(); }, values, count);
 }
 
 wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count) {
-  return hand_out_orders(__func__, model, &wisp::ArxOrders::nb, values, count);
+  return hand_out_of<wisp::ArxModel>(
+      __func__, model, [](auto& arx) { return arx.orders.nb.values(); }, values, count);
 }
 
 wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count) {
-  return hand_out_orders(__func__, model, &wisp::ArxOrders::nk, values, count);
+  return hand_out_of<wisp::ArxModel>(
+      __func__, model, [](auto& arx) { return arx.orders.nk.values(); }, values, count);
 }
 
 wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count) {
-  if (!model) return null_argument(__func__);
-  const wisp::ArxModel* arx = arx_of(__func__, model);
-  return arx ? hand_out_values(__func__, arx->noise.sd, values, count) : WISP_BAD_ARGUMENT;
+  return hand_out_of<wisp::ArxModel>(
+      __func__, model, [](auto& arx) { return arx.noise.sd; }, values, count);
 }
 
 wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts) {
   if (!model || !facts) return null_argument(__func__);
   if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
-  const wisp::ChainModel* chain = chain_of(__func__, model);
-  if (!chain) return WISP_BAD_ARGUMENT;
-  wisp_chain_facts filled{};
-  filled.modes = static_cast<uint32_t>(chain->modes);
-  filled.segments = static_cast<uint32_t>(chain->segments.size());
-  filled.history = static_cast<uint32_t>(chain->history);
-  filled.gust_order = chain->gust ? static_cast<uint32_t>(chain->gust->order()) : 0;
-  filled.heading_free = chain->heading_free ? 1 : 0;
-  hand_out(filled, facts);
-  return WISP_OK;
+  return on_dynamics<wisp::ChainModel>(__func__, model, [&](const wisp::ChainModel& chain) {
+    wisp_chain_facts filled{};
+    filled.modes = static_cast<uint32_t>(chain.modes);
+    filled.segments = static_cast<uint32_t>(chain.segments.size());
+    filled.history = static_cast<uint32_t>(chain.history);
+    filled.gust_order = chain.gust ? static_cast<uint32_t>(chain.gust->order()) : 0;
+    filled.heading_free = chain.heading_free ? 1 : 0;
+    hand_out(filled, facts);
+    return wisp_status{WISP_OK};
+  });
 }
 
 wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count) {
-  if (!model) return null_argument(__func__);
-  const wisp::ChainModel* chain = chain_of(__func__, model);
-  return chain ? hand_out_values(__func__, chain->initial, values, count) : WISP_BAD_ARGUMENT;
+  return hand_out_of<wisp::ChainModel>(
+      __func__, model, [](auto& chain) { return chain.initial; }, values, count);
 }
 
 wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count) {
-  if (!model) return null_argument(__func__);
-  const wisp::ChainModel* chain = chain_of(__func__, model);
-  if (!chain) return WISP_BAD_ARGUMENT;
-  const char* const call = __func__;  // within the lambda __func__ is operator()
-  return guarded(call, [&] { return hand_out_values(call, chain->transitions(), values, count); });
+  return hand_out_of<wisp::ChainModel>(
+      __func__, model, [](auto& chain) { return chain.transitions(); }, values, count);
 }
 
 wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count) {
-  if (!model) return null_argument(__func__);
-  const wisp::ChainModel* chain = chain_of(__func__, model);
-  if (!chain) return WISP_BAD_ARGUMENT;
-  if (!buffer_is_right(__func__, chain, count, chain->segments.size())) return WISP_BAD_ARGUMENT;
-  if (modes) hand_out_values(__func__, chain->segments.mode, modes, count);
-  if (steps) hand_out_values(__func__, chain->segments.steps, steps, count);
-  return WISP_OK;
+  const char* const call = __func__;  // within a lambda __func__ is operator()
+  return on_dynamics<wisp::ChainModel>(call, model, [&](const wisp::ChainModel& chain) {
+    if (!buffer_is_right(call, &chain, count, chain.segments.size())) return wisp_status{WISP_BAD_ARGUMENT};
+    if (modes) hand_out_values(call, chain.segments.mode, modes, count);
+    if (steps) hand_out_values(call, chain.segments.steps, steps, count);
+    return wisp_status{WISP_OK};
+  });
 }
 }

@@ -13,6 +13,12 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
+// What is written, with words to fill in: lamp.h.in and lamp.c.in.
+namespace wisp::exporting {
+extern const char* const lamp_header;
+extern const char* const lamp_source;
+}  // namespace wisp::exporting
+
 namespace wisp {
 namespace {
 
@@ -25,24 +31,15 @@ const double kBytesSd = std::sqrt(4.0 * (256 * 256 - 1) / 12);
 // The coefficients of a model with one output.
 struct Lamp {
   std::vector<std::vector<double>> feedback;  // per mode and lag, sign of the prediction
-  std::vector<std::vector<double>> input;     // per mode and tap
   std::vector<double> constant, shock;        // per mode
   std::vector<double> transitions;            // modes × modes
-  std::size_t lags = 1, taps = 0, delay = 0;
-  double mean = 0, input_mean = 0;
+  std::size_t lags = 1;
+  double mean = 0;
 };
 
 void add_mode(const ArxModel& arx, double shock, Lamp& lamp) {
   auto& feedback = lamp.feedback.emplace_back();
   for (const double a : arx.a(0, 0)) feedback.push_back(-a);
-  auto& input = lamp.input.emplace_back();
-  if (arx.orders.inputs() > 0) {
-    const auto b = arx.b(0, 0);
-    input.assign(b.begin(), b.end());
-    lamp.taps = std::max(lamp.taps, input.size());
-    lamp.delay = static_cast<std::size_t>(arx.orders.nk(0, 0));
-    lamp.input_mean = arx.input_mean[0];
-  }
   lamp.constant.push_back(arx.constant[0]);
   lamp.shock.push_back(shock);
   lamp.lags = std::max(lamp.lags, feedback.size());
@@ -66,11 +63,8 @@ Result<Lamp> lamp_of(const Model& model) {
     return Error{"the model has " + std::to_string(model.outputs.size()) +
                  " outputs, a lamp has one; learn its brightness with `wisp learn flicker`"};
   }
-  if (model.inputs.size() > 1) {
-    return Error{"the model has " + std::to_string(model.inputs.size()) + " inputs, expected none or one"};
-  }
-  if (!model.inputs.empty() && model.inputs[0].shape != InputShape::kLinear) {
-    return Error{"the model's input is bent or split by its sign, which has no fixed-point form; learn it one-sided"};
+  if (!model.inputs.empty()) {
+    return Error{"the model has an input, a lamp has none; learn its brightness with `wisp learn flicker`"};
   }
   Lamp lamp;
   if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) {
@@ -89,7 +83,7 @@ Result<Lamp> lamp_of(const Model& model) {
 
 // Limits of fixed point and a small memory.
 Result<void> check(const Lamp& lamp) {
-  if (lamp.feedback.size() > kMaxModes || lamp.lags > kMaxLags || lamp.taps + lamp.delay > kMaxLags) {
+  if (lamp.feedback.size() > kMaxModes || lamp.lags > kMaxLags) {
     return Error{"the model has more than 16 modes or 32 lags; learn a smaller one"};
   }
   for (const auto& weights : lamp.feedback) {
@@ -141,144 +135,10 @@ std::string filled(std::string text, const std::vector<std::pair<std::string, st
   return text;
 }
 
-constexpr const char* kHeader =
-    R"(/* Made by `wisp export` from the model "@MODEL@". A lamp that flickers: call @NAME@_step() @RATE@ times a second. */
-#ifndef @GUARD@
-#define @GUARD@
-
-#include <stdint.h>
-
-#define @UPPER@_RATE_HZ @RATE@
-#define @UPPER@_ONE 4096 /* an output of 1@ONEWORDS@ */
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-typedef struct {
-  int32_t past[@LAGS@];
-@INPUTSTATE@  uint32_t random;
-  uint8_t mode;
-} @NAME@_state;
-
-/* Lamps with other seeds flicker apart. */
-void @NAME@_start(@NAME@_state* lamp, uint32_t seed);
-
-/* One step@STEPWORDS@. Returns the output, @LOWEST@ to @HIGHEST@. */
-int16_t @NAME@_step(@NAME@_state* lamp@INPUTARGUMENT@);
-
-#ifdef __cplusplus
-}
-#endif
-
-#endif
-)";
-
-constexpr const char* kSource = R"(/* Made by `wisp export` from the model "@MODEL@". */
-@INCLUDE@ "@NAME@.h"
-
-/* Tables stay in flash on AVR, where memory for data is small. */
-#ifdef __AVR__
-@INCLUDE@ <avr/pgmspace.h>
-#define LAMP_FLASH PROGMEM
-#define LAMP_32(address) ((int32_t)pgm_read_dword(address))
-#define LAMP_16(address) pgm_read_word(address)
-#else
-#define LAMP_FLASH
-#define LAMP_32(address) (*(address))
-#define LAMP_16(address) (*(address))
-#endif
-
-/* Per mode: the constant and the size of a shock. */
-@CONSTANTS@
-/* Per mode: what follows from each step before, newest first. */
-@WEIGHTS@@INPUTWEIGHTS@@THRESHOLDS@
-/* The upper half of a product, within 2 of its last place. */
-static int32_t product(int32_t a, int32_t b) {
-  const int16_t a_high = (int16_t)(a >> 16), b_high = (int16_t)(b >> 16);
-  const int32_t a_low = (int32_t)((uint32_t)a & 0xffffu), b_low = (int32_t)((uint32_t)b & 0xffffu);
-  /* In halves, so that nothing leaves 32 bits. */
-  const int16_t a_half = (int16_t)(a_low >> 1), b_half = (int16_t)(b_low >> 1);
-  return (int32_t)a_high * b_high + (((int32_t)a_high * b_half) >> 15) + (((int32_t)b_high * a_half) >> 15);
-}
-
-static uint32_t next_random(@NAME@_state* lamp) {
-  uint32_t word = lamp->random;
-  word ^= word << 8; /* near whole bytes, which costs small processors least */
-  word ^= word >> 9;
-  word ^= word << 23;
-  return lamp->random = word;
-}
-
-void @NAME@_start(@NAME@_state* lamp, uint32_t seed) {
-  uint8_t k;
-  for (k = 0; k < @LAGS@; ++k) lamp->past[k] = 0;
-@INPUTSTART@  lamp->mode = 0;
-  lamp->random = (seed ^ 0x9e3779b9u) | 1u;
-  for (k = 0; k < 8; ++k) next_random(lamp);
-}
-
-int16_t @NAME@_step(@NAME@_state* lamp@INPUTARGUMENT@) {
-  uint8_t k;
-  uint32_t word = next_random(lamp);
-  int16_t bytes = 0;
-  int16_t shown;
-  int32_t sum;
-  for (k = 0; k < 4; ++k) {
-    bytes += (int8_t)(word & 0xffu);
-    word >>= 8;
-  }
-  bytes += 2; /* the mean of such a byte is -1/2 */
-@SWITCH@  sum = LAMP_32(&constants[lamp->mode][0]) + ((bytes * LAMP_32(&constants[lamp->mode][1])) >> 4);
-  for (k = 0; k < @LAGS@; ++k) sum += product(lamp->past[k], LAMP_32(&weights[lamp->mode][k]));
-@INPUTSUM@  if (sum > @LARGEST@) sum = @LARGEST@;
-  if (sum < -@LARGEST@) sum = -@LARGEST@;
-  for (k = @LAGS@ - 1; k > 0; --k) lamp->past[k] = lamp->past[k - 1];
-  lamp->past[0] = sum * 16;
-  shown = (int16_t)(sum >> @SHOWNSHIFT@) + @MEAN@;
-  if (shown < @LOWEST@) shown = @LOWEST@;
-  if (shown > @HIGHEST@) shown = @HIGHEST@;
-  return shown;
-}
-)";
-
 constexpr const char* kSwitch = R"(  word = next_random(lamp) >> 16;
   for (k = 0; k < @LASTMODE@ && word >= LAMP_16(&thresholds[lamp->mode][k]); ++k) continue;
   lamp->mode = k;
 )";
-
-constexpr const char* kInputSum = R"(  for (k = @INPUTS@ - 1; k > 0; --k) lamp->inputs[k] = lamp->inputs[k - 1];
-  if (input > @INPUTHIGHEST@) input = @INPUTHIGHEST@;
-  if (input < @INPUTLOWEST@) input = @INPUTLOWEST@;
-  lamp->inputs[0] = input;
-  for (k = 0; k < @TAPS@; ++k) sum += product((int32_t)lamp->inputs[k + @DELAY@] * 65536, LAMP_32(&input_weights[lamp->mode][k]));
-)";
-
-// Parts of the source that only some models have.
-std::vector<std::pair<std::string, std::string>> input_words(const Model& model, const Lamp& lamp, double sum_one) {
-  if (lamp.taps == 0) {
-    return {{"INPUTSTATE", ""},   {"STEPWORDS", ""},  {"INPUTARGUMENT", model.inputs.empty() ? "" : ", int16_t input"},
-            {"INPUTWEIGHTS", ""}, {"INPUTSTART", ""}, {"INPUTSUM", ""}};
-  }
-  const double one = 1 << kOneBits, range = kRangeMargin * (model.inputs[0].highest - model.inputs[0].lowest);
-  const std::string inputs = std::to_string(lamp.taps + lamp.delay);
-  const auto weight = [&](std::size_t mode, std::size_t k) {
-    return k < lamp.input[mode].size() ? lamp.input[mode][k] * sum_one / one * 65536 : 0;
-  };
-  const std::string sums =
-      filled(kInputSum, {{"INPUTS", inputs},
-                         {"TAPS", std::to_string(lamp.taps)},
-                         {"DELAY", std::to_string(lamp.delay)},
-                         {"INPUTHIGHEST", whole(std::min(32767.0, one * (model.inputs[0].highest + range)))},
-                         {"INPUTLOWEST", whole(std::max(-32767.0, one * (model.inputs[0].lowest - range)))}});
-  return {{"INPUTSTATE", "  int16_t inputs[" + inputs + "];\n"},
-          {"STEPWORDS", " in an input, of which 4096 is 1"},
-          {"INPUTARGUMENT", ", int16_t input"},
-          {"INPUTWEIGHTS", "/* Per mode: what follows from the input. */\n" +
-                               table("int32_t", "input_weights", lamp.input.size(), lamp.taps, weight)},
-          {"INPUTSTART", "  for (k = 0; k < " + inputs + "; ++k) lamp->inputs[k] = 0;\n"},
-          {"INPUTSUM", sums}};
-}
 
 std::string thresholds(const Lamp& lamp) {
   const std::size_t modes = lamp.feedback.size();
@@ -312,11 +172,8 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   }
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
-  // The constant contains the contribution of the input's mean.
   const auto constant = [&](std::size_t mode, std::size_t column) {
-    double value = lamp->constant[mode];
-    for (const double b : lamp->input[mode]) value -= b * lamp->input_mean;
-    return column == 0 ? value * sum_one : lamp->shock[mode] * sum_one / kBytesSd * 16;
+    return column == 0 ? lamp->constant[mode] * sum_one : lamp->shock[mode] * sum_one / kBytesSd * 16;
   };
   const auto weight = [&](std::size_t mode, std::size_t k) {
     return k < lamp->feedback[mode].size() ? std::ldexp(lamp->feedback[mode][k], kWeightBits) : 0;
@@ -326,29 +183,26 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   std::string called = model.name;
   std::erase_if(called,
                 [](char c) { return c == '*' || c == '/' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
-  auto words = input_words(model, *lamp, sum_one);
-  words.insert(words.end(), {{"SWITCH", modes > 1 ? kSwitch : ""},
-                             {"THRESHOLDS", modes > 1 ? thresholds(*lamp) : ""},
-                             {"CONSTANTS", table("int32_t", "constants", modes, 2, constant)},
-                             {"WEIGHTS", table("int32_t", "weights", modes, lamp->lags, weight)},
-                             {"LASTMODE", std::to_string(modes - 1)},
-                             {"ONEWORDS", output.name == "brightness" ? ", the mean light" : ""},
-                             {"LAGS", std::to_string(lamp->lags)},
-                             {"LARGEST", std::to_string((1 << kSumBits) - 1)},
-                             {"SHOWNSHIFT", std::to_string(kSumBits - exponent - kOneBits)},
-                             {"MEAN", whole(one * lamp->mean)},
-                             {"LOWEST", whole(one * lowest)},
-                             {"HIGHEST", whole(one * highest)},
-                             {"RATE", whole(model.rate_hz)},
-                             {"GUARD", upper + "_H"},
-                             {"UPPER", upper},
-                             {"MODEL", called},
-                             // Split, since the includes of this file are read line by line.
-                             {"INCLUDE", "#include"},
-                             {"NAME", std::string(name)}});
-  FirmwareSource out{filled(kHeader, words), filled(kSource, words), 0};
-  const std::size_t inputs = lamp->taps > 0 ? 2 * (lamp->taps + lamp->delay) : 0;
-  out.state_bytes = 4 * lamp->lags + inputs + 4 + 1;
+  const std::vector<std::pair<std::string, std::string>> words = {
+      {"SWITCH", modes > 1 ? kSwitch : ""},
+      {"THRESHOLDS", modes > 1 ? thresholds(*lamp) : ""},
+      {"CONSTANTS", table("int32_t", "constants", modes, 2, constant)},
+      {"WEIGHTS", table("int32_t", "weights", modes, lamp->lags, weight)},
+      {"LASTMODE", std::to_string(modes - 1)},
+      {"ONEWORDS", output.name == "brightness" ? ", the mean light" : ""},
+      {"LAGS", std::to_string(lamp->lags)},
+      {"LARGEST", std::to_string((1 << kSumBits) - 1)},
+      {"SHOWNSHIFT", std::to_string(kSumBits - exponent - kOneBits)},
+      {"MEAN", whole(one * lamp->mean)},
+      {"LOWEST", whole(one * lowest)},
+      {"HIGHEST", whole(one * highest)},
+      {"RATE", whole(model.rate_hz)},
+      {"GUARD", upper + "_H"},
+      {"UPPER", upper},
+      {"MODEL", called},
+      {"NAME", std::string(name)}};
+  FirmwareSource out{filled(exporting::lamp_header, words), filled(exporting::lamp_source, words), 0};
+  out.state_bytes = 4 * lamp->lags + 4 + 1;
   return out;
 }
 

@@ -172,13 +172,13 @@ static const char* misuse_of_a_bank(wisp_bank* bank) {
   EXPECT_FAILURE(wisp_bank_polyline(bank, none, values, 64), WISP_NOT_ALIVE, "not alive");
   EXPECT_FAILURE(wisp_bank_set_instance_inputs(bank, none, values, 1), WISP_NOT_ALIVE, "not alive");
   EXPECT_FAILURE(wisp_bank_reset_instance(bank, none), WISP_NOT_ALIVE, "not alive");
-  EXPECT_FAILURE(wisp_bank_set_inputs(bank, values, 2), WISP_BAD_ARGUMENT, "room for 2, expected 1");
+  EXPECT_FAILURE(wisp_bank_set_inputs(bank, values, 0), WISP_BAD_ARGUMENT, "room for 0, expected at least 1");
   EXPECT_FAILURE(wisp_bank_set_inputs(bank, NULL, 1), WISP_BAD_ARGUMENT, "null pointer");
   EXPECT_FAILURE(wisp_bank_set_common_inputs(bank, values, 0), WISP_BAD_ARGUMENT, "room for 0, expected 1");
   EXPECT_FAILURE(wisp_bank_set_instance_inputs(bank, flame, values, 3), WISP_BAD_ARGUMENT, "expected 1");
-  EXPECT_FAILURE(wisp_bank_outputs(bank, values, 15), WISP_BAD_ARGUMENT, "room for 15, expected 16");
+  EXPECT_FAILURE(wisp_bank_outputs(bank, values, 15), WISP_BAD_ARGUMENT, "room for 15, expected at least 16");
   EXPECT_FAILURE(wisp_bank_instance_outputs(bank, flame, values, 17), WISP_BAD_ARGUMENT, "expected 16");
-  EXPECT_FAILURE(wisp_bank_polylines(bank, values, 63), WISP_BAD_ARGUMENT, "expected 64");
+  EXPECT_FAILURE(wisp_bank_polylines(bank, values, 63), WISP_BAD_ARGUMENT, "expected at least 64");
   EXPECT_FAILURE(wisp_bank_polyline(bank, flame, values, 65), WISP_BAD_ARGUMENT, "expected 64");
   EXPECT_FAILURE(wisp_bank_save(bank, rubbish, 100), WISP_BAD_ARGUMENT, "room for 100");
   EXPECT_FAILURE(wisp_bank_restore(bank, rubbish, 100), WISP_BAD_DATA, "not a saved bank");
@@ -290,7 +290,7 @@ const char* death_in_c(const void* bytes, size_t size) {
   EXPECT(wisp_bank_get_flame_state(NULL, flame, &state) == WISP_BAD_ARGUMENT);
   EXPECT(wisp_bank_get_flame_state(bank, flame, NULL) == WISP_BAD_ARGUMENT);
   EXPECT(wisp_bank_get_flame_state(bank, WISP_NO_INSTANCE, &state) == WISP_NOT_ALIVE);
-  EXPECT(wisp_bank_flame_sizes(bank, &flame_size, 2) == WISP_BAD_ARGUMENT);
+  EXPECT(wisp_bank_flame_sizes(bank, &flame_size, 0) == WISP_BAD_ARGUMENT);
   EXPECT(wisp_bank_relight(bank, WISP_NO_INSTANCE) == WISP_NOT_ALIVE);
   EXPECT(wisp_bank_extinguish(bank, WISP_NO_INSTANCE) == WISP_NOT_ALIVE);
   EXPECT(wisp_bank_relight(NULL, flame) == WISP_BAD_ARGUMENT);

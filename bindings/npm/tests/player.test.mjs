@@ -209,7 +209,7 @@ test('inputs reach all, the same all, or one', () => {
   bank.setInputs(view);
   steps(10);
   assert.notDeepEqual(outputs(calm), outputs(windy));
-  assert.throws(() => bank.setInputs([1]), wrong(Status.badArgument, /room for 1, expected 2/));
+  assert.throws(() => bank.setInputs([1]), wrong(Status.badArgument, /room for 1, expected at least 2/));
   assert.throws(() => bank.setCommonInputs([1, 2, 3]), wrong(Status.badArgument, /room for 3, expected 1/));
   bank.setCommonInputs([NaN]);
   steps(1);

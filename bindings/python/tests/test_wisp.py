@@ -171,8 +171,75 @@ class Playing(unittest.TestCase):
         bank = wisp.Bank(wisp.read_model(flame), 5)
         with self.assertRaisesRegex(ValueError, "expected 1 for all or 1 for each of 5 slots"):
             bank.set_inputs([1, 2, 3])
+        # One row an input in the place of one a slot blew another leaf, without a word.
+        leaves = wisp.Bank(wisp.read_model(root / "apps/web/public/models/leaf.wisp"), 10)
+        leaves.set_inputs(np.zeros((10, 3)))
+        leaves.set_inputs([0, 0, 1])
+        with self.assertRaisesRegex(ValueError, r"found shape \(3, 10\)"):
+            leaves.set_inputs(np.zeros((3, 10)))
         with self.assertRaises(ValueError):
             bank.outputs(np.zeros((4, 16), np.float32))
+
+
+class EveryModel(unittest.TestCase):
+    def test_shipped_models_are_played_by_single_instances(self):
+        paths = [path for folder in ("apps/web/public/models", "tests/model/golden", "tests/c/models")
+                 for path in sorted((root / folder).glob("*.wisp"))]
+        self.assertGreater(len(paths), 10)
+        for path in paths:
+            with self.subTest(path.name):
+                model = wisp.read_model(path)
+                self.assertEqual(wisp.Model(path.read_bytes()), model)
+                self.assertIn(model.dynamics, repr(model))
+                bank = wisp.Bank(model, 2, capacity=3)
+                third = bank.spawn(7)
+                with self.assertRaisesRegex(ValueError, "full"):
+                    bank.spawn()
+                bank.set_inputs(np.zeros((3, len(model.inputs))))
+                bank.set_inputs(np.zeros(len(model.inputs)), third)
+                self.assertEqual(bank.play(4).shape, (4, 3, len(model.outputs)))
+                np.testing.assert_array_equal(bank.outputs()[2], bank.outputs(instance=third))
+                saved = bank.save()
+                one = bank.play(3)
+                bank.restore(saved)
+                bank.threads = 2
+                np.testing.assert_array_equal(bank.play(3, np.zeros((3, 3, len(model.inputs)))), one)
+                bank.end(third)
+                self.assertFalse(bank.alive(third))
+                with self.assertRaises(KeyError):
+                    bank.outputs(instance=third)
+                if model.dynamics == "chain":
+                    first = bank.at(0)
+                    bank.ground = -2
+                    bank.place(first, [0, 0, 1], velocity=[0.5, 0, 0])
+                    self.assertEqual((bank.ground, len(bank.chain_place(first))), (-2, 3))
+                    if bank.can_steer:
+                        bank.steer(first, [0, 0, -1], 2)
+                        bank.release(first)
+                else:
+                    self.assertLess(np.abs(model.poles).max(), 1)
+
+    def test_simulate_is_the_filter_that_the_coefficients_say(self):
+        of = made_system()
+        model = wisp.learn(of, recipe).model
+        u = np.sign(np.sin(np.arange(300) / 9.0))
+        y = wisp.simulate(model, u, noise=0)[:, 0]
+        a, b = model.a[:, 0, 0], model.b[:, 0, 0]
+        self.assertEqual((model.a.shape, model.b.shape), ((2, 1, 1), (3, 1, 1)))
+        self.assertAlmostEqual(a[0], -1.5, 1)
+        y0, u0 = np.mean(of["y"]), np.mean(of["u"])
+        expected = np.zeros(300)
+        for t in range(300):
+            past = sum(-a[l] * (expected[t - 1 - l] if t > l else 0) for l in range(2))
+            expected[t] = past + sum(b[l] * ((u[t - l] if t >= l else 0) - u0) for l in range(3))
+        np.testing.assert_allclose(y[50:], expected[50:] + y0, atol=1e-3)
+        with self.assertRaisesRegex(ValueError, "found shape"):
+            wisp.simulate(model, np.zeros((10, 2)))
+
+    def test_a_wrong_field_is_named(self):
+        with self.assertRaisesRegex(TypeError, "ArxRecipe.na"):
+            wisp.ArxRecipe(na="three")
+        self.assertIn("lags of outputs", wisp.ArxRecipe.na.__doc__)
 
 
 class Guide(unittest.TestCase):
@@ -199,6 +266,8 @@ class Guide(unittest.TestCase):
                 exec(programs[1], names)
                 self.assertTrue(names["plt"].get_fignums())
                 names["plt"].close("all")
+                exec(programs[2], names)
+                self.assertEqual(names["same"], names["fit"].model)
             finally:
                 os.chdir(here)
 
@@ -213,7 +282,7 @@ class Guide(unittest.TestCase):
         self.assertEqual(bytes(fit.model), bytes(wisp.learn(of, recipe).model))
 
     def test_its_stubs_name_what_the_module_has(self):
-        said = {node.name: node for node in ast.parse((root / "bindings/python/wisp.pyi").read_text()).body
+        said = {node.name: node for node in ast.parse((root / "bindings/python/wisp/__init__.pyi").read_text()).body
                 if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
         there = {name for name in dir(wisp) if not name.startswith("_") and callable(getattr(wisp, name))}
         self.assertEqual(set(said), there)

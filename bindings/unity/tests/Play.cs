@@ -99,6 +99,8 @@ internal static class Play
         Expect(frames >= 115 && frames <= 121, "two seconds of a room: " + frames + " frames");
         float room = wind.Latest.Rms;
         wind.Feed(Room(0.01f));
+        Expect(wind.Latency > 0 && wind.RoomRise >= 0 && !wind.Calibrating, "what is known of the room");
+        wind.Calibration = wind.Calibration;
         Expect(wind.Latest.Index > 200 && wind.Latest.Rms > 5 * room, "it is louder, " + wind.Latest.Rms);
         wind.Dispose();
     }
@@ -145,8 +147,63 @@ internal static class Play
         }
     }
 
+    // Every shipped model: what a component does with it, then save, many steps and what only some have.
+    private static void Any(string path)
+    {
+        using (var model = Model.Read(path))
+        using (var bank = new Bank(model, 4, 3))
+        {
+            for (int k = 0; k < 4; ++k) bank.Spawn();
+            bank.End(bank.At(3));
+            float[] inputs = new float[4 * model.Inputs], outputs = new float[4 * model.Outputs], again = new float[9 * model.Outputs];
+            bank.SetInputs(inputs);
+            Expect(bank.Advance(0.5) > 0, path + ": time passes");
+            bank.Outputs(outputs);
+            Expect(outputs[3 * model.Outputs] == 0, path + ": a row of capacity that is empty");
+            if (model.View == View.Outline) bank.Polylines(new float[4 * 64]);
+            byte[] saved = bank.Save();
+            bank.Step(3, null, again);
+            float last = again[again.Length - 1];
+            bank.Restore(saved);
+            bank.Step(3, new float[9 * model.Inputs], again);
+            Expect(again[again.Length - 1] == last, path + ": goes on with the same bits");
+            Expect(bank.Noise() == 1 && model.Program.Length > 3 && model.Reason != null && model.Sources() != null, path + ": what it says of itself");
+            ulong first = bank.At(0);
+            Expect((model.Dynamics == Dynamics.Chain) == Fine(() => bank.PlaceInChain(first)), path + ": a place");
+            if (model.Dynamics == Dynamics.Chain)
+            {
+                bank.Ground = -3;
+                Expect(bank.Ground == -3f, path + ": its settings");
+                bank.Ground = null;
+                Expect(bank.Ground == null, path + ": no ground");
+                bank.Place(first, new Body { Z = 2, Vx = 0.5f });
+                Expect(bank.CanSteer == Fine(() => bank.Steer(first, 0, 0, -1, 2)), path + ": steering");
+                if (bank.CanSteer) bank.Release(first);
+            }
+            bank.FlameSizes(new float[4]);
+            bank.Reset(first);
+            bank.Reset();
+        }
+    }
+
+    private static bool Fine(Action call)
+    {
+        try
+        {
+            call();
+            return true;
+        }
+        catch (WispException)
+        {
+            return false;
+        }
+    }
+
     private static void Main(string[] arguments)
     {
+        for (int k = 3; k < arguments.Length; ++k) Any(arguments[k]);
+        Console.WriteLine("C# plays " + (arguments.Length - 3) + " shipped models");
+        Expect(arguments.Length > 12, "models");
         Learning();
         Life(arguments[1]);
         Sound();

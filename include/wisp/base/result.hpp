@@ -1,12 +1,28 @@
 #pragma once
-// The outcome of anything that reads data from outside: a value, or one clear sentence about what is wrong.
+// The outcome of anything that reads data from outside: a value, or one clear sentence about what is wrong. And what
+// becomes of broken preconditions, which are checked in every build, an installed release included.
 
-#include <cassert>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
 
 namespace wisp {
+
+/// Takes one sentence about a broken precondition. It may throw or end the program. Where it returns, the call that was
+/// misused does nothing; Result::value() and error(), which have nothing to return, end the program.
+using MisuseHandler = void (*)(const char* sentence);
+
+/// Replaces the handler of all threads. Null: the default, which prints the sentence and ends the program. Returns the
+/// handler before.
+MisuseHandler set_misuse_handler(MisuseHandler handler);
+
+/// Hands a sentence to the handler; the second ends the program where the handler returns.
+void report_misuse(const char* sentence);
+[[noreturn]] void end_on_misuse(const char* sentence);
+
+/// Returns whether `found` numbers are `expected` ones, or more; reports the misuse of `call` otherwise.
+bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more = false);
 
 /// What went wrong with data from outside: one line that names the file, the place in it, what was found,
 /// what was expected and what to do.
@@ -16,7 +32,7 @@ struct Error {
 
 /// A value of type T, or the Error that stands in its place.
 ///
-/// Precondition of value(): holds a value.
+/// Precondition of value(): holds a value. Otherwise the error's sentence is reported as misuse, and the program ends.
 /// Precondition of error(): holds an error.
 template <class T>
 class [[nodiscard]] Result {
@@ -26,18 +42,13 @@ class [[nodiscard]] Result {
 
   explicit operator bool() const { return held_.index() == 0; }
 
-  T& value() & {
-    assert(*this);
-    return *std::get_if<0>(&held_);
-  }
+  T& value() & { return const_cast<T&>(std::as_const(*this).value()); }
   const T& value() const& {
-    assert(*this);
+    if (!*this) [[unlikely]]
+      end_on_misuse(error().message.c_str());
     return *std::get_if<0>(&held_);
   }
-  T&& value() && {
-    assert(*this);
-    return std::move(*std::get_if<0>(&held_));
-  }
+  T&& value() && { return std::move(value()); }
 
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
@@ -46,7 +57,8 @@ class [[nodiscard]] Result {
   const T* operator->() const { return &value(); }
 
   const Error& error() const {
-    assert(!*this);
+    if (*this) [[unlikely]]
+      end_on_misuse("error() was asked of a result that holds a value");
     return *std::get_if<1>(&held_);
   }
 
@@ -63,7 +75,8 @@ class [[nodiscard]] Result<void> {
 
   explicit operator bool() const { return !failed_; }
   const Error& error() const {
-    assert(failed_);
+    if (!failed_) [[unlikely]]
+      end_on_misuse("error() was asked of a result that holds no error");
     return error_;
   }
 

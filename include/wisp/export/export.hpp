@@ -71,8 +71,8 @@ struct FirmwareSource {
 /// A model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library. All that
 /// compilers agree on, so that every processor plays the same numbers from the same seed. Shocks are Gaussian (of the
 /// residuals' size, where the model plays residuals again), made of four random bytes. `name` begins all names in it.
-/// Errors: not exactly one output; more than one input, or one that is bent or split; a chain; more than 16
-/// modes or 32 lags; a coefficient of 8 or more; a name that C does not take.
+/// Errors: not exactly one output; an input; a chain; more than 16 modes or 32 lags; a coefficient of 8 or more; a name
+/// that C does not take.
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
 
 /// The outline of one instance in one frame as a polyline: `points` × (x, y), at equal steps of the spline's parameter.

@@ -6,7 +6,8 @@
 // with any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
 //
 // Bulk buffers have one row per slot, in the order of the slots: row `id.slot` belongs to instance `id`. Rows of empty
-// slots are ignored on the way in and are zeros on the way out.
+// slots, and what a buffer has beyond slots(), are ignored on the way in and are zeros on the way out: a buffer of
+// capacity() rows always serves.
 //
 // A bank is used by one thread at a time (which may have others step it, set_crew()); different banks are independent.
 
@@ -65,7 +66,8 @@ struct Crew {
 
 /// A bank of instances of one model.
 ///
-/// Precondition of every bulk function: the span has exactly the stated size.
+/// Precondition of every bulk function: the span has room for slots() rows or more; of every other one: exactly the
+/// stated size. Checked in every build: a call that breaks it is reported (wisp/base/result.hpp) and does nothing.
 /// Precondition of all but move and destruction: the bank has not been moved from.
 class Bank {
  public:
@@ -137,6 +139,9 @@ class Bank {
   /// (one step of latency). A negative time counts as none, a longer one than kLongestAdvance as that. Returns the
   /// number of steps made.
   int advance(std::chrono::nanoseconds time);
+
+  /// The same with seconds; what is not a number counts as none.
+  int advance(double seconds);
 
   /// From now on step() and advance() are shared by a crew: each part steps some of the instances, with the same bits.
   /// Worth its while from some thousand instances on. A chain in which an instance has been steered is stepped by the

@@ -29,7 +29,7 @@ class ExtinctionFacet {
   /// Whether an instance burns; nothing when `id` is not valid.
   std::optional<LitState> state_of(InstanceId id) const;
 
-  /// The same of all: Bank::slots() values; what is in an empty slot does not burn and never did.
+  /// The same of all: at least Bank::slots() values; what is in an empty slot does not burn and never did.
   void states(std::span<LitState> states) const;
 
   /// Lights an instance that is out: it starts at the model's operating point, unharmed, and grows from the size that

@@ -1,7 +1,6 @@
 #include "wisp/run/bank.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <new>
 #include <string>
 #include <type_traits>
@@ -33,6 +32,12 @@ Result<void> check_all(const Model& model, const BankOptions& options) {
     return Type::check(model, dynamics);
   };
   return visit_dynamics<LiveNumbers>(model, check_kind);
+}
+
+bool has_outline(const Bank::State& state) {
+  if (state.polyline.points > 0) return true;
+  report_misuse("a polyline was asked of a bank whose model is no outline: look at polyline_points() first");
+  return false;
 }
 
 }  // namespace
@@ -132,19 +137,19 @@ bool Bank::end(InstanceId id) {
 
 void Bank::set_inputs(std::span<const float> values) {
   State& s = *state_;
-  assert(values.size() == static_cast<std::size_t>(s.rows) * s.inputs);
+  if (!check_size("Bank::set_inputs()", values.size(), static_cast<std::size_t>(s.rows) * s.inputs, true)) return;
   s.path->set_inputs(s, values.data());
 }
 
 void Bank::set_common_inputs(std::span<const float> values) {
   State& s = *state_;
-  assert(values.size() == static_cast<std::size_t>(s.inputs));
+  if (!check_size("Bank::set_common_inputs()", values.size(), static_cast<std::size_t>(s.inputs))) return;
   s.path->set_common_inputs(s, values.data());
 }
 
 bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
   if (!valid(id)) return false;
-  assert(values.size() == static_cast<std::size_t>(state_->inputs));
+  if (!check_size("Bank::set_inputs()", values.size(), static_cast<std::size_t>(state_->inputs))) return false;
   state_->set_lane_inputs(static_cast<int>(id.slot), values.data());
   return true;
 }
@@ -155,7 +160,7 @@ void Bank::set_noise(float scale) {
 }
 
 void Bank::set_crew(const Crew& crew) {
-  assert(crew.parts >= 1);
+  if (crew.parts < 1) return report_misuse("Bank::set_crew() was given less than one part");
   state_->crew = crew;
 }
 
@@ -169,9 +174,10 @@ void Bank::step(int count, std::span<const float> inputs, std::span<float> outpu
   State& s = *state_;
   const auto row_in = static_cast<std::size_t>(s.rows) * s.inputs;
   const auto row_out = static_cast<std::size_t>(s.rows) * s.visible;
-  assert(count >= 0 && (inputs.empty() || inputs.size() == static_cast<std::size_t>(count) * row_in));
-  assert(outputs.empty() || outputs.size() == static_cast<std::size_t>(count) * row_out);
-  if (count == 0) return;
+  if (count <= 0) return count < 0 ? report_misuse("Bank::step() was given a negative count") : void();
+  if (!inputs.empty() && !check_size("Bank::step()", inputs.size(), static_cast<std::size_t>(count) * row_in)) return;
+  if (!outputs.empty() && !check_size("Bank::step()", outputs.size(), static_cast<std::size_t>(count) * row_out))
+    return;
   s.passed = 0;
   s.between = false;
   if (kAhead) {
@@ -200,29 +206,40 @@ int Bank::advance(std::chrono::nanoseconds time) {
   return steps;
 }
 
+int Bank::advance(double seconds) {
+  const double longest = std::chrono::duration<double>(kLongestAdvance).count();
+  const double time = seconds > 0 ? std::min(seconds, longest) : 0;
+  return advance(std::chrono::nanoseconds(static_cast<std::int64_t>(time * 1e9 + 0.5)));
+}
+
 void Bank::outputs(std::span<float> values) const {
   const State& s = *state_;
-  assert(values.size() == s.rows * s.visible);
+  const std::size_t used = s.rows * s.visible;
+  if (!check_size("Bank::outputs()", values.size(), used, true)) return;
   for (int block = 0; block < s.blocks(); ++block) s.read_block(block, values.data());
+  std::fill(values.begin() + static_cast<std::ptrdiff_t>(used), values.end(), 0.0F);
 }
 
 bool Bank::outputs(InstanceId id, std::span<float> values) const {
   if (!valid(id)) return false;
-  assert(values.size() == state_->visible);
+  if (!check_size("Bank::outputs()", values.size(), state_->visible)) return false;
   state_->read_outputs(static_cast<int>(id.slot), values.data());
   return true;
 }
 
 void Bank::polylines(std::span<float> values) const {
   const State& s = *state_;
-  assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.rows) * s.polyline.points * 2);
+  const std::size_t used = static_cast<std::size_t>(s.rows) * s.polyline.points * 2;
+  if (!has_outline(s) || !check_size("Bank::polylines()", values.size(), used, true)) return;
   s.path->polylines(s, values.data());
+  std::fill(values.begin() + static_cast<std::ptrdiff_t>(used), values.end(), 0.0F);
 }
 
 bool Bank::polyline(InstanceId id, std::span<float> values) const {
   const State& s = *state_;
   if (!s.valid(id)) return false;
-  assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.polyline.points) * 2);
+  if (!has_outline(s)) return false;
+  if (!check_size("Bank::polyline()", values.size(), static_cast<std::size_t>(s.polyline.points) * 2)) return false;
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
   s.polyline_of(block, [&](int number, const float* lane_values) { values[number] = lane_values[lane]; });
   return true;

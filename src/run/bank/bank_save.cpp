@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -81,8 +80,15 @@ bool life_is_sound(const Bank::State& s, ByteReader& in) {
     const std::uint64_t age = in.get64();
     sound &= age == kNeverInSteps || age < kMaxAge;
   }
-  for (const OutputChannel& channel : s.channels.outputs) {
-    sound &= within(in.get_float(), std::min(channel.lowest, 0.0f), std::max(channel.highest, 0.0f));
+  // A point of a shape is the sum or the difference of two coordinates.
+  float reach = 0;
+  for (const float bound : s.shape.lowest) reach = std::max(reach, 2.01f * std::abs(bound));
+  for (const float bound : s.shape.highest) reach = std::max(reach, 2.01f * std::abs(bound));
+  for (std::size_t i = 0; i < s.visible; ++i) {
+    const float value = in.get_float();
+    sound &= s.shape.empty() ? within(value, std::min(s.channels.outputs[i].lowest, 0.0f),
+                                      std::max(s.channels.outputs[i].highest, 0.0f))
+                             : within(value, -reach, reach);
   }
   return sound;
 }
@@ -131,8 +137,8 @@ std::uint64_t bits_of(float number) { return std::bit_cast<std::uint32_t>(number
 float float_of(std::uint64_t bits) { return std::bit_cast<float>(static_cast<std::uint32_t>(bits)); }
 
 Fields read_fields(ByteReader& in) {
-  return {in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
-          in.get64(), in.get64(), in.get64(), in.get64()};
+  return {in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
+          in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
 }
 
 ChainSettings chain_settings(const Fields& fields) { return {float_of(fields.ground)}; }
@@ -193,13 +199,12 @@ std::size_t Bank::save_bytes() const {
 
 void Bank::save(std::span<std::byte> bytes) const {
   State& s = *state_;
-  assert(bytes.size() == save_bytes());
+  if (!check_size("Bank::save()", bytes.size(), save_bytes())) return;
   const auto payload = bytes.subspan(kHeaderSize);
   ByteWriter out(payload.data());
-  for (std::uint64_t field :
-       {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned, static_cast<std::uint64_t>(s.passed),
-        std::uint64_t{s.between}, bits_of(s.noise), s.clamped.clamped, s.clamped.steps, std::uint64_t{0},
-        bits_of(s.chain.ground)}) {
+  for (std::uint64_t field : {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned,
+                              static_cast<std::uint64_t>(s.passed), std::uint64_t{s.between}, bits_of(s.noise),
+                              s.clamped.clamped, s.clamped.steps, std::uint64_t{0}, bits_of(s.chain.ground)}) {
     out.put(field);
   }
   for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);

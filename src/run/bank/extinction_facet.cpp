@@ -1,6 +1,6 @@
 #include "wisp/run/extinction_facet.hpp"
 
-#include <cassert>
+#include <algorithm>
 
 #include "run/bank/bank_state.hpp"
 
@@ -13,10 +13,10 @@ std::optional<LitState> ExtinctionFacet::state_of(InstanceId id) const {
 
 void ExtinctionFacet::states(std::span<LitState> states) const {
   const Bank::State& s = *state_;
-  assert(states.size() == static_cast<std::size_t>(s.rows));
-  for (int slot = 0; slot < s.rows; ++slot) {
-    states[slot] = s.alive[slot] ? s.lit_state(slot) : LitState{.lit = false, .size = 0.0f};
-  }
+  const LitState none{.lit = false, .size = 0.0F};
+  if (!check_size("ExtinctionFacet::states()", states.size(), static_cast<std::size_t>(s.rows), true)) return;
+  for (int slot = 0; slot < s.rows; ++slot) states[slot] = s.alive[slot] ? s.lit_state(slot) : none;
+  std::fill(states.begin() + s.rows, states.end(), none);
 }
 
 bool ExtinctionFacet::relight(InstanceId id) {

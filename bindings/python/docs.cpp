@@ -1,0 +1,22 @@
+// What the library's headers say of each field: field_docs.py.
+
+#include <utility>
+
+#include "module.hpp"
+
+namespace wisp::python {
+namespace {
+
+#include "field_docs.inc"
+
+}  // namespace
+
+const char* doc_of(std::string_view type, std::string_view field) {
+  const std::string name = std::string(type) + "." + std::string(field);
+  for (const auto& [known, words] : kFieldDocs) {
+    if (known == name) return words;
+  }
+  return "";
+}
+
+}  // namespace wisp::python
