@@ -15,9 +15,9 @@ const README = fileURLToPath(new URL('../../../docs/pictures/blown-out.webp', im
 const MOST_BYTES = 1_000_000;
 /** CSS pixels that the page keeps free for its controls below the picture. */
 const COVERED = 118;
-const RATE = 20;
+const RATE = 15;
 /** Seconds at which something happens. */
-const ACTS = { blow: 1.2, breathe: 2.1, light: 4.5, end: 7 };
+const ACTS = { blow: 1.2, breathe: 2, light: 4.4, end: 6.6 };
 
 /** In the page: time passes by steps, so that a slow machine films what a quick one shows. */
 function steps() {
