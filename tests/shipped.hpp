@@ -13,7 +13,8 @@ namespace wisp {
 
 inline std::vector<std::string> shipped_models() {
   std::vector<std::string> paths;
-  for (const char* folder : {"/apps/web/public/models", "/tests/model/golden", "/tests/c/models"}) {
+  for (const char* folder :
+       {"/apps/web/public/models", "/apps/web/tests/models", "/tests/model/golden", "/tests/c/models"}) {
     for (const auto& entry : std::filesystem::directory_iterator(WISP_SOURCE_DIR + std::string(folder))) {
       if (entry.path().extension() == ".wisp") paths.push_back(entry.path().string());
     }

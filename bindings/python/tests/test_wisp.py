@@ -183,7 +183,7 @@ class Playing(unittest.TestCase):
 
 class EveryModel(unittest.TestCase):
     def test_shipped_models_are_played_by_single_instances(self):
-        paths = [path for folder in ("apps/web/public/models", "tests/model/golden", "tests/c/models")
+        paths = [path for folder in ("apps/web/public/models", "apps/web/tests/models", "tests/model/golden", "tests/c/models")
                  for path in sorted((root / folder).glob("*.wisp"))]
         self.assertGreater(len(paths), 10)
         for path in paths:

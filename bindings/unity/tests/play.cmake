@@ -23,7 +23,7 @@ set(model ${SOURCE}/tests/c/models/flame.wisp)
 set(unity ${SOURCE}/bindings/unity)
 run("playing by wisp run" ${PROGRAM} run ${model} --frames 200 --instances 3 --seed 5 --wind 0.5 -o ${WORK}/run.csv --quiet)
 run("compiling" ${mcs} -warnaserror -out:${WORK}/play.exe ${unity}/Wisp.cs ${unity}/WispFlame.cs ${unity}/tests/Play.cs)
-file(GLOB models ${SOURCE}/apps/web/public/models/*.wisp ${SOURCE}/tests/model/golden/*.wisp ${SOURCE}/tests/c/models/*.wisp)
+file(GLOB models ${SOURCE}/apps/web/public/models/*.wisp ${SOURCE}/apps/web/tests/models/*.wisp ${SOURCE}/tests/model/golden/*.wisp ${SOURCE}/tests/c/models/*.wisp)
 run("playing in C#" ${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${folder} ${mono} ${WORK}/play.exe ${model}
   ${SOURCE}/apps/web/public/models/flame-4.wisp ${WORK}/run.csv ${models})
 message("${output}")
