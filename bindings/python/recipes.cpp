@@ -46,8 +46,6 @@ void bind_arx(py::module_& module) {
       .def_readwrite("nk", &ArxSearch::nk)
       .def_readwrite("by", &ArxSearch::by)
       .def_readwrite("steps", &ArxSearch::steps)
-      .def_readwrite("per_output", &ArxSearch::per_output)
-      .def_readwrite("common_start", &ArxSearch::common_start)
       .def_readwrite("validation", &ArxSearch::validation);
   options<ArxRecipe>(module, "ArxRecipe")
       .def_readwrite("name", &ArxRecipe::name)
@@ -69,7 +67,6 @@ void bind_arx(py::module_& module) {
       .def_readwrite("kernel", &ArxRecipe::kernel)
       .def_readwrite("radius", &ArxRecipe::radius)
       .def_readwrite("keep_unstable", &ArxRecipe::keep_unstable)
-      .def_readwrite("curve_knots", &ArxRecipe::curve_knots)
       .def_readwrite("search", &ArxRecipe::search)
       .def_readwrite("focus", &ArxRecipe::focus)
       .def_readwrite("responses", &ArxRecipe::responses);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/arx/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
 #include "learn/markov/markov_prediction.hpp"
@@ -75,11 +74,13 @@ Result<Recording> predict_plain(const Model& model, const Recording& recording, 
   const auto& arx = std::get<ArxModel>(model.dynamics);
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
-  std::vector<InputCurve> curves;
-  for (const Input& input : model.inputs) curves.push_back(input.curve);
-  const Recording seen = arx::with_curves({&recording, 1}, channels.inputs, curves).front();
-  const auto predicted = predict(arx, seen, channels, {options.steps, options.initial});
+  std::vector<double> moved;
+  const Recording seen = arx::seen_by(model, recording, &moved);
+  auto predicted = predict(arx, seen, channels, {options.steps, options.initial});
   if (!predicted) return predicted.error();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    for (double& y : (*predicted)[i]) y -= moved[i];
+  }
   return table_of(recording, channels, *predicted,
                   half_widths(sd_of(arx, options.steps), recording, *predicted, options.steps));
 }

@@ -1,11 +1,82 @@
 #include "wisp/learn/validate.hpp"
 
+#include <filesystem>
+
+#include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "learn/same_rate.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
+namespace {
+
+constexpr double kBadlyFitted = 30;  // percent of fit below the median of all recordings
+
+// One table of the same table of several reports, each row with its recording first.
+ReportTable joined(const std::vector<Report>& reports, std::span<const Recording> recordings) {
+  ReportTable all = reports.front().sections.front().tables.front();
+  all.columns.insert(all.columns.begin(), {"recording", "recording"});
+  all.rows.clear();
+  for (std::size_t r = 0; r < reports.size(); ++r) {
+    for (std::vector<ReportValue> row : reports[r].sections.front().tables.front().rows) {
+      row.insert(row.begin(), std::filesystem::path(recordings[r].source).filename().string());
+      all.rows.push_back(std::move(row));
+    }
+  }
+  return all;
+}
+
+// Warns of the recordings whose last fit is far below the others' median.
+void name_badly_fitted(const ReportTable& all, Report& report) {
+  std::size_t column = 0;
+  for (std::size_t c = 0; c < all.columns.size(); ++c) {
+    if (all.columns[c].id.starts_with("fit_percent.")) column = c;
+  }
+  std::vector<double> fits;
+  for (const auto& row : all.rows) {
+    if (const auto* fit = std::get_if<double>(&row[column])) fits.push_back(*fit);
+  }
+  const double middle = median(fits);
+  for (const auto& row : all.rows) {
+    const auto* fit = std::get_if<double>(&row[column]);
+    if (!fit || !(*fit < middle - kBadlyFitted)) continue;
+    report.warnings.push_back(std::get<std::string>(row[0]) + " is fitted badly: " + all.columns[column].label +
+                              " of '" + std::get<std::string>(row[1]) + "' is " + number_text(*fit, 3) +
+                              " %, the median of all is " + number_text(middle, 3) + " %; look at it with wisp info");
+  }
+}
+
+// `judge` of every recording, in one table. Series are those of the first recording.
+template <class Judge>
+Result<Report> of_every(std::span<const Recording> recordings, Judge judge) {
+  std::vector<Report> reports;
+  for (const Recording& one : recordings) {
+    auto report = judge(one);
+    if (!report) return report;
+    reports.push_back(std::move(*report));
+  }
+  ReportTable all = joined(reports, recordings);
+  Report out = std::move(reports.front());
+  out.sections.front().tables = {std::move(all)};
+  out.sections.front().entries = {{"recordings", recordings.size(), "recordings"}};
+  for (std::size_t r = 1; r < reports.size(); ++r) {
+    out.warnings.insert(out.warnings.end(), reports[r].warnings.begin(), reports[r].warnings.end());
+  }
+  name_badly_fitted(out.sections.front().tables.front(), out);
+  return out;
+}
+
+}  // namespace
+
+Result<Report> compare(std::span<const NamedModel> models, std::span<const Recording> recordings,
+                       const ValidationOptions& options, const Progress& progress) {
+  if (recordings.empty()) return Error{"there is no recording to compare on"};
+  if (recordings.size() == 1) return compare(models, recordings.front(), options, progress);
+  return of_every(recordings, [&](const Recording& one) { return compare(models, one, options, progress); });
+}
+
 Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options,
                         const Progress& progress) {
   if (std::holds_alternative<ChainModel>(model.dynamics)) {
@@ -31,6 +102,9 @@ Result<Report> validate(const Model& model, std::span<const Recording> recording
     return validate_chain(model, recordings, options.seed, progress);
   }
   if (recordings.size() == 1) return validate(model, recordings.front(), options, progress);
+  if (std::holds_alternative<ArxModel>(model.dynamics) && !std::holds_alternative<OutlineView>(model.view)) {
+    return of_every(recordings, [&](const Recording& one) { return validate(model, one, options, progress); });
+  }
   return Error{recordings[1].source + ": is one recording too many, expected a single one for a model of this kind"};
 }
 

@@ -83,9 +83,12 @@ std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options)
   if (column.role.empty() && contains(options.usual_inputs, column.name)) return Role::kInput;
   if (column.role.empty() && contains(options.usual_outputs, column.name)) return Role::kOutput;
   const bool chosen = !options.inputs.empty() || !options.outputs.empty();
-  if (chosen) return std::nullopt;
+  if (chosen && !options.every_column) return std::nullopt;
   if (column.role == "u") return Role::kInput;
   if (column.role == "y") return Role::kOutput;
+  if (options.every_column && column.role.empty() && !column.name.empty() && !csv::names_time(column.name)) {
+    return Role::kOutput;
+  }
   return std::nullopt;
 }
 
@@ -95,6 +98,11 @@ std::string as_named(const std::string& name) {
   std::string text = "\"";
   for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
   return text + "\"";
+}
+
+// Whole steps that loggers count in thousandths of a second, and seconds are not counted in.
+bool counts_milliseconds(double step) {
+  return step == std::round(step) && step >= 2 && step <= 1000 && std::fmod(step, 15) != 0;
 }
 
 // Enough of them to choose from.
@@ -345,6 +353,7 @@ Result<void> CsvReader::read_units() {
   if (own_form_ || ahead_.size() < 2) return {};
   if (!csv::is_row_of_units(ahead_[0].text, ahead_[1].text, separator_)) return {};
   const std::vector<std::string> units = csv::units_in(ahead_[0].text, separator_);
+  if (time_ && time_->place < units.size() && csv::seconds_of_date(units[time_->place])) return {};
   if (time_ && time_->unit.empty() && time_->place < units.size()) time_->unit = units[time_->place];
   for (std::size_t k = 0; k < std::min(units.size(), columns_.size()); ++k) {
     if (columns_[k].kind != Column::Kind::kChannel) continue;
@@ -358,8 +367,14 @@ Result<void> CsvReader::read_units() {
 Result<void> CsvReader::read_columns(const CsvOptions& options) {
   const auto names = read_names(options);
   if (!names) return names.error();
-  for (const std::string& name : *names) {
-    if (auto ok = add_column(name, options); !ok) return ok;
+  const std::vector<Cell> last = ahead_.empty() ? std::vector<Cell>{} : cells_of(ahead_.back().text, separator_);
+  for (std::size_t k = 0; k < names->size(); ++k) {
+    const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator_);
+    if (options.every_column && text && !own_form_) {
+      columns_.push_back({});
+    } else if (auto ok = add_column((*names)[k], options); !ok) {
+      return ok;
+    }
   }
   if (auto ok = check_columns(*names, options); !ok) return ok;
   find_time(*names);
@@ -374,7 +389,7 @@ Result<void> CsvReader::learn_step() {
   double resolution = 1;
   for (const Line& line : ahead_) {
     const std::vector<Cell> cells = cells_of(line.text, separator_);
-    const auto time = time_->place < cells.size() ? csv::number_of(cells[time_->place], separator_) : std::nullopt;
+    const auto time = time_->place < cells.size() ? time_in(cells[time_->place]) : std::nullopt;
     if (!time || !std::isfinite(*time)) break;
     times.push_back(*time);
     resolution = std::min(resolution, csv::resolution_of(cells[time_->place].text));
@@ -395,18 +410,42 @@ Result<void> CsvReader::learn_step() {
     return at_row(column + " does not go on: " + number_text(times[1], 12) + " after " + number_text(times[0], 12) +
                   "; sort the rows by time, or say --rate HZ or --dt S");
   }
-  if (time_->unit.empty() && step->step == 1) return {};  // counts rows
+  if (time_->unit.empty() && step->step == 1 && !time_->dated) return {};  // counts rows
+  if (time_->unit.empty() && !time_->dated && counts_milliseconds(step->step)) {
+    time_->seconds = 1e-3;
+    header_.rate_note = {
+        column + " has no unit and goes on by whole steps of " + number_text(step->step) + ": taken as milliseconds",
+        true};
+  }
   time_->step = step->step;
   time_->tolerance = step->tolerance;
-  header_.rate_hz = 1 / (step->step * *seconds);
+  header_.rate_hz = 1 / (step->step * time_->seconds);
+  if (header_.rate_note.text.empty()) {
+    header_.rate_note.text = "from " + column + ", in steps of " + number_text(step->step, 6) + " " +
+                             (time_->unit.empty() ? "s" : time_->unit);
+  }
   return {};
+}
+
+// A number, or the seconds of a date.
+std::optional<double> CsvReader::time_in(const Cell& cell) {
+  const auto number = csv::number_of(cell, separator_);
+  if (number) return number;
+  const auto seconds = csv::seconds_of_date(trimmed(cell.text));
+  time_->dated |= seconds.has_value();
+  return seconds;
 }
 
 // A cell of the column that the rate is from.
 Result<void> CsvReader::check_time(const Cell& cell) {
-  const auto now = csv::number_of(cell, separator_);
+  const auto now = time_in(cell);
   const auto before = std::exchange(time_->before, now);
+  if (uneven_time_ && now) {
+    times_.push_back(*now * time_->seconds);
+    return {};
+  }
   if (now && (!before || std::abs(*now - *before - time_->step) <= time_->tolerance)) return {};
+  time_was_uneven_ = now.has_value();
   const std::string found = now ? "goes on by " + number_text(*now - *before, 6) : "is " + shown(cell.text);
   std::string message = "column " + shown(time_->name) + " " + found + ", expected steps of " +
                         number_text(time_->step, 6) + " as above; ";
@@ -539,13 +578,25 @@ Result<void> CsvReader::check_thousands() {
 }
 
 Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options) {
+  const auto begin = stream.tellg();
+  const std::size_t all = std::numeric_limits<std::size_t>::max();
   auto reader = CsvReader::open(stream, name, options);
   if (!reader) return reader.error();
   Recording recording = reader->header();
-  const auto rows = reader->read(recording, std::numeric_limits<std::size_t>::max());
+  auto rows = reader->read(recording, all);
+  const bool uneven = !rows && reader->time_is_uneven() && begin != std::istream::pos_type(-1);
+  if (uneven) {
+    stream.clear();
+    stream.seekg(begin);
+    reader = CsvReader::open(stream, name, options);
+    if (!reader) return reader.error();
+    reader->take_uneven_time();
+    recording = reader->header();
+    rows = reader->read(recording, all);
+  }
   if (!rows) return rows.error();
   if (*rows == 0) return Error{std::string(name) + ": has a header but no rows"};
-  return recording;
+  return uneven ? csv::resampled(recording, reader->times()) : std::move(recording);
 }
 
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options) {

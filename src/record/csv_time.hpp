@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "wisp/base/result.hpp"
+#include "wisp/record/recording.hpp"
+
 namespace wisp::csv {
 
 /// Whether a column's name is one of time's: t, time, seconds, timestamp, in any case, with or without a unit after it
@@ -17,6 +20,15 @@ std::string unit_in_time_name(std::string_view name);
 
 /// Seconds of one unit (s, ms, us, min, h and their words); nothing where it is not known.
 std::optional<double> seconds_of(std::string_view unit);
+
+/// Seconds of a date with a time of day, such as 2024-01-31 13:05:00.25, 2024/01/31T13:05Z or 31.01.2024 13:05:00, or
+/// of a time of day alone, on a scale of their own; nothing where it is none.
+std::optional<double> seconds_of_date(std::string_view text);
+
+/// A recording whose rows were at `times`, at even steps of their median by straight lines between samples; its
+/// rate_note says how uneven the clock was and what the straight lines may be wrong by. Gaps of more than 1.5 steps are
+/// missing samples. Errors: time goes back, or half of the steps are no usual one.
+Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Steps of time, in the column's unit.
 struct TimeStep {

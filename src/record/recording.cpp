@@ -68,7 +68,8 @@ Recording slice(const Recording& recording, std::size_t first, std::size_t last)
   Recording out{.source = recording.source,
                 .rate_hz = recording.rate_hz,
                 .attributes = recording.attributes,
-                .first_row = recording.first_row + first};
+                .first_row = recording.first_row + first,
+                .rate_note = recording.rate_note};
   for (const Channel& channel : recording.channels) {
     out.channels.push_back({channel.name, channel.unit, channel.role, part(channel.samples, first, last)});
   }

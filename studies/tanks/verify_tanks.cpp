@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "learn/arx/curve/curve_choice.hpp"
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/markov/markov_fit.hpp"
@@ -48,11 +47,6 @@ Range range_of(const Recording& recording, const std::string& name) {
   return {*lowest, *highest};
 }
 
-CurveFitOptions curve_options(const Tanks& tanks, int n) {
-  const Range seen = range_of(tanks.learn, "u1");
-  return {.orders = orders_of(n), .inputs = {{{"u1"}, seen.lowest, seen.highest}}};
-}
-
 double rms_error(const std::vector<double>& simulated, const Recording& recording) {
   const auto& measured = recording.channels[*find_channel(recording, "y1")].samples;
   double sum = 0, rows = 0;
@@ -64,7 +58,7 @@ double rms_error(const std::vector<double>& simulated, const Recording& recordin
   return std::sqrt(sum / rows);
 }
 
-/// A linear model behind curves, or alone.
+/// A linear model.
 struct Simulated {
   double free = 0;     ///< root mean square error in volt
   double clipped = 0;  ///< the same with every output held to the range seen in learning, which feeds back
@@ -89,32 +83,13 @@ double clipped_error(const ArxModel& model, const Recording& recording, Range se
   return rms_error(made, recording);
 }
 
-Simulated linear(const Tanks& tanks, int n, std::span<const InputCurve> curves) {
-  const CurveFitOptions options = curve_options(tanks, n);
-  const auto bent = [&](const Recording& one) {
-    return curves.empty() ? one : with_curves(one, options.inputs, curves);
-  };
-  const std::vector<Recording> learn{bent(tanks.learn)};
-  const Recording validate = bent(tanks.validate);
+Simulated linear(const Tanks& tanks, int n) {
   ArxOptions arx;
   arx.orders = orders_of(n);
-  const auto fit = value_or_abort(fit_arx(learn, kChannels, arx));
-  const auto simulated = value_or_abort(predict(fit.model, validate, kChannels, {.steps = kFreeRun}));
-  return {rms_error(simulated[0], validate), clipped_error(fit.model, validate, range_of(tanks.learn, "y1"))};
-}
-
-std::vector<InputCurve> curve_of(const Tanks& tanks, int n, int knots) {
-  CurveFitOptions options = curve_options(tanks, n);
-  options.knots = knots;
-  const auto fit = value_or_abort(fit_input_curves({&tanks.learn, 1}, kChannels, options));
-  return {fit.curves[0].curve};
-}
-
-int chosen_knots(const Tanks& tanks, int n) {
-  const auto choice =
-      value_or_abort(choose_input_curves(arx::folds_of({&tanks.learn, 1}), kChannels, curve_options(tanks, n), {}));
-  std::printf("  n = %d: %s\n", n, choice.reason.c_str());
-  return choice.knots;
+  const auto fit = value_or_abort(fit_arx({&tanks.learn, 1}, kChannels, arx));
+  const auto simulated = value_or_abort(predict(fit.model, tanks.validate, kChannels, {.steps = kFreeRun}));
+  return {rms_error(simulated[0], tanks.validate),
+          clipped_error(fit.model, tanks.validate, range_of(tanks.learn, "y1"))};
 }
 
 double switched(const Tanks& tanks, int n, int modes) {
@@ -123,22 +98,17 @@ double switched(const Tanks& tanks, int n, int modes) {
   return rms_error(simulated[0], tanks.validate);
 }
 
-void print_curves(const Tanks& tanks) {
+void print_linear(const Tanks& tanks) {
   std::printf(
-      "\nRoot mean square error of free simulation on what was not learned from, volt\n"
-      "   n   ARX    held to    Hammerstein ARX, knots                held to\n"
-      "              the range      3      4      5      6            the range (5 knots)\n");
+      "\nRoot mean square error of free simulation on what was not learned from, volt\n   n   ARX    held to the range\n");
   for (int n = 2; n <= 4; ++n) {
-    const Simulated plain = linear(tanks, n, {});
-    std::printf("   %d  %.3f    %.3f    ", n, plain.free, plain.clipped);
-    for (int knots = 3; knots <= 6; ++knots) std::printf("  %.3f", linear(tanks, n, curve_of(tanks, n, knots)).free);
-    std::printf("          %.3f\n", linear(tanks, n, curve_of(tanks, n, 5)).clipped);
+    const Simulated plain = linear(tanks, n);
+    std::printf("   %d  %.3f    %.3f\n", n, plain.free, plain.clipped);
   }
 }
 
 void print_choices(const Tanks& tanks) {
   std::printf("\nWhat rows held out of the learned recording say\n");
-  for (int n = 2; n <= 4; ++n) chosen_knots(tanks, n);
 }
 
 double print_switched(const Tanks& tanks) {
@@ -169,12 +139,12 @@ int main() {
   }
   const Tanks tanks{shared::read_sysid("cascaded_tanks_est"), shared::read_sysid("cascaded_tanks_val")};
   std::printf("== Cascaded tanks\n");
-  print_curves(tanks);
+  print_linear(tanks);
   print_choices(tanks);
   const double best = print_switched(tanks);
   Bounds bounds;
   std::printf("\n");
-  bounds.at_most("ARX of order 4, volt", linear(tanks, 4, {}).free, 0.66);
+  bounds.at_most("ARX of order 4, volt", linear(tanks, 4).free, 0.66);
   bounds.at_most("the best Markov-switched ARX, volt", best, 0.8);
   return bounds.missed() == 0 ? 0 : 1;
 }

@@ -48,6 +48,26 @@ TEST_F(Guide, AnHourWithTheHairDryerRuns) {
   }
 }
 
+// The commands of docs/guide/identify.md up to what needs many machines, on the table that comes along.
+TEST_F(Guide, IdentifyingATableRuns) {
+  for (const char* name : {"load.csv", "monday.csv", "tuesday.csv"}) {
+    std::filesystem::copy_file(WISP_SOURCE_DIR "/examples/load.csv", at(name));
+  }
+  const std::string page = file_text(WISP_SOURCE_DIR "/docs/guide/identify.md");
+  const auto commands = commands_of(page.substr(0, page.find("## Data larger than memory")));
+  ASSERT_EQ(commands.size(), 9u);
+  for (const std::string& command : commands) {
+    const std::string line = "cd " + folder_.string() + " && " WISP_PROGRAM " " + command + " >said 2>&1 </dev/null";
+    EXPECT_EQ(std::system(line.c_str()), 0) << command << "\n" << file_text(at("said"));
+    if (command.starts_with("learn")) {
+      EXPECT_TRUE(file_text(at("said")).starts_with("usable")) << command << "\n" << file_text(at("said"));
+    }
+  }
+  for (const char* made : {"channels.png", "compared.png", "load.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(at(made))) << made;
+  }
+}
+
 // The README's own table: the kernel's filter is known, a pole at exp(−5/60).
 TEST_F(Guide, AComputersLoadHasItsKernelsTimeConstant) {
   const std::string table = WISP_SOURCE_DIR "/examples/load.csv";

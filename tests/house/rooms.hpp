@@ -43,7 +43,6 @@ inline const std::vector<Rooms>& rooms() {
         {"arx/fit", 3},
         {"arx/judge", 4},
         {"arx/search", 5},
-        {"arx/curve", 5},
         {"arx/report", 6},
         {"arx", 6}}},
       {"run", {{"lanes", 0}, {"state", 1}, {"arx", 2}, {"chain", 2}, {"bank", 3}, {"", 4}}},

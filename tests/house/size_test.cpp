@@ -21,11 +21,11 @@ constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
 constexpr int kPublicHeaders = 58;
 constexpr int kLinesTogether = 75'980;
-constexpr int kLinesOfLearn = 23'340;
-constexpr int kFlagsTogether = 93;
+constexpr int kLinesOfLearn = 23'150;
+constexpr int kFlagsTogether = 90;
 constexpr std::size_t kFlagsOfACommand = 20;
 // Commands that have more flags than they should.
-const std::map<std::string, std::size_t> kTooManyFlags{{"wisp learn arx", 31},
+const std::map<std::string, std::size_t> kTooManyFlags{{"wisp learn arx", 28},
                                                        {"wisp learn chain", 26},
                                                        {"wisp learn leaf", 26},
                                                        {"wisp validate", 28},

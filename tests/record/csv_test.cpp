@@ -152,17 +152,33 @@ TEST(Csv, ACountOfRowsIsNoTime) {
   EXPECT_DOUBLE_EQ(rate_by_time(table, 25), 25);
 }
 
-TEST(Csv, TimeThatIsNotEvenIsRefusedWithItsRowUnlessTheRateIsSaid) {
+TEST(Csv, UnevenTimeIsResampledAndAGapIsMissing) {
   const std::string table = "time,u,y\n0,1,2\n0.1,2,3\n0.2,2,3\n0.4,3,4\n0.5,3,4\n";
-  EXPECT_THAT(complaint(table, {.inputs = {"u"}}),
-              AllOf(HasSubstr("row 5: column \"time\" goes on by 0.2, expected steps of 0.1"), HasSubstr("--rate")));
-  EXPECT_THAT(complaint(table, {.inputs = {"u"}}),
-              HasSubstr("1 row is missing: put rows with nothing but the time there"));
-  EXPECT_TRUE(parse(table, {.rate_hz = 10, .inputs = {"u"}}));
+  const auto even = parse(table, {.inputs = {"u"}});
+  ASSERT_TRUE(even) << even.error().message;
+  EXPECT_NEAR(even->rate_hz, 10, 1e-9);
+  ASSERT_EQ(even->rows(), 6u);
+  EXPECT_TRUE(std::isnan(even->channels[0].samples[3]));
+  EXPECT_NEAR(even->channels[0].samples[5], 3, 1e-9);
+  EXPECT_THAT(even->rate_note.text, HasSubstr("resampled by straight lines"));
+  EXPECT_TRUE(parse(table, {.rate_hz = 10, .inputs = {"u"}})->rate_note.text.empty());
+  EXPECT_THAT(complaint("time,u\n0,1\n0.1,1\n0.2,1\n0.15,1\n", {.inputs = {"u"}}), HasSubstr("time does not go on"));
+}
+
+TEST(Csv, DatesSayTheRate) {
+  for (const char* table : {"time,u\n2024-01-01 23:59,1\n2024-01-02T00:00Z,2\n",
+                            "date,u\n31.12.2023 23:59:30,1\n01.01.2024 00:00:30,2\n"}) {
+    const auto recording = parse(table, {.inputs = {"u"}});
+    ASSERT_TRUE(recording) << recording.error().message;
+    EXPECT_NEAR(recording->rate_hz, 1.0 / 60, 1e-9) << table;
+  }
+}
+
+TEST(Csv, TimeThatSaysNoRateIsRefused) {
   EXPECT_THAT(complaint("time,u\n0.1,1\n,2\n0.3,3\n", {.inputs = {"u"}}), HasSubstr("states no rate"));
   EXPECT_THAT(complaint("time,u\n0.1,1\n0.2,2\n,3\n", {.inputs = {"u"}}), HasSubstr("row 4: column \"time\" is"));
   EXPECT_THAT(complaint("time,u\n0.2,1\n0.1,2\n", {.inputs = {"u"}}), HasSubstr("row 3: column \"time\" does not go"));
-  EXPECT_THAT(complaint("time,u\n2024-01-01 10:00,1.5\n2024-01-01 10:01,2\n", {.inputs = {"u"}}),
+  EXPECT_THAT(complaint("time,u\nmorning,1.5\nnoon,2\n", {.inputs = {"u"}}),
               AllOf(HasSubstr("row 2: column \"time\" is no number of seconds"), HasSubstr("--dt")));
   EXPECT_THAT(complaint("time[days],u\n0.2,1\n0.3,2\n", {.inputs = {"u"}}), HasSubstr("is in \"days\""));
 }

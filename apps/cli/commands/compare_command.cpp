@@ -60,17 +60,20 @@ PlotSheet sheet_of(const Report& report) {
 }
 
 Result<void> run_compare(const Arguments& arguments, Terminal& terminal) {
-  const std::vector<std::string> paths(arguments.positionals().begin() + 1, arguments.positionals().end());
+  std::vector<std::string> paths, tables;
+  for (const std::string& path : arguments.positionals()) (path.ends_with(".wisp") ? paths : tables).push_back(path);
+  if (paths.empty() || tables.empty())
+    return Error{"found no model or no recording, expected at least one .wisp file and one table"};
   const auto models = read_models(paths);
   if (!models) return models.error();
   const auto steps = steps_in(arguments);
   if (!steps) return steps.error();
-  auto whole = read_table(arguments.positionals().front(), arguments, channels_of(*models));
+  auto whole = read_tables(tables, arguments, terminal, channels_of(*models));
   if (!whole) return whole.error();
-  const auto recording = in_range(std::move(*whole), arguments, "range");
-  if (!recording) return recording.error();
+  const auto recordings = in_range(std::move(*whole), arguments);
+  if (!recordings) return recordings.error();
   const auto report =
-      compare(*models, *recording, {.steps = *steps, .initial = initial_of(arguments)}, terminal.progress());
+      compare(*models, *recordings, {.steps = *steps, .initial = initial_of(arguments)}, terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);
   if (!arguments.has("output")) return {};
@@ -87,7 +90,7 @@ Command compare_command() {
   return {
       "compare",
       "Holds several models against one recording: one table of fits, and a plot.",
-      {{"REC", "a recording (.csv), a plain table or a MATLAB file"},
+      {{"REC", "recordings (.csv), plain tables or MATLAB files"},
        {"MODEL", "models, .wisp files, over the rows that all of them predict", true}},
       {
           {"output", Kind::kOutput, "OUT.png", "", "plot what was measured and what every model says (.png or .svg)"},

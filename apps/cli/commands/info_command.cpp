@@ -1,15 +1,42 @@
-// `wisp info`: what a model file holds.
+// `wisp info`: what a model file holds, or what is remarkable of a recording.
 
 #include "commands/commands.hpp"
+#include "flags/recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/draw/plot.hpp"
+#include "wisp/learn/advice.hpp"
 #include "wisp/learn/model_report.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
 namespace {
 
+// Every channel over time.
+Result<void> plot_channels(const std::string& path, const Report& report, Terminal& terminal) {
+  PlotSheet sheet{.columns = 1, .plot_width = 800};
+  for (const ReportSeries& series : report.sections.front().series) {
+    if (sheet.plots.size() == 8) break;
+    sheet.plots.push_back({.x = {.label = series.x_label}, .y = {.label = series.y_label}});
+    sheet.plots.back().series.push_back({.label = series.label, .x = series.x, .y = series.y});
+  }
+  if (auto ok = write_plots(path, sheet); !ok) return ok;
+  terminal.add("output", path);
+  terminal.say("wrote " + path);
+  return {};
+}
+
+Result<void> look_at_recording(const Arguments& arguments, Terminal& terminal) {
+  const auto recording =
+      read_table(arguments.positional(), arguments, {.rate_hz = 1, .every_column = !arguments.has("outputs")});
+  if (!recording) return recording.error();
+  const Report report = advise(*recording);
+  terminal.show(report);
+  return arguments.has("output") ? plot_channels(arguments.text("output"), report, terminal) : Result<void>();
+}
+
 Result<void> run_info(const Arguments& arguments, Terminal& terminal) {
+  if (is_table(arguments.positional())) return look_at_recording(arguments, terminal);
   const auto bytes = read_file(arguments.positional());
   if (!bytes) return bytes.error();
   const auto model = parse_model(*bytes, arguments.positional());
@@ -28,10 +55,19 @@ Result<void> run_info(const Arguments& arguments, Terminal& terminal) {
 Command info_command() {
   return {
       "info",
-      "Says what a model file holds, how it was made, and what it costs a frame.",
-      {{"MODEL", "the model, a .wisp file"}},
-      {},
-      {{"wisp info flame.wisp", "The facts of a model"}},
+      "Looks at a recording before any model: rate, channels, and what will spoil a model, with cures; or says what a "
+      "model file holds, how it was made, and what it costs a frame.",
+      {{"FILE", "a recording (.csv, .mat) or a model (.wisp)"}},
+      {
+          {"output", Kind::kOutput, "OUT.png", "", "plot every channel of a recording (.png or .svg)"},
+          {"inputs", Kind::kNames, "A,B", "", "channels that are inputs"},
+          {"outputs", Kind::kNames, "C,D", "", "channels that are outputs; without it all that are no inputs"},
+          {"columns", Kind::kNames, "A,B,…", "", "names of all columns of a plain table, in their order"},
+          {"rate", Kind::kNumber, "HZ", "", "samples a second of a plain table; default: by its time, else 1"},
+          {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},
+      },
+      {{"wisp info flame.wisp", "The facts of a model"},
+       {"wisp info heater.csv --inputs power --outputs temperature", "What is remarkable of a table"}},
       run_info,
   };
 }

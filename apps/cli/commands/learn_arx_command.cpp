@@ -1,10 +1,9 @@
 // `wisp learn arx`: an ARX model of any recording.
 
 #include <chrono>
+#include <cstdio>
 
 #include "commands/commands.hpp"
-#include "flags/curve_flag.hpp"
-#include "flags/focus_flag.hpp"
 #include "flags/order_flags.hpp"
 #include "flags/recordings.hpp"
 #include "flags/search_flags.hpp"
@@ -16,6 +15,23 @@
 
 namespace wisp::cli {
 namespace {
+
+Flag focus_flag() {
+  return {
+      "focus",
+      Kind::kChoice,
+      "F",
+      "prediction",
+      "what the coefficients are best at: prediction, the next sample (least squares at the given orders); "
+      "simulation, the better of that and 15 or 30 lags under a kernel in free runs of held-out rows; auto, the latter "
+      "only where it is surely better",
+      {"prediction", "simulation", "auto"}};
+}
+
+ArxFocus focus_of(const Arguments& arguments) {
+  if (arguments.text("focus") == "auto") return ArxFocus::kAuto;
+  return arguments.text("focus") == "simulation" ? ArxFocus::kSimulation : ArxFocus::kPrediction;
+}
 
 ArxOffset offset_of(const Arguments& arguments) {
   if (arguments.text("offset") == "none") return ArxOffset::kNone;
@@ -34,7 +50,17 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   recipe.nb = std::move(*nb);
   recipe.nk.reset();
   recipe.coupling = coupling_of(arguments);
-  if (arguments.text("nk") == "auto") return {};
+  const std::string& text = arguments.text("nk");
+  if (text == "auto") return {};
+  if (text.starts_with("auto")) {
+    int delay = -1;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "auto:%d%c", &delay, &rest) != 1 || delay < 0 || delay > 4096) {
+      return Error{"--nk: found \"" + text + "\", expected auto, or auto:N with N from 0 to 4096"};
+    }
+    recipe.max_delay = delay;
+    return {};
+  }
   auto nk = order_choice(arguments, "nk");
   if (!nk) return nk.error();
   recipe.nk = std::move(*nk);
@@ -50,18 +76,11 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
                    .kernel = arguments.text("kernel") == "tc" ? ArxKernel::kTc : ArxKernel::kNone,
                    .radius = arguments.number("radius"),
                    .keep_unstable = arguments.on("keep-unstable"),
-                   .curve_knots = curve_knots_of(arguments),
                    .focus = focus_of(arguments),
                    .responses = arguments.has("figures")};
   recipe.name = model_name(arguments);
   if (!(recipe.radius > 0 && recipe.radius < 1)) {
     return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
-  }
-  if (recipe.curve_knots != 0 && (arguments.has("partial") || arguments.on("merge"))) {
-    return Error{"--input-curve needs the recordings in one place: learn without --partial and --merge"};
-  }
-  if (recipe.curve_knots != 0 && recipe.offset == ArxOffset::kNone) {
-    return Error{"--input-curve needs --offset mean or estimate: a curve has no level of its own"};
   }
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
@@ -102,8 +121,8 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
     if (!merged) return merged.error();
     return merged->part.finish(recipe, merged->sources, terminal.progress());
   }
-  // A search, curves, open delays and free runs need the recordings in memory, however large they are.
-  const bool whole = arguments.has("search") || recipe.curve_knots != 0 || !recipe.nk;
+  // A search, open delays and free runs need the recordings in memory, however large they are.
+  const bool whole = arguments.has("search") || !recipe.nk;
   if (whole || recipe.focus == ArxFocus::kSimulation || !too_large(arguments)) {
     return learned_from_memory(recipe, arguments, terminal);
   }
@@ -127,6 +146,7 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
   terminal.show(fit->report);
   terminal.add("output", {});
+  if (output.empty()) return {};  // the report is all that was asked for
   return Error{output + " was not written: an unstable model cannot be played" +
                (std::filesystem::exists(output) ? "; the file of that name is an older one" : "")};
 }
@@ -137,7 +157,8 @@ std::vector<Flag> arx_flags() {
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
       {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true, {"merge"}},
   };
-  for (Flag& flag : order_flags({"4", "", "; auto finds every input's delay to every output"}))
+  for (Flag& flag :
+       order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"}))
     all.push_back(std::move(flag));
   all.insert(
       all.end(),
@@ -164,11 +185,7 @@ std::vector<Flag> arx_flags() {
            "smaller one may simulate better"},
           {"keep-unstable", Kind::kSwitch, "", "",
            "leave an unstable estimate as it is, to compare; it cannot be played"},
-          {"common-start", Kind::kSwitch, "", "",
-           "judge all candidates of --search, and fit the best, on the same rows: those that the longest one can "
-           "predict"},
       });
-  all.push_back(curve_flag("0", "; needs the recordings in memory"));
   all.push_back(
       {"figures", Kind::kOutput, "DIR", "",
        "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there; --json "

@@ -11,7 +11,6 @@
 #include "flags/recordings.hpp"
 #include "flags/steps_flag.hpp"
 #include "reports/arx_validation.hpp"
-#include "reports/switched_validation.hpp"
 #include "reports/validate_chain.hpp"
 #include "wisp/model/file.hpp"
 
@@ -60,10 +59,10 @@ Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   const auto steps = steps_in(arguments);
   if (!steps) return steps.error();
   if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
-  if (positionals.size() > 2) return Error{positionals[2] + ": is one file too many, only segment chains take a twin"};
-  if (std::holds_alternative<SwitchedArxModel>(model->dynamics))
-    return validate_switched(*model, *steps, arguments, terminal);
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
+  if (positionals.size() > 2) {
+    return Error{positionals[2] + ": is one file too many, only plain ARX models are judged on several"};
+  }
   auto subject = subject_of(positionals[1], *model, arguments, terminal);
   if (!subject) return subject.error();
   const ValidationOptions options{.steps = *steps,
@@ -108,12 +107,11 @@ Command validate_command() {
       "validate",
       "Judges a model on a recording: prediction, free simulation, fidelity, pictures.",
       {{"MODEL", "the model, a .wisp file"},
-       {"REC_OR_CLIP", "a recording (.csv), or a clip"},
-       {"TWIN",
-        "where the recording is one of a pair that differs only in its wind: the other one; REC.calm.csv beside "
-        "REC.csv "
-        "is found by itself",
-        false, true}},
+       {"REC_OR_CLIP",
+        "a recording (.csv), or a clip; of a plain ARX model several recordings; of a segment chain a recording and "
+        "its "
+        "twin that differs only in its wind, where REC.calm.csv beside REC.csv is found by itself",
+        true}},
       std::move(flags),
       {{"wisp validate flame.wisp other.mp4 --overlay overlay.mp4 --film-strip strip.png",
         "On a clip that it has not seen"},

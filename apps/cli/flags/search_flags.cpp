@@ -72,7 +72,6 @@ std::vector<Flag> search_flags() {
        "what the best candidate is best at",
        {"fpe", "aic", "aicc", "bic", "validation"}},
       {"validate", Kind::kSamples, "A:B", "", "rows to validate on, 1-based and inclusive"},
-      {"per-output", Kind::kSwitch, "", "", "give every output's equation the orders that are best for it alone"},
       {"steps", Kind::kIntegerOrWord, "K", "1", "for validation: steps ahead, or inf for free simulation", {"inf"}},
   };
 }
@@ -82,8 +81,6 @@ Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments
   if (!search) return search;
   search->by = criterion_of(arguments.text("by"));
   search->steps = arguments.text("steps") == "inf" ? kFreeRun : arguments.integer("steps");
-  search->common_start = arguments.on("common-start");
-  search->per_output = arguments.on("per-output");
   if (arguments.text("steps") == "0") return Error{"--steps: found \"0\", expected a number from 1, or inf"};
   if (search->by == OrderCriterion::kValidation && !arguments.has("validate")) {
     return Error{"--by validation needs --validate A:B, the rows to judge on"};

@@ -109,6 +109,11 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
   auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});
   if (recording) recording = in_model_units(model, *std::move(recording), *names, arguments.on("own-gain"));
   if (!recording) return recording.error();
+  if (std::holds_alternative<PlainView>(model.view) &&
+      std::abs(recording->rate_hz - model.rate_hz) > 1e-3 * model.rate_hz) {
+    return Error{path + ": has " + shown(recording->rate_hz) + " samples a second, the model " + shown(model.rate_hz) +
+                 ": resample it, or learn the model at that rate"};
+  }
   const double frames = static_cast<double>(recording->rows()) * model.rate_hz / recording->rate_hz;
   if (!(frames <= kMaxFrames)) {
     return Error{path + ": at " + shown(recording->rate_hz) + " samples a second lasts " + shown(frames) +

@@ -58,14 +58,21 @@ Result<Recording> table_for(const Model& model, const std::string& path, const A
 
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal) {
-  for (const char* flag : {"overlay", "film-strip"}) {
-    if (arguments.has(flag))
-      return Error{arguments.positional() + ": is not a model of an outline, so --" + flag + " has nothing to draw"};
+  const bool switched = std::holds_alternative<SwitchedArxModel>(model.dynamics);
+  for (const char* flag : {"overlay", "film-strip", "figures"}) {
+    if (!arguments.has(flag) || (!switched && std::string_view(flag) == "figures")) continue;
+    return Error{arguments.positional() + ": is " + (switched ? "a switched model" : "not a model of an outline") +
+                 ", for which --" + flag + " draws nothing"};
   }
-  const auto recording = table_for(model, arguments.positionals()[1], arguments);
-  if (!recording) return recording.error();
-  const ValidationOptions options{steps, initial_of(arguments), arguments.has("figures")};
-  const auto report = validate(model, *recording, options, terminal.progress());
+  std::vector<Recording> recordings;
+  for (std::size_t k = 1; k < arguments.positionals().size(); ++k) {
+    auto recording = table_for(model, arguments.positionals()[k], arguments);
+    if (!recording) return recording.error();
+    recordings.push_back(std::move(*recording));
+  }
+  const ValidationOptions options{steps, switched ? InitialState::kMeasured : initial_of(arguments),
+                                  arguments.has("figures")};
+  const auto report = validate(model, recordings, options, terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);
   if (!arguments.has("figures")) return {};

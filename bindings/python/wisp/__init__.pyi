@@ -84,8 +84,6 @@ class ArxSearch:
     nk: OrderRange
     by: OrderCriterion
     steps: int
-    per_output: bool
-    common_start: bool
     validation: list[Recording]
 
 class ArxRecipe:
@@ -102,7 +100,6 @@ class ArxRecipe:
     kernel: ArxKernel
     radius: float
     keep_unstable: bool
-    curve_knots: Optional[int]
     search: Optional[ArxSearch]
     focus: ArxFocus
     responses: bool

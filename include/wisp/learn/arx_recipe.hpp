@@ -78,8 +78,6 @@ struct ArxSearch {
   OrderRange nk{0, 3};
   OrderCriterion by = OrderCriterion::kFpe;
   int steps = 1;                        ///< for validation: steps ahead, 1 to 100000, or kFreeRun
-  bool per_output = false;              ///< give every output's equation the orders that are best for it alone
-  bool common_start = false;            ///< judge all candidates on the same rows, and fit the best on them
   std::vector<Recording> validation{};  ///< for kValidation, which needs them; others are judged on them too
 };
 
@@ -91,15 +89,14 @@ struct ArxRecipe {
   OrderChoice na = 4;                  ///< lags of outputs; 4 is two damped resonances an output, the paper's choice
   OrderChoice nb = 4;                  ///< lags of inputs
   std::optional<OrderChoice> nk = 1;   ///< delays in samples; unset: every input's delay to every output is found
+  std::optional<int> max_delay{};      ///< longest delay that is tried then, 0 to 4096; unset: as the data say, to 640
   Coupling coupling = Coupling::kFull;
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
   double ridge = 0;  ///< ≥ 0, no unit: weight of a coefficient's size, as a share of its regressor's own energy
   ArxKernel kernel = ArxKernel::kNone;  ///< kTc with na 0 and many lags of the inputs: a step response without orders
   double radius = 0.999;  ///< in (0, 1): an unstable estimate is brought within it; a smaller one may simulate better
-  bool keep_unstable = false;          ///< leave an unstable estimate as it is, to compare: it cannot be played
-  std::optional<int> curve_knots = 0;  ///< of a monotone curve on every input, 3 to 16; 0: none; unset: 3 to 6 or none,
-                                       ///< as the last 30 % of every recording say
-  std::optional<ArxSearch> search{};   ///< in the place of na, nb and nk
+  bool keep_unstable = false;              ///< leave an unstable estimate as it is, to compare: it cannot be played
+  std::optional<ArxSearch> search{};       ///< in the place of na, nb and nk
   ArxFocus focus = ArxFocus::kPrediction;  ///< of parts and tables beyond memory always so
   bool responses = false;  ///< report step and frequency responses with 95 % bands, which cost d_total² memory
 };

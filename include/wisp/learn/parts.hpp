@@ -38,7 +38,7 @@ struct TableShare {
 class ArxPart {
  public:
   /// An empty part of the model that a recipe describes by its channels, orders and coupling.
-  /// Errors: no outputs, orders that do not fit the channels; delays that are open, a search, curves: these need all
+  /// Errors: no outputs, orders that do not fit the channels; delays that are open, a search: these need all
   /// recordings in memory.
   static Result<ArxPart> create(const ArxRecipe& recipe);
 

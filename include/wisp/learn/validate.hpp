@@ -31,7 +31,8 @@ struct ValidationOptions {
   std::uint64_t seed = 1;        ///< of what plays with noise
 };
 
-/// Validates a model on a recording; a chain also on several, or on a windy recording and its calm twin.
+/// Validates a model on a recording; a plain ARX model also on several, in one table that names what is fitted badly; a
+/// chain also on several, or on a windy recording and its calm twin.
 /// The report has the fields of `wisp validate --json` for that kind of model, and the series of its plots.
 /// Errors, naming the recording: channels that it has not, another rate or number of control points than the model's,
 /// too few rows, options out of range; kStopped.
@@ -78,6 +79,10 @@ struct NamedModel {
 /// last of `options.steps`. Of the options, steps and initial count. Errors: as predict(), naming the model; a model of
 /// an outline; kStopped.
 Result<Report> compare(std::span<const NamedModel> models, const Recording& recording,
+                       const ValidationOptions& options = {}, const Progress& progress = {});
+
+/// The same against several recordings, in one table; series are of the first.
+Result<Report> compare(std::span<const NamedModel> models, std::span<const Recording> recordings,
                        const ValidationOptions& options = {}, const Progress& progress = {});
 
 /// Outlines of a recording, row by row: points x, y from the base's left over the tip to the base's right, in the

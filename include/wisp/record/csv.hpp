@@ -28,6 +28,7 @@ struct CsvOptions {
   std::vector<std::string> outputs{};        ///< columns that are outputs
   std::vector<std::string> usual_inputs{};   ///< columns that are inputs where a plain table has them
   std::vector<std::string> usual_outputs{};  ///< and outputs
+  bool every_column = false;           ///< take all columns of numbers, as outputs where nothing else is said of them
   std::vector<std::string> columns{};  ///< names of all columns in their order, in place of a header or without one
 };
 
@@ -47,6 +48,15 @@ class CsvReader {
 
   /// The recording without its rows: rate, channels, flags and attributes.
   const Recording& header() const { return header_; }
+
+  /// Takes time as it comes from here on. Precondition: no row was read.
+  void take_uneven_time() { uneven_time_ = true; }
+
+  /// Whether reading ended because time did not go on evenly.
+  bool time_is_uneven() const { return time_was_uneven_; }
+
+  /// When the rows were that were read since take_uneven_time(), in seconds.
+  const std::vector<double>& times() const { return times_; }
 
   /// Appends up to `max_rows` further rows to `recording`, which is the header or what was read before.
   /// Returns how many; 0 at the end.
@@ -80,6 +90,7 @@ class CsvReader {
     double step = 0;     // in units; 0: not looked at
     double tolerance = 0;
     std::optional<double> before{};  // in the row before
+    bool dated = false;              // by the calendar
   };
 
   // What a column's commas may be.
@@ -100,6 +111,7 @@ class CsvReader {
   Result<void> read_units();
   Result<void> read_rate(const CsvOptions& options);
   Result<void> learn_step();
+  std::optional<double> time_in(const csv::Cell& cell);
   Result<void> check_time(const csv::Cell& cell);
   Result<void> read_columns(const CsvOptions& options);
   Result<void> add_row(Recording& recording);
@@ -119,6 +131,8 @@ class CsvReader {
   std::optional<Time> time_;
   char separator_ = '\0';
   bool own_form_ = false;
+  bool uneven_time_ = false, time_was_uneven_ = false;
+  std::vector<double> times_;
   bool in_table_ = false;  // the header was found: comments are passed over
   bool commas_ = false;    // numbers so far had decimal commas, points
   bool points_ = false;
@@ -127,11 +141,13 @@ class CsvReader {
 };
 
 /// Reads a recording from a CSV file.
-/// Returns it with missing samples as NaN; numbers are the nearest doubles to what is written.
-/// Errors: as CsvReader, no rows, and where the file cannot be opened.
+/// Returns it with missing samples as NaN; numbers are the nearest doubles to what is written. A column of time that
+/// does not go on evenly, as a logger on a PC writes it, is resampled to its median step by straight lines between
+/// samples; `rate_note` says so, with the error. Longer gaps are missing samples. Errors: as CsvReader, but for uneven
+/// time; no rows, time that goes back or has no usual step, and where the file cannot be opened.
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
-/// The same from a stream; `name` stands for the file in messages.
+/// The same from a stream; `name` stands for the file in messages. Uneven time needs a stream that can seek.
 Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options = {});
 
 /// Writes a recording as CSV, whole or not at all. Reading it gives back every number bit for bit.

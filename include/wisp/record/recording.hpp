@@ -47,6 +47,12 @@ struct Episode {
   std::size_t size() const { return end - begin; }
 };
 
+/// How the rate was found; not written to a file.
+struct RateNote {
+  std::string text{};    ///< empty: the file or the caller stated it
+  bool guessed = false;  ///< whether a person should look at it
+};
+
 /// Inputs, outputs and motion over time. All channels and flags have `rows()` entries.
 struct Recording {
   std::string source{};  ///< where it came from, for messages
@@ -56,6 +62,7 @@ struct Recording {
   std::vector<std::int64_t> episode_ids{};  ///< one a row; empty: a single episode
   std::vector<Attribute> attributes{};
   std::size_t first_row = 0;  ///< of a slice: which row of the whole its first one is
+  RateNote rate_note{};
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
 };

@@ -4,9 +4,11 @@
 #include <fstream>
 
 #include "base/hash.hpp"
+#include "learn/arx/fit/arx_errors.hpp"
+#include "learn/arx/fit/arx_report.hpp"
 #include "learn/arx/fit/triangular_factor.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
-#include "learn/arx/judge/free_run_judge.hpp"
+#include "learn/arx/judge/prediction_tally.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/plain_model.hpp"
 #include "learn/arx/report/report_values.hpp"
@@ -107,18 +109,34 @@ void add_coverage(const FactorNotes& notes, ReportSection& section) {
   section.tables.push_back(std::move(table));
 }
 
-// Simulates the model over the tables and adds what that says to the fit's summary.
+// Simulates the model over the tables, a stretch at a time and each from its measured start, and adds what that says to
+// the fit's summary.
 Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoice& channels, const Progress& progress,
                             ArxFit& fit) {
-  FreeRunJudge judge(fit.model, channels);
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(tables.size());
-    if (auto ok = arx::check_progress(progress, "simulating", share); !ok) return ok;
-    const auto open = open_table(tables[k]);
+  constexpr std::size_t kRowsAtATime = 65536;
+  Tally tally(fit.model.orders.outputs(), 1);
+  for (const Table& table : tables) {
+    if (auto ok = arx::check_progress(progress, "simulating", 0); !ok) return ok;
+    const auto open = open_table(table);
     if (!open) return open.error();
-    if (auto ok = judge.add(*open->reader, tables[k].share.rows); !ok) return ok;
+    for (std::size_t left = table.share.rows;;) {
+      Recording window = open->reader->header();
+      const auto read = open->reader->read(window, std::min(kRowsAtATime, left));
+      if (!read) return read.error();
+      if (*read == 0) break;
+      left -= *read;
+      const auto signals = signals_of_model(fit.model, {&window, 1}, channels);
+      if (!signals) return signals.error();
+      FreeRunTally errors(tally);
+      const FreeRunStart start{InitialState::kMeasured, fit.model.orders.history()};
+      free_run(fit.model, *signals, 0, start, [&](std::size_t first, std::size_t rows, const double* values) {
+        errors.add(*signals, 0, first, rows, values);
+      });
+    }
   }
-  if (const auto figures = judge.figures()) add_free_run(*figures, channels, fit.summary);
+  if (tally.rows() == 0) return {};
+  fit.summary.free_run_fit_percent = tally.figures(kFreeRun).fit_percent;
+  warn_of_free_run(channels.outputs, fit.summary);
   return {};
 }
 
@@ -147,8 +165,6 @@ ArxPart::~ArxPart() = default;
 Result<ArxPart> ArxPart::create(const ArxRecipe& recipe) {
   if (recipe.search) return Error{"a part is of one model, and a search tries many: search first, then fit in parts"};
   if (!recipe.nk) return Error{"a part needs its delays as numbers: find them in recordings in memory first"};
-  if (recipe.curve_knots != 0)
-    return Error{"curves on inputs need the recordings in memory: they cannot be fitted in parts"};
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   auto orders = arx::orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
   if (!orders) return orders.error();

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/arx_curves.hpp"
+#include "learn/arx/integrators.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
+#include "learn/arx/judge/held_out.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
@@ -12,6 +13,7 @@
 #include "learn/arx/search/order_search.hpp"
 #include "learn/choose/focus.hpp"
 #include "record/number_text.hpp"
+#include "wisp/learn/advice.hpp"
 
 namespace wisp {
 namespace arx {
@@ -32,20 +34,13 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sou
   notes.push_back({"offset", word_of(level ? ArxOffset::kEstimate : recipe.offset)});
   if (recipe.ridge > 0) notes.push_back({"ridge", number_text(recipe.ridge, 6)});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
-  const std::size_t knots = sources.curves.empty() ? 0 : sources.curves.front().at.size();
-  notes.push_back({"input-curve", std::to_string(knots)});
   if (fit.summary.stable.changed) notes.push_back({"radius", number_text(recipe.radius, 6)});
+  if (sources.own_levels) notes.push_back({"levels", "own"});
   return notes;
 }
 
-// Orders, and the first row that is predicted where it is not the orders' own.
-struct ChosenOrders {
-  ArxOrders orders;
-  std::optional<int> first_sample{};
-};
-
-Result<ChosenOrders> searched(std::span<const Recording> recordings, const ArxRecipe& recipe,
-                              const ChannelChoice& channels, const Progress& progress, Report& report) {
+Result<ArxOrders> searched(std::span<const Recording> recordings, const ArxRecipe& recipe,
+                           const ChannelChoice& channels, const Progress& progress, Report& report) {
   const ArxSearch& asked = *recipe.search;
   const SearchOptions options{.na = asked.na,
                               .nb = asked.nb,
@@ -54,42 +49,38 @@ Result<ChosenOrders> searched(std::span<const Recording> recordings, const ArxRe
                               .candidates = {},
                               .by = asked.by,
                               .steps = asked.steps,
-                              .common_start = asked.common_start,
                               .offset = recipe.offset};
   const auto search = search_orders(recordings, asked.validation, channels, options, progress);
   if (!search) return search.error();
   add_search(*search, channels.outputs, asked.by, report);
-  ChosenOrders chosen{asked.per_output ? search->row_orders : search->candidates[search->best].orders};
-  if (!asked.common_start) return chosen;
-  int latest = 0;
-  for (const OrderCandidate& one : search->candidates) latest = std::max(latest, one.orders.history());
-  chosen.first_sample = latest;
-  return chosen;
+  return search->candidates[search->best].orders;
 }
 
-Result<ChosenOrders> with_delays(std::span<const Recording> recordings, const ArxRecipe& recipe,
-                                 const ChannelChoice& channels, const Progress& progress, Report& report) {
+Result<ArxOrders> with_delays(std::span<const Recording> recordings, const ArxRecipe& recipe,
+                              const ChannelChoice& channels, const Progress& progress, Report& report) {
   if (auto ok = check_progress(progress, "finding delays", 0); !ok) return ok.error();
-  const auto delays = estimate_delays(recordings, channels, {.offset = recipe.offset});
+  const auto delays = estimate_delays(recordings, channels, {.most = recipe.max_delay, .offset = recipe.offset});
   if (!delays) return delays.error();
-  auto orders = orders_of(recipe.na, recipe.nb, *delays, recipe.coupling, channels);
+  auto orders = orders_of(recipe.na, recipe.nb, delays->nk, recipe.coupling, channels);
   if (!orders) return orders.error();
   ReportSection& section = report.add("Delays");
   for (int i = 0; i < orders->outputs(); ++i) {
     for (int k = 0; k < orders->inputs(); ++k) {
-      add(section, "", orders->nk(i, k), channels.inputs[k] + " to " + channels.outputs[i], "samples");
+      add(section, "", orders->nk(i, k), channels.inputs[k] + " to " + channels.outputs[i], "samples",
+          delays->supported(i, k) == 0 ? "none is supported: 1 is taken" : "");
     }
   }
-  return ChosenOrders{std::move(*orders)};
+  add(section, "delays.most", delays->most, "longest that was tried", "samples");
+  return std::move(*orders);
 }
 
-Result<ChosenOrders> chosen_orders(std::span<const Recording> recordings, const ArxRecipe& recipe,
-                                   const ChannelChoice& channels, const Progress& progress, Report& report) {
+Result<ArxOrders> chosen_orders(std::span<const Recording> recordings, const ArxRecipe& recipe,
+                                const ChannelChoice& channels, const Progress& progress, Report& report) {
   if (recipe.search) return searched(recordings, recipe, channels, progress, report);
   if (!recipe.nk) return with_delays(recordings, recipe, channels, progress, report);
   auto orders = orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
   if (!orders) return orders.error();
-  return ChosenOrders{std::move(*orders)};
+  return std::move(*orders);
 }
 
 Result<void> check_recipe(const ArxRecipe& recipe) {
@@ -98,9 +89,6 @@ Result<void> check_recipe(const ArxRecipe& recipe) {
   }
   if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
     return Error{"a kernel chooses the coefficients itself: it needs the focus prediction"};
-  }
-  if (recipe.curve_knots != 0 && recipe.offset == ArxOffset::kNone) {
-    return Error{"curves on inputs need the offset mean or estimate: a curve has no level of its own"};
   }
   return {};
 }
@@ -138,36 +126,78 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 }  // namespace arx
 
+namespace arx {
+namespace {
+
+// Recordings as they are learned from: about their own levels.
+struct Prepared {
+  std::vector<Recording> moved{};
+  std::span<const Recording> seen;
+  ArxOptions options{};
+  Sources sources{};
+};
+
+Result<Prepared> prepare(std::span<const Recording> recordings, const ArxRecipe& recipe, const ChannelChoice& channels,
+                         const Progress& progress, Report& chosen) {
+  auto sources = sources_of(recordings, channels);
+  if (!sources) return sources.error();
+  Prepared out{.seen = recordings, .sources = std::move(*sources)};
+  out.sources.own_levels = recordings.size() > 1 && recipe.offset == ArxOffset::kMean;
+  if (out.sources.own_levels) out.seen = out.moved = about_own_levels(recordings, channels);
+  const auto orders = chosen_orders(out.seen, recipe, channels, progress, chosen);
+  if (!orders) return orders.error();
+  out.options = fit_options(recipe, *orders);
+  return out;
+}
+
+// The estimate by least squares or the requested kernel, with poles at 1 where an output integrates.
+Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Report& chosen) {
+  ArxOptions& options = prepared.options;
+  auto plain = fit_arx(prepared.seen, channels, options);
+  if (!plain || options.offset == ArxOffset::kNone || !options.stabilise || options.ridge > 0) return plain;
+  const std::vector<int> integrators = find_integrators(prepared.seen, channels, options, *plain);
+  if (integrators.empty()) return plain;
+  ReportSection& section = chosen.add("Integrators");
+  for (std::size_t i = 0; i < integrators.size(); ++i) {
+    add(section, element("integrators", i, "poles"), integrators[i],
+        integrators[i] > 0 ? channels.outputs[i] + " integrates, poles at 1" : "");
+  }
+  return fit_integrators(prepared.seen, channels, integrators, options);
+}
+
+// What was learned, judged by rows that were held out and by what is remarkable of the recordings.
+void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const ArxOptions& options,
+               const ResidualTests* tests, ArxSummary& summary) {
+  VerdictEvidence evidence{channels, options.orders, persistence_errors(prepared.seen, channels), tests};
+  evidence.held_out = held_out_fits(prepared.seen, channels, options);
+  evidence.integrators = options.integrators;
+  evidence.redundant = redundant_channels(prepared.seen, channels.inputs);
+  evidence.remarks = [&] { return remarks_on(prepared.seen, channels.inputs, channels.outputs); };
+  judge_use(evidence, summary);
+}
+
+}  // namespace
+}  // namespace arx
+
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress) {
   if (auto ok = arx::check_recipe(recipe); !ok) return ok.error();
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
-  auto sources = arx::sources_of(recordings, channels);
-  if (!sources) return sources.error();
   Report chosen;
-  const auto orders = arx::chosen_orders(recordings, recipe, channels, progress, chosen);
-  if (!orders) return orders.error();
-  auto curves = arx::learn_curves(recordings, channels, orders->orders, recipe.curve_knots, progress, chosen);
-  if (!curves) return curves.error();
-  sources->curves = std::move(*curves);
-  std::vector<Recording> bent;
-  if (!sources->curves.empty()) bent = arx::with_curves(recordings, channels.inputs, sources->curves);
-  const std::span<const Recording> seen = bent.empty() ? recordings : bent;
+  auto prepared = arx::prepare(recordings, recipe, channels, progress, chosen);
+  if (!prepared) return prepared.error();
   if (auto ok = arx::check_progress(progress, "fitting", 0); !ok) return ok.error();
-  ArxOptions options = arx::fit_options(recipe, orders->orders);
-  options.first_sample = orders->first_sample;
-  auto plain = fit_arx(seen, channels, options);
+  auto plain = arx::first_fit(*prepared, channels, chosen);
   if (!plain) return plain.error();
   const ArxModel squares = plain->model;
-  auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), recipe.focus, progress);
+  auto focused = arx::focus_fit(prepared->seen, channels, prepared->options, std::move(*plain), recipe.focus, progress);
   if (!focused) return focused.error();
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
   const ResidualTestOptions testing{.lags = kReportedLags, .learned_from_it = true};
-  const auto first = test_residuals(squares, seen, channels, testing);
-  const auto tests = focused->outcome.changed ? test_residuals(focused->fit.model, seen, channels, testing) : first;
-  arx::judge_use(
-      {channels, focused->fit.model.orders, arx::persistence_errors(seen, channels), first ? &*first : nullptr},
-      focused->fit.summary);
-  Fit fit = arx::finish(focused->fit, recipe, channels, *sources);
+  const auto first = test_residuals(squares, prepared->seen, channels, testing);
+  const auto tests =
+      focused->outcome.changed ? test_residuals(focused->fit.model, prepared->seen, channels, testing) : first;
+  arx::judge_fit(*prepared, channels, focused->options, first ? &*first : nullptr, focused->fit.summary);
+  Fit fit = arx::finish(focused->fit, recipe, channels, prepared->sources);
   if (recipe.focus != ArxFocus::kPrediction) {
     fit.report.sections.push_back(arx::focus_section(focused->outcome, channels.outputs));
   }

@@ -13,10 +13,9 @@
 
 namespace wisp {
 
-/// Learns as the recipe says; with `ArxRecipe::search` the best orders first, with open delays those first, with curves
-/// those before the linear half. A model that cannot be played (an unstable one that was to be kept) is returned too,
-/// and its verdict says so.
-/// Errors: no recordings, channels that they have not, settings out of range, too few rows, kStopped.
+/// Learns as the recipe says; with `ArxRecipe::search` the best orders first, with open delays those first. A model
+/// that cannot be played (an unstable one that was to be kept) is returned too, and its verdict says so. Errors: no
+/// recordings, channels that they have not, settings out of range, too few rows, kStopped.
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress = {});
 
 /// Predictions, free simulation and residuals of a plain ARX model on a recording, with the shares of rows within its

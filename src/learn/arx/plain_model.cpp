@@ -93,15 +93,58 @@ Model plain_model(const std::string& name, const ChannelChoice& channels, const 
     model.inputs.push_back({.name = input, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
     ++span;
   }
-  for (std::size_t k = 0; k < sources.curves.size(); ++k) {
-    model.inputs[k].shape = InputShape::kCurve;
-    model.inputs[k].curve = sources.curves[k];
-  }
   for (const std::string& file : sources.files) {
     model.training.sources.push_back(std::filesystem::path(file).filename().string());
   }
   model.training.inputs.assign(model.inputs.size(), {});
   return model;
+}
+
+std::vector<Recording> about_own_levels(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                        std::vector<double> means) {
+  std::vector<Recording> out(recordings.begin(), recordings.end());
+  std::size_t place = 0;
+  for (const auto* names : {&channels.outputs, &channels.inputs}) {
+    for (const std::string& name : *names) {
+      std::vector<ChannelSums> sums(out.size());
+      ChannelSums all;
+      for (std::size_t r = 0; r < out.size(); ++r) {
+        for (double x : out[r].channels[*find_channel(out[r], name)].samples) {
+          if (!std::isnan(x)) sums[r].sum += x, ++sums[r].count;
+        }
+        all.sum += sums[r].sum, all.count += sums[r].count;
+      }
+      const double level = means.empty() ? all.sum / double(all.count) : means[place];
+      for (std::size_t r = 0; r < out.size(); ++r) {
+        if (sums[r].count == 0) continue;
+        for (double& x : out[r].channels[*find_channel(out[r], name)].samples)
+          x += level - sums[r].sum / double(sums[r].count);
+      }
+      ++place;
+    }
+  }
+  return out;
+}
+
+Recording seen_by(const Model& model, const Recording& recording, std::vector<double>* moved) {
+  const ChannelChoice channels = channels_of(model);
+  Recording seen = recording;
+  if (moved) moved->assign(channels.outputs.size(), 0.0);
+  const auto& notes = model.training.recipe;
+  const bool own = std::any_of(notes.begin(), notes.end(), [](const Note& one) { return one.name == "levels"; });
+  if (!own) return seen;
+  const auto& arx = std::get<ArxModel>(model.dynamics);
+  std::vector<double> means = arx.output_mean;
+  means.insert(means.end(), arx.input_mean.begin(), arx.input_mean.end());
+  Recording level = about_own_levels({&seen, 1}, channels, std::move(means)).front();
+  for (std::size_t i = 0; moved && i < moved->size(); ++i) {
+    const std::size_t channel = *find_channel(seen, channels.outputs[i]);
+    const auto &before = seen.channels[channel].samples, &after = level.channels[channel].samples;
+    for (std::size_t t = 0; t < before.size(); ++t) {
+      if (!std::isnan(before[t])) (*moved)[i] = after[t] - before[t];
+    }
+  }
+  return level;
 }
 
 ChannelChoice channels_of(const Model& model) {

@@ -9,7 +9,6 @@
 #include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
-#include "wisp/model/input_curve.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
@@ -20,7 +19,7 @@ struct Sources {
   double rate_hz = 0;
   std::vector<ChannelSpan> spans{};  ///< outputs, then inputs
   std::vector<std::string> files{};
-  std::vector<InputCurve> curves{};  ///< one an input, or none
+  bool own_levels = false;  ///< whether every recording was taken about its own means
 };
 
 /// Whether the squares of a channel's samples are numbers. Errors: they are not; a constant channel is no error.
@@ -31,6 +30,15 @@ Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelC
 
 /// Name, rate, channels with their units and ranges, and sources; in the recordings' own units.
 Model plain_model(const std::string& name, const ChannelChoice& channels, const Sources& sources);
+
+/// Recordings whose channels are moved so that the mean of each is `means` (outputs, then inputs), or, where that is
+/// empty, the mean of all recordings together: what MATLAB's detrend(z, 0) does to several experiments.
+std::vector<Recording> about_own_levels(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                        std::vector<double> means = {});
+
+/// A recording as a model sees it: about its own level where the recordings of the training were. `moved`, where not
+/// null, takes what was added to every output for that.
+Recording seen_by(const Model& model, const Recording& recording, std::vector<double>* moved = nullptr);
 
 /// The channels that a model was learned from.
 ChannelChoice channels_of(const Model& model);

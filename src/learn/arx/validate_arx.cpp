@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "learn/arx/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/learn_arx.hpp"
@@ -226,9 +225,7 @@ Result<Report> validate_arx(const Model& model, const Recording& recording, cons
   if (auto ok = arx::check_steps(options.steps); !ok) return ok.error();
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
-  std::vector<InputCurve> curves;
-  for (const Input& input : model.inputs) curves.push_back(input.curve);
-  const Recording seen = arx::with_curves({&recording, 1}, channels.inputs, curves).front();
+  const Recording seen = arx::seen_by(model, recording);
   const auto& dynamics = std::get<ArxModel>(model.dynamics);
   const arx::Subject subject{model, dynamics, channels, seen, options, arx::error_sd(dynamics, options.steps)};
   const auto judged = arx::judge(subject, progress);

@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 constexpr std::size_t kManyRows = 8192;                     // above this, candidates are compared
 constexpr std::size_t kRowsOfMany = 4096;                   // on so many rows
 constexpr double kMaxKernelWork = 2e7;                      // sum of the cubes of the rows' numbers of coefficients
+constexpr double kWorthIt = 0.02;                           // of the squared error: a gain below is no reason
 constexpr int kRowsALag = 10;                               // a stretch is that much longer than a kernel's lags
 constexpr double kMeasuredStarts[] = {0, 0.25, 0.5, 0.75};  // shares of a held-out recording at which runs start
 
@@ -31,14 +32,14 @@ ArxOrders decoupled_orders(ArxOrders orders) {
   return orders;
 }
 
-ArxOrders kernel_orders(ArxOrders orders) {
+ArxOrders kernel_orders(ArxOrders orders, int lags) {
   for (int i = 0; i < orders.outputs(); ++i) {
     for (int j = 0; j < orders.outputs(); ++j) {
-      if (orders.na(i, j) > 0) orders.na(i, j) = std::max(orders.na(i, j), kKernelLags);
+      if (orders.na(i, j) > 0) orders.na(i, j) = std::max(orders.na(i, j), lags);
     }
     for (int k = 0; k < orders.inputs(); ++k) {
       if (orders.nb(i, k) == 0) continue;
-      orders.nb(i, k) = std::max(orders.nb(i, k) + orders.nk(i, k), kKernelLags);
+      orders.nb(i, k) = std::max(orders.nb(i, k) + orders.nk(i, k), lags);
       orders.nk(i, k) = 0;
     }
   }
@@ -49,8 +50,8 @@ ArxOrders kernel_orders(ArxOrders orders) {
 ArxOptions options_of(const ArxOptions& given, const FocusCandidate& candidate) {
   ArxOptions out = given;
   if (candidate.decoupled) out.orders = decoupled_orders(std::move(out.orders));
-  if (candidate.kernel) {
-    out.orders = kernel_orders(std::move(out.orders));
+  if (candidate.kernel_lags > 0) {
+    out.orders = kernel_orders(std::move(out.orders), candidate.kernel_lags);
     out.kernel = ArxKernel::kTc;
     if (out.offset == ArxOffset::kMean) out.offset = ArxOffset::kEstimate;
   }
@@ -108,8 +109,9 @@ class Chooser {
     for (const bool decoupled : {false, true}) {
       if (decoupled && apart == options.orders) continue;
       candidates.push_back({.decoupled = decoupled});
-      if (has_kernel(recordings, decoupled ? apart : options.orders)) {
-        candidates.push_back({.kernel = true, .decoupled = decoupled});
+      for (const int lags : kKernelLags) {
+        if (!has_kernel(recordings, decoupled ? apart : options.orders, lags)) continue;
+        candidates.push_back({.kernel_lags = lags, .decoupled = decoupled});
       }
     }
     for (std::vector<int>& outputs : coupled_outputs(options.orders.na)) {
@@ -163,9 +165,9 @@ class Chooser {
           out.orders.nb(i, k) = own.orders.nb(i, k);
           out.orders.nk(i, k) = own.orders.nk(i, k);
         }
-        if (candidate.kernel) out.kernel_outputs.push_back(i);
+        if (candidate.kernel_lags > 0) out.kernel_outputs.push_back(i);
       }
-      if (candidate.kernel) out.kernel = own.kernel, out.offset = own.offset;
+      if (candidate.kernel_lags > 0) out.kernel = own.kernel, out.offset = own.offset;
     }
     if (out.kernel_outputs.size() == channels_.outputs.size()) out.kernel_outputs.clear();
     std::sort(out.kernel_outputs.begin(), out.kernel_outputs.end());
@@ -178,13 +180,13 @@ class Chooser {
 
   // A kernel is tried where every stretch is long beside it, nothing else draws the coefficients in, and the
   // coefficients are few enough for the time that a kernel takes.
-  bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders) const {
+  bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders, int lags) const {
     if (options_.ridge > 0) return false;
     double work = 0;
-    const ArxOrders many = kernel_orders(orders);
+    const ArxOrders many = kernel_orders(orders, lags);
     for (int i = 0; i < many.outputs(); ++i) work += std::pow(many.row_size(i), 3);
-    return work <= kMaxKernelWork && std::all_of(recordings.begin(), recordings.end(), [](const Recording& one) {
-             return one.rows() >= std::size_t(kRowsALag * kKernelLags) * std::max<std::size_t>(1, episodes(one).size());
+    return work <= kMaxKernelWork && std::all_of(recordings.begin(), recordings.end(), [lags](const Recording& one) {
+             return one.rows() >= std::size_t(kRowsALag * lags) * std::max<std::size_t>(1, episodes(one).size());
            });
   }
 
@@ -212,7 +214,7 @@ class Chooser {
       }
     }
     // All candidates are judged on the same rows.
-    const int first = std::max(kKernelLags, options_.first_sample.value_or(options_.orders.history()));
+    const int first = std::max(kKernelLags[1], options_.first_sample.value_or(options_.orders.history()));
     const auto estimated = free_run_parts(model, fold.held_out, own, {InitialState::kEstimated, first});
     const auto measured = free_run_parts(model, starts, own, {InitialState::kMeasured, first});
     if (!estimated || !measured) {
@@ -235,7 +237,9 @@ class Chooser {
       candidate.measured_error = std::sqrt(block.errors[c]->measured.mean());
       const VectorXd own = relative_errors(block.errors[c]->estimated, reference.estimated);
       const VectorXd own_both = own + relative_errors(block.errors[c]->measured, reference.measured);
-      if (c == 0 || !(own_both.mean() < least)) continue;
+      const bool squares = block.choice.candidates[block.choice.chosen].kernel_lags == 0;
+      if (!leave_least_squares && squares && candidate.kernel_lags > kKernelLags[0]) continue;
+      if (c == 0 || !(own_both.mean() < (1 - kWorthIt) * least)) continue;
       if (!leave_least_squares && !(surely_better(own, estimated) && surely_better(own_both, both))) continue;
       least = own_both.mean();
       block.choice.chosen = c;

@@ -1,6 +1,6 @@
 #pragma once
-// Which ARX model simulates best: least squares at the given orders, or many lags under a kernel, by free simulation of
-// rows that were not learned from.
+// Which ARX model simulates best: least squares at the given orders, or 15 or 30 lags under a kernel, by free
+// simulation of rows that were not learned from.
 //
 // Source: G. Pillonetto et al., Automatica 50 (2014), for the kernel as a choice without orders; forward chaining as
 // in C. Bergmeir and J. Benítez, Information Sciences 191 (2012).
@@ -16,12 +16,13 @@
 
 namespace wisp::arx {
 
-/// Lags of every channel under the kernel, where the orders have fewer: two damped resonances and what lies between.
-inline constexpr int kKernelLags = 15;
+/// Numbers of lags of every channel under the kernel, where the orders have fewer: two damped resonances and what lies
+/// between, and slow responses.
+inline constexpr int kKernelLags[] = {15, 30};
 
 /// One candidate for outputs that feed each other, and its errors over held-out free runs.
 struct FocusCandidate {
-  bool kernel = false;         ///< kKernelLags lags under the TC kernel; false: least squares at the given orders
+  int kernel_lags = 0;         ///< under the TC kernel; 0: least squares at the given orders
   bool decoupled = false;      ///< every output remembers itself only
   double estimated_error = 0;  ///< root mean square as a share of the outputs' deviation, from the best initial state
   double measured_error = 0;   ///< the same from measured samples
@@ -47,8 +48,8 @@ struct FocusedFit {
   FocusOutcome outcome{};
 };
 
-/// Judges least squares at the given orders and kKernelLags lags under the TC kernel, both with the given coupling and
-/// with every output on its own, by free simulation of held-out rows, for each set of coupled outputs. With kAuto a
+/// Judges least squares at the given orders and either of kKernelLags under the TC kernel, both with the given coupling
+/// and with every output on its own, by free simulation of held-out rows, for each set of coupled outputs. With kAuto a
 /// candidate replaces least squares at the given orders where it is surely_better(), from measured samples and from
 /// fitted initial states; with kSimulation the one of the least error is taken. Returns `plain` with the reason where
 /// nothing is to be simulated (no inputs, no feedback), where the data do not determine all coefficients, or where

@@ -96,8 +96,6 @@ TEST(ArxParts, WhatNeedsAllRecordingsInMemoryIsRefused) {
   recipe.nk = std::nullopt;
   EXPECT_THAT(ArxPart::create(recipe).error().message, HasSubstr("delays as numbers"));
   recipe = recipe_of_made();
-  recipe.curve_knots = 4;
-  EXPECT_THAT(ArxPart::create(recipe).error().message, HasSubstr("curves"));
   recipe = recipe_of_made();
   recipe.search = ArxSearch{};
   EXPECT_THAT(ArxPart::create(recipe).error().message, HasSubstr("search first"));

@@ -59,7 +59,7 @@ TEST(LearnArx, TheModelIsThatOfTheFitWithItsChannelsAndAnAccount) {
   EXPECT_THAT(fit.model.training.sources, ElementsAre("made"));
   EXPECT_THAT(fit.model.training.recipe,
               ElementsAre(Note{"na", "2,1;0,3"}, Note{"nb", "2,1;0,2"}, Note{"nk", "1,3;0,0"}, Note{"coupling", "full"},
-                          Note{"offset", "mean"}, Note{"input-curve", "0"}));
+                          Note{"offset", "mean"}));
   EXPECT_TRUE(fit.model.training.usable.verdict);
   EXPECT_EQ(number_of(fit.report, "fpe"), alone->summary.fpe);
   EXPECT_GT(std::get<double>(std::get<ReportList>(fit.report.find("whiteness_p")->value)[0]), 0.001);

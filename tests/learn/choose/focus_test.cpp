@@ -63,7 +63,7 @@ TEST(Focus, TheKernelIsChosenWhereTheOrdersMissTheResponse) {
   for (const ArxFocus focus : {ArxFocus::kAuto, ArxFocus::kSimulation}) {
     const auto fit = focused({&seen, 1}, focus, options);
     ASSERT_TRUE(fit.outcome.changed);
-    EXPECT_EQ(fit.fit.model.orders.nb(0, 0), arx::kKernelLags);
+    EXPECT_THAT(arx::kKernelLags, testing::Contains(fit.fit.model.orders.nb(0, 0)));
     EXPECT_GT(free_run_fit(fit.fit.model, unseen), 85);
   }
 }
@@ -73,7 +73,7 @@ TEST(Focus, TheKernelIsChosenWhereTheOrdersMissTheResponse) {
 TEST(Focus, TheChosenKernelHasTheSummaryOfTheSameKernelAskedFor) {
   const Recording seen = late_answer(1200, 3);
   const auto fit = focused({&seen, 1}, ArxFocus::kAuto, {.orders = ringing(0).orders});
-  const int lags = arx::kKernelLags;
+  const int lags = fit.fit.model.orders.nb(0, 0);
   const auto asked = fit_arx({&seen, 1}, kChannels,
                              {.orders = {OrderMatrix(1, 1, lags), OrderMatrix(1, 1, lags), OrderMatrix(1, 1, 0)},
                               .offset = ArxOffset::kEstimate,
@@ -129,11 +129,11 @@ TEST(Focus, OutputsThatDoNotFeedEachOtherAreChosenApart) {
   ArxOrders orders{OrderMatrix(2, 2), OrderMatrix(2, 2, 2), OrderMatrix(2, 2, 1)};
   orders.na(0, 0) = orders.na(1, 1) = 2;
   const auto fit = focused({&recording, 1}, ArxFocus::kAuto, {.orders = orders}, channels);
-  EXPECT_EQ(fit.fit.model.orders.na(0, 0), arx::kKernelLags);
+  EXPECT_THAT(arx::kKernelLags, testing::Contains(fit.fit.model.orders.na(0, 0)));
   EXPECT_EQ(fit.fit.model.orders.na(1, 1), 2);
   EXPECT_EQ(fit.options.kernel_outputs, std::vector<int>{0});
   EXPECT_NEAR(fit.fit.summary.effective[1], 7, 1e-9);  // its own coefficients and the level, no kernel's
-  EXPECT_LT(fit.fit.summary.effective[0], 3 * arx::kKernelLags);
+  EXPECT_LT(fit.fit.summary.effective[0], 3 * fit.fit.model.orders.na(0, 0));
 }
 
 }  // namespace

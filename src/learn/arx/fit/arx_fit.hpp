@@ -30,6 +30,9 @@ struct ArxOptions {
   std::vector<int> kernel_outputs{};    ///< outputs that have the prior; empty: all
   std::optional<int> first_sample;      ///< first row of an episode to be predicted, 0-based, at least the longest lag;
                                         ///< unset: the longest lag, max(na, nb + nk − 1)
+  std::vector<int> integrators{};       ///< poles per output that are held where it integrates, 0 to 2; empty: none.
+                                        ///< Only of outputs that remember no other output
+  double integrator_pole = 1;           ///< where they are held
   bool stabilise = true;                ///< re-estimate an unstable model under the constraint that it is stable
   double stability_margin = 1e-3;       ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
   bool covariance = false;              ///< compute the covariance of all coefficients together, for confidence bands
@@ -65,6 +68,7 @@ struct ArxSummary {
   std::vector<double> row_fpe;               ///< V·(1 + d/n)/(1 − d/n) per output row with its own d
   std::vector<double> fit_percent;           ///< one step ahead, 100(1 − ‖y − ŷ‖/‖y − ȳ‖) per output
   std::vector<double> free_run_fit_percent;  ///< the same for free simulation from the input; empty without inputs
+  std::vector<double> played_fit_percent;    ///< the same of the stored model in single precision, as it is played
   std::vector<double> condition;             ///< 2-norm condition number of every row's regressor, in the data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;

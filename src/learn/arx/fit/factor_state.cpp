@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "base/hash.hpp"
 #include "learn/arx/fit/arx_check.hpp"
 
 namespace wisp {
@@ -21,116 +22,119 @@ constexpr std::uint64_t kMaxChannels = 4096;
 constexpr std::uint64_t kMaxName = 65536;
 constexpr std::uint64_t kMaxSeen = 1 << 20;
 
-std::uint64_t hash(std::span<const std::byte> bytes) {
-  std::uint64_t value = 0xcbf29ce484222325;
-  for (std::byte byte : bytes) value = (value ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
-  return value;
-}
-
-class Writer {
+// One walk over a state both writes it and reads it. Reads past the end give zeros and are remembered.
+class Archive {
  public:
-  void number(std::uint64_t value) {
-    for (int k = 0; k < 8; ++k) bytes_.push_back(static_cast<std::byte>(value >> (8 * k) & 0xff));
-  }
-  void real(double value) { number(std::bit_cast<std::uint64_t>(value)); }
-  void text(const std::string& value) {
-    number(value.size());
-    for (char c : value) bytes_.push_back(static_cast<std::byte>(c));
-  }
-  void matrix(const OrderMatrix& matrix) {
-    for (int value : matrix.values()) number(static_cast<std::uint64_t>(value));
-  }
+  Archive() = default;
+  explicit Archive(std::span<const std::byte> bytes) : left_(bytes), reading_(true) {}
+
+  bool reading() const { return reading_; }
+  bool fine() const { return fine_; }
+  std::size_t left() const { return left_.size(); }
   std::vector<std::byte> take() { return std::move(bytes_); }
+  void refuse() { fine_ = false; }
+
+  void byte(std::byte& value) {
+    if (!reading_) {
+      bytes_.push_back(value);
+    } else if (left_.empty()) {
+      fine_ = false, value = std::byte{0};
+    } else {
+      value = left_.front(), left_ = left_.subspan(1);
+    }
+  }
+
+  /// A whole number that must not be above `most`.
+  template <class Whole>
+  void number(Whole& value, std::uint64_t most = UINT64_MAX) {
+    auto whole = static_cast<std::uint64_t>(value);
+    for (int k = 0; k < 8; ++k) {
+      auto part = static_cast<std::byte>(whole >> (8 * k) & 0xff);
+      byte(part);
+      whole = (whole & ~(std::uint64_t{0xff} << (8 * k))) | std::to_integer<std::uint64_t>(part) << (8 * k);
+    }
+    fine_ = fine_ && whole <= most;
+    if (reading_) value = static_cast<Whole>(fine_ ? whole : 0);
+  }
+  void real(double& value) {
+    auto bits = std::bit_cast<std::uint64_t>(value);
+    number(bits);
+    value = std::bit_cast<double>(bits);
+  }
+  void text(std::string& value) {
+    std::uint64_t size = value.size();
+    number(size, kMaxName);
+    value.resize(size);
+    for (char& c : value) {
+      auto letter = static_cast<std::byte>(c);
+      byte(letter);
+      c = static_cast<char>(letter);
+    }
+  }
+  void matrix(OrderMatrix& matrix, std::size_t rows, std::size_t columns) {
+    if (reading_ && rows * columns * 8 > left()) refuse();
+    if (!fine_) return;  // before memory is allocated
+    if (reading_) matrix = OrderMatrix(static_cast<int>(rows), static_cast<int>(columns));
+    for (int r = 0; r < matrix.rows(); ++r) {
+      for (int c = 0; c < matrix.columns(); ++c) number(matrix(r, c), kMaxChannels);
+    }
+  }
+  void names(std::vector<std::string>& all) {
+    std::uint64_t count = all.size();
+    number(count, kMaxChannels);
+    for (std::uint64_t k = 0; k < count && fine_; ++k) {
+      if (reading_) all.emplace_back();
+      text(all[k]);
+    }
+  }
 
  private:
   std::vector<std::byte> bytes_;
+  std::span<const std::byte> left_;
+  bool reading_ = false, fine_ = true;
 };
 
-// Reads past the end give zeros and are remembered.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-  bool fine() const { return fine_; }
-  std::size_t left() const { return bytes_.size(); }
-
-  std::uint64_t number() {
-    std::uint64_t value = 0;
-    for (int k = 0; k < 8; ++k) value |= std::to_integer<std::uint64_t>(byte()) << (8 * k);
-    return value;
-  }
-  double real() { return std::bit_cast<double>(number()); }
-
-  /// A number that must not be above `most`.
-  std::uint64_t bounded(std::uint64_t most) {
-    const std::uint64_t value = number();
-    fine_ = fine_ && value <= most;
-    return fine_ ? value : 0;
-  }
-  std::string text() {
-    std::string value(bounded(kMaxName), '\0');
-    for (char& c : value) c = static_cast<char>(byte());
-    return value;
-  }
-  OrderMatrix matrix(int rows, int columns) {
-    if (static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns) * 8 > left()) fine_ = false;
-    if (!fine_) return {};  // before memory is allocated
-    OrderMatrix matrix(rows, columns);
-    for (int r = 0; r < rows; ++r) {
-      for (int c = 0; c < columns; ++c) matrix(r, c) = static_cast<int>(bounded(kMaxChannels));
-    }
-    return matrix;
-  }
-
- private:
-  std::byte byte() {
-    if (bytes_.empty()) {
-      fine_ = false;
-      return std::byte{0};
-    }
-    const std::byte value = bytes_.front();
-    bytes_ = bytes_.subspan(1);
-    return value;
-  }
-
-  std::span<const std::byte> bytes_;
-  bool fine_ = true;
-};
-
-FactorOptions read_options(Reader& reader) {
-  FactorOptions options;
-  const auto outputs = reader.bounded(kMaxChannels);
-  const auto inputs = reader.bounded(kMaxChannels);
-  for (std::uint64_t i = 0; i < outputs && reader.fine(); ++i) options.channels.outputs.push_back(reader.text());
-  for (std::uint64_t k = 0; k < inputs && reader.fine(); ++k) options.channels.inputs.push_back(reader.text());
-  if (!reader.fine()) return options;
-  const auto ny = static_cast<int>(outputs);
-  const auto nu = static_cast<int>(inputs);
-  options.orders.na = reader.matrix(ny, ny);
-  options.orders.nb = reader.matrix(ny, nu);
-  options.orders.nk = reader.matrix(ny, nu);
-  if (reader.bounded(1) == 1) options.first_sample = static_cast<int>(reader.bounded(1 << 30));
-  return options;
+void walk(Archive& archive, FactorOptions& options) {
+  archive.names(options.channels.outputs);
+  archive.names(options.channels.inputs);
+  if (!archive.fine()) return;
+  const std::size_t ny = options.channels.outputs.size(), nu = options.channels.inputs.size();
+  archive.matrix(options.orders.na, ny, ny);
+  archive.matrix(options.orders.nb, ny, nu);
+  archive.matrix(options.orders.nk, ny, nu);
+  bool set = options.first_sample.has_value();
+  int first = options.first_sample.value_or(0);
+  archive.number(set, 1);
+  if (set) archive.number(first, 1 << 30);
+  if (set) options.first_sample = first;
 }
 
-void write_notes(const FactorNotes& notes, Writer& payload) {
-  payload.number(notes.jobs);
-  payload.number(notes.seen.size());
-  for (const SeenRows& seen : notes.seen) {
-    payload.text(seen.source);
-    for (std::uint64_t number : {seen.hash, seen.first, seen.last, seen.begin, seen.end, seen.copy})
-      payload.number(number);
+// All but the options.
+void walk(Archive& archive, FactorState& state) {
+  archive.real(state.rate_hz);
+  for (std::uint64_t* count : {&state.rows, &state.episodes_used, &state.episodes_skipped, &state.rows_left_out}) {
+    archive.number(*count);
   }
-}
-
-void read_notes(Reader& reader, FactorNotes& notes) {
-  notes.jobs = reader.number();
-  const std::uint64_t count = reader.bounded(kMaxSeen);
-  for (std::uint64_t k = 0; k < count && reader.fine(); ++k) {
-    SeenRows seen{.source = reader.text()};
-    for (auto* number : {&seen.hash, &seen.first, &seen.last, &seen.begin, &seen.end, &seen.copy})
-      *number = reader.number();
-    notes.seen.push_back(std::move(seen));
+  for (std::size_t c = 0; c < state.reference.size(); ++c) {
+    for (double* value : {&state.reference[c], &state.sum[c], &state.square[c]}) archive.real(*value);
+    archive.number(state.samples[c]);
+    archive.text(state.spans[c].unit);
+    archive.real(state.spans[c].lowest);
+    archive.real(state.spans[c].highest);
+  }
+  for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
+    for (Eigen::Index p = 0; p <= q; ++p) archive.real(state.triangle(p, q));
+  }
+  std::uint64_t count = state.notes.seen.size();
+  archive.number(state.notes.jobs);
+  archive.number(count, kMaxSeen);
+  for (std::uint64_t k = 0; k < count && archive.fine(); ++k) {
+    if (archive.reading()) state.notes.seen.emplace_back();
+    SeenRows& seen = state.notes.seen[k];
+    archive.text(seen.source);
+    for (auto* number : {&seen.hash, &seen.first, &seen.last, &seen.begin, &seen.end, &seen.copy}) {
+      archive.number(*number);
+    }
   }
 }
 
@@ -138,18 +142,6 @@ bool meaningful(const FactorNotes& notes) {
   return notes.jobs > 0 && std::all_of(notes.seen.begin(), notes.seen.end(), [](const SeenRows& seen) {
            return seen.first <= seen.begin && seen.begin <= seen.end && seen.end <= seen.last;
          });
-}
-
-void read_channels(Reader& reader, FactorState& state) {
-  for (std::size_t c = 0; c < state.reference.size(); ++c) {
-    state.reference[c] = reader.real();
-    state.sum[c] = reader.real();
-    state.square[c] = reader.real();
-    state.samples[c] = reader.number();
-    state.spans[c].unit = reader.text();
-    state.spans[c].lowest = reader.real();
-    state.spans[c].highest = reader.real();
-  }
 }
 
 bool meaningful(const FactorState& state) {
@@ -196,74 +188,39 @@ Result<void> check_same_model(const FactorState& state, const FactorState& other
 }
 
 std::vector<std::byte> factor_bytes(const FactorState& state) {
-  Writer payload;
-  payload.number(state.options.channels.outputs.size());
-  payload.number(state.options.channels.inputs.size());
-  for (const std::string& name : state.options.channels.outputs) payload.text(name);
-  for (const std::string& name : state.options.channels.inputs) payload.text(name);
-  payload.matrix(state.options.orders.na);
-  payload.matrix(state.options.orders.nb);
-  payload.matrix(state.options.orders.nk);
-  payload.number(state.options.first_sample.has_value());
-  if (state.options.first_sample) payload.number(static_cast<std::uint64_t>(*state.options.first_sample));
-  payload.real(state.rate_hz);
-  for (std::uint64_t count : {state.rows, state.episodes_used, state.episodes_skipped, state.rows_left_out}) {
-    payload.number(count);
-  }
-  for (std::size_t c = 0; c < state.reference.size(); ++c) {
-    payload.real(state.reference[c]);
-    payload.real(state.sum[c]);
-    payload.real(state.square[c]);
-    payload.number(state.samples[c]);
-    payload.text(state.spans[c].unit);
-    payload.real(state.spans[c].lowest);
-    payload.real(state.spans[c].highest);
-  }
-  for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
-    for (Eigen::Index p = 0; p <= q; ++p) payload.real(state.triangle(p, q));
-  }
-  write_notes(state.notes, payload);
+  FactorState own = state;
+  Archive payload, whole;
+  walk(payload, own.options);
+  walk(payload, own);
   const std::vector<std::byte> body = payload.take();
-  Writer whole;
-  whole.number(kMagic);
-  whole.number(kVersion);
-  whole.number(body.size());
-  whole.number(hash(body));
+  for (std::uint64_t number : {kMagic, kVersion, std::uint64_t{body.size()}, hash_bytes(body)}) whole.number(number);
   std::vector<std::byte> bytes = whole.take();
   bytes.insert(bytes.end(), body.begin(), body.end());
   return bytes;
 }
 
 Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
-  Reader header(bytes.first(std::min(bytes.size(), kHeader)));
-  if (header.number() != kMagic || !header.fine()) return Error{"this is not a part of a fit (its first bytes differ)"};
-  const std::uint64_t version = header.number();
+  Archive header(bytes.first(std::min(bytes.size(), kHeader)));
+  std::uint64_t magic = 0, version = 0, size = 0, expected = 0;
+  for (auto* number : {&magic, &version, &size, &expected}) header.number(*number);
+  if (magic != kMagic) return Error{"this is not a part of a fit (its first bytes differ)"};
   if (version != kVersion) {
     return Error{"this part of a fit has format version " + std::to_string(version) + ", expected " +
                  std::to_string(kVersion) + "; make it again with this program"};
   }
-  const std::uint64_t size = header.number();
-  const std::uint64_t expected = header.number();
   if (!header.fine() || size != bytes.size() - kHeader) return Error{"this part of a fit is cut short; make it again"};
   const auto body = bytes.subspan(kHeader);
-  if (hash(body) != expected) return Error{"this part of a fit was changed (its hash differs); make it again"};
+  if (hash_bytes(body) != expected) return Error{"this part of a fit was changed (its hash differs); make it again"};
   const Error damaged{"this part of a fit holds numbers that mean nothing; make it again"};
-  Reader reader(body);
-  const FactorOptions options = read_options(reader);
-  if (!reader.fine() || !check_factor_options(options)) return damaged;
+  Archive archive(body);
+  FactorOptions options;
+  walk(archive, options);
+  if (!archive.fine() || !check_factor_options(options)) return damaged;
   const auto columns = static_cast<std::uint64_t>(make_design(options.orders, ArxOffset::kMean).layout.size());
-  if (columns * (columns + 1) / 2 * 8 > reader.left()) return damaged;  // before memory is allocated
+  if (columns * (columns + 1) / 2 * 8 > archive.left()) return damaged;  // before memory is allocated
   FactorState state(options);
-  state.rate_hz = reader.real();
-  for (std::uint64_t* count : {&state.rows, &state.episodes_used, &state.episodes_skipped, &state.rows_left_out}) {
-    *count = reader.number();
-  }
-  read_channels(reader, state);
-  for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
-    for (Eigen::Index p = 0; p <= q; ++p) state.triangle(p, q) = reader.real();
-  }
-  read_notes(reader, state.notes);
-  if (!reader.fine() || reader.left() != 0 || !meaningful(state) || !meaningful(state.notes)) return damaged;
+  walk(archive, state);
+  if (!archive.fine() || archive.left() != 0 || !meaningful(state) || !meaningful(state.notes)) return damaged;
   return state;
 }
 

@@ -97,23 +97,9 @@ PartRows part_rows(std::size_t rows, std::size_t index, std::size_t count) {
   return {start(index), start(index + 1)};
 }
 
-struct TriangularFactor::State : FactorState {
-  using FactorState::FactorState;
-};
-
-TriangularFactor::TriangularFactor(std::unique_ptr<State> state) : state_(std::move(state)) {}
-TriangularFactor::TriangularFactor(const TriangularFactor& other) : state_(std::make_unique<State>(*other.state_)) {}
-TriangularFactor& TriangularFactor::operator=(const TriangularFactor& other) {
-  if (this != &other) state_ = std::make_unique<State>(*other.state_);
-  return *this;
-}
-TriangularFactor::TriangularFactor(TriangularFactor&&) noexcept = default;
-TriangularFactor& TriangularFactor::operator=(TriangularFactor&&) noexcept = default;
-TriangularFactor::~TriangularFactor() = default;
-
 Result<TriangularFactor> TriangularFactor::create(const FactorOptions& options) {
   if (auto ok = check_factor_options(options); !ok) return ok.error();
-  return TriangularFactor(std::make_unique<State>(options));
+  return TriangularFactor(FactorState(options));
 }
 
 namespace {
@@ -151,12 +137,12 @@ Result<void> add_part(const Recording& recording, const RowPart& part, FactorSta
 
 Result<void> TriangularFactor::add(const Recording& recording, const PartRows& rows) {
   const std::size_t end = std::min(rows.end, recording.rows());
-  return add_part(recording, {std::min(rows.begin, end), end, end == recording.rows()}, *state_);
+  return add_part(recording, {std::min(rows.begin, end), end, end == recording.rows()}, state_);
 }
 
 Result<void> TriangularFactor::add(CsvReader& reader, const PartRows& rows, std::size_t table_rows) {
   // One row more than the history, so that an episode that goes on is never taken for one that is too short.
-  const auto kept = static_cast<std::size_t>(state_->first_sample()) + 1;
+  const auto kept = static_cast<std::size_t>(state_.first_sample()) + 1;
   const std::size_t end = std::min(rows.end, table_rows);
   const std::size_t begin = std::min(rows.begin, end);
   const std::size_t before = std::min(kept, begin);
@@ -170,16 +156,16 @@ Result<void> TriangularFactor::add(CsvReader& reader, const PartRows& rows, std:
     at += *read;
     const bool over = *read == 0;
     const bool last = over && (at < end || end == table_rows);
-    if (auto ok = add_part(window, {known, window.rows(), last}, *state_); !ok) return ok;
+    if (auto ok = add_part(window, {known, window.rows(), last}, state_); !ok) return ok;
     if (over) return {};
     window = slice(window, window.rows() - std::min(kept, window.rows()), window.rows());
   }
 }
 
 Result<void> TriangularFactor::merge(const TriangularFactor& other) {
-  if (auto ok = check_same_model(*state_, *other.state_); !ok) return ok;
-  State& state = *state_;
-  const State& more = *other.state_;
+  if (auto ok = check_same_model(state_, other.state_); !ok) return ok;
+  FactorState& state = state_;
+  const FactorState& more = other.state_;
   std::vector<double> shift;
   for (std::size_t c = 0; c < state.reference.size(); ++c) {
     if (std::isnan(state.reference[c])) state.reference[c] = more.reference[c];
@@ -205,49 +191,35 @@ Result<void> TriangularFactor::merge(const TriangularFactor& other) {
   return {};
 }
 
-std::size_t TriangularFactor::rows() const { return state_->rows; }
-
-const FactorOptions& TriangularFactor::options() const { return state_->options; }
-
-double TriangularFactor::rate_hz() const { return state_->rate_hz; }
-
-std::vector<ChannelSpan> TriangularFactor::spans() const { return state_->spans; }
-
-const FactorNotes& TriangularFactor::notes() const { return state_->notes; }
-
-void TriangularFactor::set_notes(FactorNotes notes) { state_->notes = std::move(notes); }
-
-std::vector<std::byte> TriangularFactor::bytes() const { return factor_bytes(*state_); }
+std::vector<std::byte> TriangularFactor::bytes() const { return factor_bytes(state_); }
 
 Result<TriangularFactor> TriangularFactor::from_bytes(std::span<const std::byte> bytes) {
   auto state = factor_from_bytes(bytes);
   if (!state) return state.error();
-  auto own = std::make_unique<State>(state->options);
-  static_cast<FactorState&>(*own) = std::move(*state);
-  return TriangularFactor(std::move(own));
+  return TriangularFactor(std::move(*state));
 }
 
 Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   ArxOptions own = options;
-  own.orders = state_->options.orders;
-  own.first_sample = state_->options.first_sample;
-  if (auto ok = check_options(own, state_->options.channels); !ok) return ok.error();
+  own.orders = state_.options.orders;
+  own.first_sample = state_.options.first_sample;
+  if (auto ok = check_options(own, state_.options.channels); !ok) return ok.error();
   const ArxDesign design = make_design(own.orders, own.offset, own.kernel != ArxKernel::kNone);
   RowPlan plan;
-  plan.rows = state_->rows;
-  plan.first_sample = state_->first_sample();
+  plan.rows = state_.rows;
+  plan.first_sample = state_.first_sample();
   if (auto ok = check_rows(plan, design); !ok) return ok.error();
-  for (std::size_t c = 0; c < state_->samples.size(); ++c) {
-    if (state_->samples[c] > 0) continue;
-    const ChannelChoice& names = state_->options.channels;
+  for (std::size_t c = 0; c < state_.samples.size(); ++c) {
+    if (state_.samples[c] > 0) continue;
+    const ChannelChoice& names = state_.options.channels;
     const std::size_t outputs = names.outputs.size();
     return Error{"channel '" + (c < outputs ? names.outputs[c] : names.inputs[c - outputs]) +
                  "' has no sample that is not missing"};
   }
-  const FitFacts facts = facts_of(*state_, own);
+  const FitFacts facts = facts_of(state_, own);
   std::vector<double> shift;
-  for (std::size_t c = 0; c < facts.offset.size(); ++c) shift.push_back(state_->reference[c] - facts.offset[c]);
-  Eigen::MatrixXd triangle = state_->triangle;
+  for (std::size_t c = 0; c < facts.offset.size(); ++c) shift.push_back(state_.reference[c] - facts.offset[c]);
+  Eigen::MatrixXd triangle = state_.triangle;
   shift_columns(design.layout, shift, facts.scale, triangle);
   ArxFit fit = report_fit(
       facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.ridge, own.covariance, own.kernel}));

@@ -7,15 +7,17 @@
 // rows are cut into parts and in whatever order these are merged, the fit is the same but for rounding, and has the
 // accuracy of QR. Memory does not grow with the rows.
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/channel_choice.hpp"
 #include "learn/arx/rows/seen_rows.hpp"
 #include "wisp/base/result.hpp"
@@ -55,16 +57,32 @@ struct FactorNotes {
   std::vector<SeenRows> seen;
 };
 
+/// What a factor knows.
+struct FactorState {
+  FactorOptions options;
+  ArxDesign design;
+  double rate_hz = 0;             ///< 0: nothing was taken in
+  std::vector<double> reference;  ///< per channel: what was taken off its samples; NaN: it had none yet
+  std::vector<double> sum;        ///< per channel, over the samples owned, of sample − reference
+  std::vector<double> square;     ///< likewise of its square
+  std::vector<std::uint64_t> samples;
+  std::vector<ChannelSpan> spans;  ///< per channel
+  Eigen::MatrixXd triangle;        ///< of all columns of the design's layout
+  std::uint64_t rows = 0;
+  std::uint64_t episodes_used = 0;
+  std::uint64_t episodes_skipped = 0;
+  std::uint64_t rows_left_out = 0;
+  FactorNotes notes;
+
+  explicit FactorState(const FactorOptions& given);
+
+  int first_sample() const { return options.first_sample.value_or(options.orders.history()); }
+};
+
 class TriangularFactor {
  public:
   /// An empty part. Errors: orders that do not fit the channels or are out of range.
   static Result<TriangularFactor> create(const FactorOptions& options);
-
-  TriangularFactor(const TriangularFactor& other);
-  TriangularFactor& operator=(const TriangularFactor& other);
-  TriangularFactor(TriangularFactor&&) noexcept;
-  TriangularFactor& operator=(TriangularFactor&&) noexcept;
-  ~TriangularFactor();
 
   /// Takes in rows of a recording, with what came before them in their episode as history.
   /// Errors: a channel that the recording has not, another rate than before, infinite samples.
@@ -80,18 +98,18 @@ class TriangularFactor {
   Result<void> merge(const TriangularFactor& other);
 
   /// Rows in the regression so far.
-  std::size_t rows() const;
+  std::size_t rows() const { return state_.rows; }
 
-  const FactorOptions& options() const;
+  const FactorOptions& options() const { return state_.options; }
 
   /// Samples a second; 0 before anything was taken in.
-  double rate_hz() const;
+  double rate_hz() const { return state_.rate_hz; }
 
   /// Unit and range of every channel: outputs, then inputs.
-  std::vector<ChannelSpan> spans() const;
+  std::vector<ChannelSpan> spans() const { return state_.spans; }
 
-  const FactorNotes& notes() const;
-  void set_notes(FactorNotes notes);
+  const FactorNotes& notes() const { return state_.notes; }
+  void set_notes(FactorNotes notes) { state_.notes = std::move(notes); }
 
   /// As bytes, the same on every machine, with a hash.
   std::vector<std::byte> bytes() const;
@@ -105,9 +123,8 @@ class TriangularFactor {
   Result<ArxFit> finish(const ArxOptions& options) const;
 
  private:
-  struct State;
-  explicit TriangularFactor(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit TriangularFactor(FactorState state) : state_(std::move(state)) {}
+  FactorState state_;
 };
 
 }  // namespace wisp

@@ -51,16 +51,63 @@ std::string acts_at_once(const VerdictEvidence& evidence) {
   return "";
 }
 
+// Whether a remark explains a model that simulates badly: what the model already minds does not.
+bool explains(const Remark& remark, const VerdictEvidence& evidence) {
+  if (remark.kind == RemarkKind::kClock) return false;
+  const auto place = [&](const std::vector<std::string>& names) {
+    return int(std::find(names.begin(), names.end(), remark.channel) - names.begin());
+  };
+  if (remark.kind == RemarkKind::kIntegrates) {
+    const auto i = std::size_t(place(evidence.channels.outputs));
+    return i >= evidence.integrators.size() || evidence.integrators[i] == 0;
+  }
+  if (remark.kind == RemarkKind::kDelay) {
+    const int k = place(evidence.channels.inputs);
+    for (int i = 0; i < evidence.orders.outputs(); ++i) {
+      if (evidence.orders.nk(i, k) + evidence.orders.nb(i, k) > remark.size) return false;
+    }
+  }
+  return true;
+}
+
+// The cause that the recordings show, and its cure.
+std::string cause_in(const VerdictEvidence& evidence) {
+  if (evidence.remarks) {
+    for (const Remark& one : evidence.remarks()) {
+      if (explains(one, evidence)) return ": " + one.cause + "; " + one.cure;
+    }
+  }
+  return "; the recording shows no cause (wisp info): try --focus auto, which tries many lags, or other inputs";
+}
+
 std::string simulates_badly(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  const bool held_out = !evidence.held_out.empty();
+  const std::vector<double>& fits = held_out ? evidence.held_out : summary.free_run_fit_percent;
   std::string failing;
-  for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
-    const double fit = summary.free_run_fit_percent[i];
-    if (fit >= kMinSimulationFit) continue;
-    failing += (failing.empty() ? "" : ", ") + ("'" + evidence.channels.outputs[i] + "' " + fit_text(fit));
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (fits[i] >= kMinSimulationFit) continue;
+    failing += (failing.empty() ? "" : ", ") + ("'" + evidence.channels.outputs[i] + "' " + fit_text(fits[i]));
   }
   if (failing.empty()) return "";
-  return "free simulation from the input fits " + failing + ", and at least " + number_text(kMinSimulationFit, 3) +
-         " % is needed; try another --focus, other inputs, orders or delays";
+  return "free simulation " + std::string(held_out ? "of held-out rows " : "from the input ") + "fits " + failing +
+         ", and at least " + number_text(kMinSimulationFit, 3) + " % is needed" + cause_in(evidence);
+}
+
+// Single precision is what plays: where coefficients cancel it loses what double precision has.
+std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  for (std::size_t i = 0; i < summary.played_fit_percent.size(); ++i) {
+    const double lost = summary.free_run_fit_percent[i] - summary.played_fit_percent[i];
+    if (summary.free_run_fit_percent[i] < kMinSimulationFit || lost <= kMaxLostInPlay) continue;
+    return "played in single precision, as the model is stored, '" + evidence.channels.outputs[i] + "' fits " +
+           fit_text(summary.played_fit_percent[i]) + " and not " + fit_text(summary.free_run_fit_percent[i]) +
+           ": large coefficients cancel" + cause_in(evidence);
+  }
+  return "";
+}
+
+// Inputs that tell the same share their coefficients by chance, however well the model fits.
+std::string is_redundant(const VerdictEvidence& evidence) {
+  return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }
 
 std::string has_no_skill(const VerdictEvidence& evidence, const ArxSummary& summary) {
@@ -102,15 +149,18 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
 
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
   if (!summary.usable.verdict) return;
-  for (std::string reason : {too_few_rows(summary), repaired_far(summary), acts_at_once(evidence),
-                             simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
+  for (std::string reason :
+       {is_redundant(evidence), too_few_rows(summary), repaired_far(summary), plays_otherwise(evidence, summary),
+        acts_at_once(evidence), simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
     if (reason.empty()) continue;
     summary.usable = {false, std::move(reason)};
     return;
   }
   if (summary.free_run_fit_percent.empty()) return;
-  const auto& fits = summary.free_run_fit_percent;
-  summary.usable.reason += ", and free simulation fits " + number_text(*std::min_element(fits.begin(), fits.end()), 3) +
+  const bool held_out = !evidence.held_out.empty();
+  const auto& fits = held_out ? evidence.held_out : summary.free_run_fit_percent;
+  summary.usable.reason += std::string(", and free simulation ") + (held_out ? "of held-out rows " : "") + "fits " +
+                           number_text(*std::min_element(fits.begin(), fits.end()), 3) +
                            (fits.size() > 1 ? " % or more" : " %");
 }
 

@@ -49,24 +49,26 @@ class Runner {
   }
 
   /// Writes the inputs' and the constant's part of rows [begin, begin + count) below the first `memory()` rows.
+  template <class Number>
   void force(std::size_t begin, std::size_t count, Series& series) const {
     const std::size_t ny = outputs();
     series.resize((count + memory_) * ny);
     std::vector<double> part(count);
     for (std::size_t i = 0; i < ny; ++i) {
       std::fill(part.begin(), part.end(), model_.constant[i]);
-      for (int k = 0; k < model_.orders.inputs(); ++k) add_input(static_cast<int>(i), k, begin, part);
+      for (int k = 0; k < model_.orders.inputs(); ++k) add_input<Number>(static_cast<int>(i), k, begin, part);
       for (std::size_t t = 0; t < count; ++t) series[(t + memory_) * ny + i] = part[t];
     }
   }
 
   /// Adds the outputs' own past to rows that hold the forced part.
+  template <class Number>
   void feed_back(Series& series) const {
     const std::size_t ny = outputs();
     for (double* row = series.data() + memory_ * ny; row != series.data() + series.size(); row += ny) {
       for (std::size_t i = 0; i < ny; ++i) {
-        double sum = row[i];
-        for (const Tap& tap : feedback_[i]) sum += tap.weight * row[tap.back];
+        auto sum = static_cast<Number>(row[i]);
+        for (const Tap& tap : feedback_[i]) sum += static_cast<Number>(tap.weight) * static_cast<Number>(row[tap.back]);
         row[i] = sum;
       }
     }
@@ -88,13 +90,13 @@ class Runner {
     const std::size_t rows = std::min(count, kRowsForInitialState);
     const auto length = static_cast<Eigen::Index>(rows * outputs());
     Series base(unknowns, 0.0);
-    force(begin, rows, base);
-    feed_back(base);
+    force<double>(begin, rows, base);
+    feed_back<double>(base);
     Eigen::MatrixXd response(length, unknowns);
     for (std::size_t u = 0; u < unknowns; ++u) {
       Series unit((rows + memory_) * outputs(), 0.0);
       unit[u] = 1;
-      feed_back(unit);
+      feed_back<double>(unit);
       response.col(static_cast<Eigen::Index>(u)) = Eigen::Map<const Eigen::VectorXd>(unit.data() + unknowns, length);
     }
     Eigen::VectorXd rest = Eigen::VectorXd::Zero(length);
@@ -112,6 +114,7 @@ class Runner {
   }
 
  private:
+  template <class Number>
   void add_input(int output, int input, std::size_t begin, std::vector<double>& part) const {
     const auto channel = static_cast<std::size_t>(signals_.outputs + input);
     const double* samples = signals_.samples[recording_][channel].data();
@@ -119,7 +122,10 @@ class Runner {
     const auto b = model_.b(output, input);
     for (std::size_t l = 0; l < b.size(); ++l) {
       const double* shifted = samples + begin - l - static_cast<std::size_t>(model_.orders.nk(output, input));
-      for (std::size_t t = 0; t < part.size(); ++t) part[t] += b[l] * (shifted[t] - offset);
+      const auto weight = static_cast<Number>(b[l]);
+      for (std::size_t t = 0; t < part.size(); ++t) {
+        part[t] = static_cast<Number>(part[t]) + weight * static_cast<Number>(shifted[t] - offset);
+      }
     }
   }
 
@@ -137,6 +143,7 @@ std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, 
   return begin;
 }
 
+template <class Number>
 void simulate_stretch(const Runner& runner, const RowRun& run, InitialState initial, const SimulatedRows& visit) {
   const std::size_t begin = first_row(runner, run.begin, run.end, initial);
   if (begin == run.end) return;
@@ -151,8 +158,8 @@ void simulate_stretch(const Runner& runner, const RowRun& run, InitialState init
   }
   for (std::size_t first = begin; first < run.end; first += kBlockRows) {
     const std::size_t rows = std::min(kBlockRows, run.end - first);
-    runner.force(first, rows, series);
-    runner.feed_back(series);
+    runner.force<Number>(first, rows, series);
+    runner.feed_back<Number>(series);
     visit(first, rows, series.data() + past);
     std::copy(series.end() - static_cast<std::ptrdiff_t>(past), series.end(), series.begin());
   }
@@ -165,7 +172,8 @@ void free_run(const ArxModel& model, const Signals& signals, std::size_t recordi
   const Runner runner(model, signals, recording);
   const LagLayout layout = layout_of_model(model);
   for (const RowRun& run : plan_input_rows(signals, layout, start.first_sample).runs) {
-    if (run.recording == recording) simulate_stretch(runner, run, start.initial, visit);
+    if (run.recording != recording) continue;
+    (start.as_played ? simulate_stretch<float> : simulate_stretch<double>)(runner, run, start.initial, visit);
   }
 }
 

@@ -15,7 +15,8 @@ using SimulatedRows = std::function<void(std::size_t first, std::size_t rows, co
 /// Where simulations start.
 struct FreeRunStart {
   InitialState initial = InitialState::kMeasured;
-  int first_sample = 0;  ///< first row of an episode, at least the model's history
+  int first_sample = 0;    ///< first row of an episode, at least the model's history
+  bool as_played = false;  ///< in single precision, as run/ steps the stored model
 };
 
 /// Simulates one recording block by block. Every episode starts anew, and so does every stretch after a gap in the

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "learn/arx/fit/arx_errors.hpp"
+#include "learn/arx/judge/prediction.hpp"
 
 namespace wisp::arx {
 namespace {
@@ -65,6 +66,37 @@ std::vector<Fold> folds_of(std::span<const Recording> recordings) {
     }
   }
   return folds;
+}
+
+std::vector<double> held_out_fits(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                  const ArxOptions& options) {
+  constexpr double kShare = 0.3;
+  if (channels.inputs.empty()) return {};
+  ArxOptions quick = options;
+  quick.covariance = quick.judge_free_run = false;
+  std::vector<double> error(channels.outputs.size(), 0.0), size = error;
+  for (const bool last : {true, false}) {
+    Fold fold;
+    for (const Recording& one : recordings) {
+      const auto cut = static_cast<std::size_t>((last ? 1 - kShare : kShare) * static_cast<double>(one.rows()));
+      fold.learned.push_back(last ? slice(one, 0, cut) : slice(one, cut, one.rows()));
+      fold.held_out.push_back(last ? slice(one, cut, one.rows()) : slice(one, 0, cut));
+    }
+    const auto fit = fit_arx(fold.learned, channels, quick);
+    if (!fit) return {};
+    const auto figures = prediction_figures(fit->model, fold.held_out, channels, {.steps = {kFreeRun}});
+    if (!figures) return {};
+    const PredictionFigures& free = figures->front();
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      const double square = static_cast<double>(free.rows) * free.mean_square[i], share = 1 - free.fit_percent[i] / 100;
+      error[i] += square;
+      size[i] += share > 0 ? square / (share * share) : 0;
+    }
+  }
+  std::vector<double> fits;
+  for (std::size_t i = 0; i < error.size(); ++i)
+    fits.push_back(size[i] > 0 ? 100 * (1 - std::sqrt(error[i] / size[i])) : 0);
+  return fits;
 }
 
 std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/free_run.hpp"
 #include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/result.hpp"
@@ -22,6 +23,11 @@ struct Fold {
 /// Forward chaining: the first 40, 60 and 80 % of every recording are learned from and the next 20 % are held out. No
 /// fold learns from rows that follow the rows it is judged on.
 std::vector<Fold> folds_of(std::span<const Recording> recordings);
+
+/// Fits in percent of free simulation over rows that were held out, per output: the last 30 % of every recording by a
+/// model of the rest, and the first 30 %. Empty without inputs, or where there are too few rows.
+std::vector<double> held_out_fits(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                  const ArxOptions& options);
 
 /// The middle of every recording, the same share of all, so that at most `max_rows` rows are left in total.
 std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows);

@@ -180,8 +180,9 @@ Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const S
   const Tallies tallies(model, signals, options, first_sample);
   std::vector<PredictionFigures> out;
   for (int steps : options.steps) {
-    const Tally tally = steps == kFreeRun ? free_run_tally(model, signals, options.group, options.initial, first_sample)
-                                          : tallies[steps];
+    const Tally tally = steps == kFreeRun
+                            ? free_run_tally(model, signals, options.group, {options.initial, first_sample})
+                            : tallies[steps];
     if (tally.rows() == 0) {
       return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
                    std::to_string(model.orders.history()) + " samples"};

@@ -85,14 +85,13 @@ void FreeRunTally::add(const Signals& signals, std::size_t recording, std::size_
   for (int i = 0; i < signals.outputs; ++i) tally_.add_output(i, measured_.col(i).head(whole));
 }
 
-Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial, int first_sample) {
+Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, const FreeRunStart& start) {
   Tally tally(signals.outputs, group);
   FreeRunTally errors(tally);
   for (std::size_t r = 0; r < signals.samples.size(); ++r) {
-    free_run(model, signals, r, {initial, first_sample},
-             [&](std::size_t first, std::size_t rows, const double* values) {
-               errors.add(signals, r, first, rows, values);
-             });
+    free_run(model, signals, r, start, [&](std::size_t first, std::size_t rows, const double* values) {
+      errors.add(signals, r, first, rows, values);
+    });
   }
   return tally;
 }

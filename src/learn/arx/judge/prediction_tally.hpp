@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "learn/arx/judge/free_run.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 
@@ -61,7 +62,7 @@ class FreeRunTally {
 /// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
 ///
 /// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
-Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial, int first_sample);
+Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, const FreeRunStart& start);
 
 /// What prediction_figures computes.
 Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,

@@ -179,35 +179,13 @@ ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::
     for (int output : all ? std::vector<int>{} : choice.outputs)
       names += (names.empty() ? "" : ", ") + outputs[std::size_t(output)];
     const FocusCandidate &own = choice.candidates[choice.chosen], &squares = choice.candidates.front();
-    std::string word = own.kernel ? std::to_string(kKernelLags) + " lags under a kernel" : "least squares";
+    std::string word = own.kernel_lags > 0 ? std::to_string(own.kernel_lags) + " lags under a kernel" : "least squares";
     if (own.decoupled) word += ", on its own";
     table.rows.push_back({names, word, 100 * own.estimated_error, 100 * own.measured_error,
                           100 * squares.estimated_error, 100 * squares.measured_error});
   }
   section.tables.push_back(std::move(table));
   return section;
-}
-
-void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,
-                std::span<const CurveEstimate> curves, Report& report) {
-  ReportSection& section = report.add("Input nonlinearity");
-  add(section, "input_curve.knots", choice.knots, "knots of every curve");
-  add(section, "input_curve.reason", choice.reason, "why");
-  ReportTable tried{
-      "input_curve.candidates",
-      "",
-      {{"knots", "knots"}, {"held_out_gain", "held-out error less by"}, {"standard_errors", "standard errors"}},
-      {}};
-  for (const CurveCandidate& one : choice.candidates) tried.rows.push_back({one.knots, one.gain, one.sureness});
-  ReportTable found{"input_curve.curves",
-                    curves.empty() ? "" : "curves",
-                    {{"input", "input"}, {"at", "at"}, {"value", "value"}, {"std_error", "± standard error"}},
-                    {}};
-  for (std::size_t k = 0; k < curves.size(); ++k) {
-    found.rows.push_back({inputs[k], curves[k].curve.at, curves[k].curve.value, curves[k].std_error});
-  }
-  section.tables.push_back(std::move(tried));
-  section.tables.push_back(std::move(found));
 }
 
 void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, ReportSection& section) {
@@ -225,17 +203,24 @@ void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, 
 }
 
 void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report& report) {
+  constexpr double kSurprise = 0.05;
   ReportSection& section = report.add("Residuals");
   ReportList white, independent;
+  bool all_above = true, independent_of_all = true;
   for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
     white.emplace_back(tests.whiteness[i].p);
+    all_above = all_above && tests.whiteness[i].p >= kSurprise;
     ReportList row;
-    for (const Independence& pair : tests.independence[i]) row.emplace_back(pair.p);
+    for (const Independence& pair : tests.independence[i]) {
+      row.emplace_back(pair.p);
+      independent_of_all = independent_of_all && pair.p >= kSurprise;
+    }
     independent.push_back(std::move(row));
   }
-  add(section, "whiteness_p", std::move(white), "white, p", "", "below 0.05: the model leaves something to learn");
+  add(section, "whiteness_p", std::move(white), "white, p", "",
+      all_above ? "as white noise would be" : "below 0.05: the model leaves something to learn");
   add(section, "independence_p", std::move(independent), channels.inputs.empty() ? "" : "independent of the inputs, p",
-      "", "below 0.05: the inputs do more than the model says");
+      "", independent_of_all ? "as unrelated series would be" : "below 0.05: the inputs do more than the model says");
   add_test_series(tests, channels, section);
 }
 

@@ -1,11 +1,10 @@
 #pragma once
-// How good a fit is, what a search found and how curves were chosen, as reports.
+// How good a fit is, what a search found, as reports.
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "learn/arx/curve/curve_choice.hpp"
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/search/order_search.hpp"
@@ -24,10 +23,6 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
 /// Whether the model was refined for free simulation, and how held-out free runs judged that. One choice for all
 /// outputs is named so.
 ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::string>& outputs);
-
-/// How curves were chosen, and those of the inputs that are named.
-void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,
-                std::span<const CurveEstimate> curves, Report& report);
 
 /// `whiteness_p` and `independence_p` of all outputs, with their series.
 void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report& report);

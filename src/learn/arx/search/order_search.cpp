@@ -13,7 +13,6 @@
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "learn/arx/search/search_fit.hpp"
-#include "learn/arx/search/search_windows.hpp"
 
 namespace wisp {
 namespace {
@@ -278,17 +277,10 @@ std::size_t least(const std::vector<OrderCandidate>& candidates, Value value) {
 void choose(const SearchOptions& options, int outputs, OrderSearch& search) {
   const auto& candidates = search.candidates;
   search.best = least(candidates, [&](const OrderCandidate& candidate) { return value_of(candidate, options.by); });
-  search.row_orders = candidates.front().orders;
   for (int i = 0; i < outputs; ++i) {
     search.best_of_row.push_back(least(candidates, [&](const OrderCandidate& candidate) {
       return value_of_row(candidate, options.by, i, row_size(candidate, i, options.offset));
     }));
-    const ArxOrders& best = candidates[search.best_of_row.back()].orders;
-    for (int j = 0; j < outputs; ++j) search.row_orders.na(i, j) = best.na(i, j);
-    for (int k = 0; k < best.inputs(); ++k) {
-      search.row_orders.nb(i, k) = best.nb(i, k);
-      search.row_orders.nk(i, k) = best.nk(i, k);
-    }
   }
 }
 

@@ -6,6 +6,7 @@
 // are.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,7 +57,6 @@ struct OrderSearch {
   std::vector<OrderCandidate> candidates;
   std::size_t best = 0;                  ///< by the criterion over all outputs together
   std::vector<std::size_t> best_of_row;  ///< by the criterion for each output row on its own
-  ArxOrders row_orders;                  ///< every row with the orders of its own best candidate
 };
 
 /// Fits and judges all candidates. A row where a sample of the longest history is missing is left out for all of them.
@@ -73,16 +73,25 @@ std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriteri
 
 /// How to look for delays.
 struct DelayOptions {
-  int most = 20;  ///< largest delay tried, in samples, 0 to 4096
-  int na = 2;     ///< lags of outputs beside it
-  int nb = 2;     ///< lags of the input from the delay on
+  std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled while no delay or one
+                              ///< near the end is best, as far as there are ten rows a lag, at most 640
+  int na = 2;                 ///< lags of outputs beside it
+  int nb = 2;                 ///< lags of the input from the delay on
   ArxOffset offset = ArxOffset::kMean;
 };
 
-/// Delays of every input to every output: nk of outputs × inputs. An input's delay is the one with the least squared
-/// error, or a longer one that leaves out only lags that are not significant (95 %); the other inputs stand beside it
-/// with all lags up to the largest, so that their delays do not matter. Errors: as fit_arx.
-Result<OrderMatrix> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
-                                    const DelayOptions& options = {});
+/// Delays, and how sure they are.
+struct Delays {
+  OrderMatrix nk;  ///< outputs × inputs; 1 where no delay is supported
+  OrderMatrix
+      supported;  ///< 1 where the lags lower the squared error beyond chance (1 in 1,000 over all delays), else 0
+  int most = 0;   ///< the largest that was tried
+};
+
+/// Delays of every input to every output. An input's delay is the one with the least squared error, or a longer one
+/// that leaves out only lags that are not significant (95 %); the other inputs stand beside it with all lags up to the
+/// largest, so that their delays do not matter. Errors: as fit_arx; no input supports a delay to any output.
+Result<Delays> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
+                               const DelayOptions& options = {});
 
 }  // namespace wisp

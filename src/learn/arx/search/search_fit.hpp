@@ -1,13 +1,44 @@
 #pragma once
-// One candidate of a search, fitted within a window.
+// Products of lagged channels over the windows that candidates of a search start at, and one candidate fitted within
+// one.
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "learn/arx/rows/arx_design.hpp"
-#include "learn/arx/search/search_windows.hpp"
+#include "learn/arx/rows/arx_rows.hpp"
+#include "learn/numeric/lag_layout.hpp"
 
 namespace wisp {
+
+/// The Gram matrix of a layout for every first sample from `earliest` to `latest`. A window that starts a row earlier
+/// has that row's products more; columns whose lag is longer than the first sample are not in that row, and not
+/// meaningful in that window.
+class SearchWindows {
+ public:
+  /// Preconditions: `signals` and `layout` outlive it; layout.history() <= latest; 0 <= earliest <= latest.
+  SearchWindows(const Signals& signals, const LagLayout& layout, int earliest, int latest);
+
+  std::size_t rows(int first_sample) const { return rows_[index(first_sample)]; }
+  const Eigen::MatrixXd& gram(int first_sample) const { return gram_[index(first_sample)]; }
+
+  /// A triangle of the same window, RᵀR = gram but for rounding. Made on first use.
+  const Eigen::MatrixXd& triangle(int first_sample);
+
+ private:
+  std::size_t index(int first_sample) const { return static_cast<std::size_t>(first_sample - earliest_); }
+  Eigen::MatrixXd earlier_rows(int first_sample) const;
+
+  const Signals& signals_;
+  const LagLayout& layout_;
+  int earliest_;
+  int latest_;
+  RowPlan plan_;
+  std::vector<std::size_t> rows_;
+  std::vector<Eigen::MatrixXd> gram_;
+  std::map<int, Eigen::MatrixXd> triangle_;
+};
 
 /// Rows of a candidate: their regressors and targets, as columns of the search's layout.
 struct CandidateRows {

@@ -200,7 +200,7 @@ TEST_F(ArxReference, HairDryerHasItsPublishedModelAndDelay) {
   for (std::size_t p = 0; p < 4; ++p) EXPECT_NEAR(fit->model.theta[0][p], published[p], half_a_digit[p]);
   const auto delays = estimate_delays({&first, 1}, channels_of(whole));
   ASSERT_TRUE(delays) << delays.error().message;
-  EXPECT_EQ((*delays)(0, 0), 3);
+  EXPECT_EQ(delays->nk(0, 0), 3);
 }
 
 TEST_F(ArxReference, OneStepFitOfRobotArmAndFlutterHidesBadFreeSimulationAndIsWarnedOf) {

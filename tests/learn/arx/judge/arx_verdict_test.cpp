@@ -43,7 +43,7 @@ TEST(ArxVerdict, ASystemThatIsDrivenIsUsableAndSaysHowWellItSimulates) {
   const auto said =
       verdict(made(1000, 1, [](double y, double, double u, double e) { return 0.8 * y + u + 0.1 * e; }), driven(1));
   EXPECT_TRUE(said.usable);
-  EXPECT_THAT(said.reason, HasSubstr("free simulation fits 9"));
+  EXPECT_THAT(said.reason, HasSubstr("free simulation of held-out rows fits 9"));
 }
 
 TEST(ArxVerdict, WhiteNoiseIsNotUsable) {

@@ -126,7 +126,6 @@ TEST(OrderSearch, BicFindsTheOrdersThatMadeTheData) {
   EXPECT_EQ(best.na, 2);
   EXPECT_EQ(best.nb, 2);
   EXPECT_EQ(best.nk, 2);
-  EXPECT_EQ(search->row_orders, uniform);
 }
 
 TEST(OrderSearch, EveryOutputMayHaveOrdersOfItsOwn) {
@@ -140,8 +139,6 @@ TEST(OrderSearch, EveryOutputMayHaveOrdersOfItsOwn) {
   ASSERT_TRUE(search);
   EXPECT_EQ(search->candidates[search->best_of_row[0]].na, 3);
   EXPECT_EQ(search->candidates[search->best_of_row[1]].na, 1);
-  EXPECT_EQ(search->row_orders.na(0, 0), 3);
-  EXPECT_EQ(search->row_orders.na(1, 1), 1);
 }
 
 TEST(OrderSearch, OrdersOfThirtyAreSearched) {
@@ -224,7 +221,7 @@ TEST(EstimateDelays, FindsEveryInputsDelayToEveryOutput) {
   const Recording recording = record_system(model, 5000, 12);
   const auto delays = estimate_delays({&recording, 1}, kChannels);
   ASSERT_TRUE(delays) << delays.error().message;
-  EXPECT_EQ(*delays, nk);
+  EXPECT_EQ(delays->nk, nk);
 }
 
 }  // namespace

@@ -1,0 +1,412 @@
+// Sources: P. Caines and C. Chan, IEEE Trans. Automatic Control 20 (1975), for feedback (the outputs' past predicts the
+// input); D. Dickey and W. Fuller, JASA 74 (1979), for the limit of the test of a pole at 1; L. Ljung, System
+// Identification (2nd ed.), sections 13.2 (persistent excitation) and 14 (preprocessing).
+
+#include "wisp/learn/advice.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/statistics.hpp"
+#include "learn/arx/integrators.hpp"
+#include "learn/arx/judge/held_out.hpp"
+#include "learn/arx/report/report_values.hpp"
+#include "learn/arx/search/order_search.hpp"
+#include "learn/numeric/chi_squared.hpp"
+#include "record/number_text.hpp"
+
+namespace wisp {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Samples = std::vector<double>;
+
+constexpr std::size_t kManyRows = 8192;  // of regressions
+
+// What is looked at: recordings and their channels.
+struct Subject {
+  std::span<const Recording> recordings;
+  std::vector<std::string> inputs, outputs;
+
+  const Samples* find(const Recording& recording, const std::string& name) const {
+    const auto channel = find_channel(recording, name);
+    return channel ? &recording.channels[*channel].samples : nullptr;
+  }
+
+  // Of all recordings, one after the other.
+  Samples all_of(const std::string& name) const {
+    Samples all;
+    for (const Recording& one : recordings) {
+      if (const Samples* its = find(one, name)) all.insert(all.end(), its->begin(), its->end());
+    }
+    return all;
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all = inputs;
+    all.insert(all.end(), outputs.begin(), outputs.end());
+    return all;
+  }
+};
+
+Samples present(Samples all) {
+  std::erase_if(all, [](double x) { return std::isnan(x); });
+  return all;
+}
+
+// The last decimal that the samples are written with; 0 where none up to the ninth is.
+double last_digit(const Samples& all) {
+  double unit = 1;
+  for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
+    const bool whole = std::all_of(all.begin(), all.begin() + std::min<std::ptrdiff_t>(500, std::ssize(all)),
+                                   [&](double x) { return std::abs(x / unit - std::round(x / unit)) < 1e-4; });
+    if (whole) return unit;
+  }
+  return 0;
+}
+
+std::size_t distinct(const Samples& all, std::size_t most) {
+  std::set<double> seen;
+  for (double x : all) {
+    if (seen.insert(x).second && seen.size() > most) break;
+  }
+  return seen.size();
+}
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+void look_for_sentinel(const std::string& name, const Samples& all, std::vector<Remark>& out) {
+  constexpr double kUsual[] = {-999, -9999, -99999, 999, 9999, 99999, -99, -999.9, -99.9, 999.9, 65535, 32767, -32768};
+  for (const double value : {*std::min_element(all.begin(), all.end()), *std::max_element(all.begin(), all.end())}) {
+    Samples rest = all;
+    const std::size_t count = std::erase(rest, value);
+    if (rest.size() < 20 || distinct(rest, 3) <= 3 || count > rest.size() / 2) continue;
+    const auto [low, high] = std::minmax_element(rest.begin(), rest.end());
+    const double room = std::max(*low - value, value - *high), range = *high - *low;
+    const bool usual = std::find(std::begin(kUsual), std::end(kUsual), value) != std::end(kUsual);
+    if (!(room > (usual ? 0.5 : 3) * range) || (!usual && count < 3)) continue;
+    out.push_back({RemarkKind::kSentinel, name,
+                   quoted(name) + " is " + number_text(value, 6) + " in " + std::to_string(count) +
+                       (count == 1 ? " row" : " rows") + ", far from all others (" + number_text(*low, 4) + " to " +
+                       number_text(*high, 4) + "): it stands for a missing sample",
+                   "leave these cells empty"});
+    return;
+  }
+}
+
+// Rows, from 1, of samples far from the median of the five around them.
+std::vector<std::size_t> outliers_in(const Samples& all) {
+  constexpr double kFar = 12;
+  std::vector<std::size_t> rows;
+  Samples apart, values = present(all);
+  if (values.size() < 50 || distinct(values, 10) <= 10) return rows;
+  for (std::size_t t = 2; t + 2 < all.size(); ++t) {
+    Samples near = present({all.begin() + std::ptrdiff_t(t) - 2, all.begin() + std::ptrdiff_t(t) + 3});
+    apart.push_back(near.size() < 3 || std::isnan(all[t]) ? 0 : std::abs(all[t] - median(near)));
+  }
+  const double usual = 1.4826 * median(apart), spread = quantile(values, 0.95) - quantile(values, 0.05);
+  for (std::size_t k = 0; k < apart.size(); ++k) {
+    if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 3);
+  }
+  if (rows.size() * 50 > all.size()) rows.clear();  // too many: that is how it moves
+  return rows;
+}
+
+void look_for_outliers(const std::string& name, const Samples& all, std::vector<Remark>& out) {
+  const auto rows = outliers_in(all);
+  if (rows.empty()) return;
+  std::string list;
+  for (std::size_t k = 0; k < std::min<std::size_t>(rows.size(), 5); ++k)
+    list += (k > 0 ? ", " : "") + std::to_string(rows[k]);
+  if (rows.size() > 5) list += ", …";
+  out.push_back({RemarkKind::kOutliers, name,
+                 quoted(name) + " has " + std::to_string(rows.size()) + (rows.size() == 1 ? " outlier" : " outliers") +
+                     " (" + (rows.size() == 1 ? "row " : "rows ") + list + "), far from the samples beside them",
+                 "leave these cells empty, they are missing samples then"});
+}
+
+void look_at_samples(const Subject& subject, std::vector<Remark>& out) {
+  for (const std::string& name : subject.names()) {
+    const Samples all = subject.all_of(name), there = present(all);
+    if (there.empty()) continue;
+    if (there.size() * 10 < all.size() * 9) {
+      out.push_back({RemarkKind::kMissing, name,
+                     number_text(100 - 100.0 * double(there.size()) / double(all.size()), 3) + " % of " + quoted(name) +
+                         " is missing, and every row that a missing sample enters is left out",
+                     "record it again, or leave the channel out"});
+    }
+    if (*std::min_element(there.begin(), there.end()) == *std::max_element(there.begin(), there.end())) {
+      out.push_back({RemarkKind::kConstant, name, quoted(name) + " never changes", "leave it out"});
+      continue;
+    }
+    look_for_sentinel(name, there, out);
+    if (std::find(subject.outputs.begin(), subject.outputs.end(), name) != subject.outputs.end()) {
+      look_for_outliers(name, all, out);
+    }
+  }
+}
+
+// y ≈ slope x + level over the rows that have both, and the root mean square of what is left.
+struct Line {
+  double slope = 0, level = 0, rest = 0, size = 0;
+};
+
+Line line_of(const Samples& x, const Samples& y) {
+  Samples a, b;
+  for (std::size_t t = 0; t < std::min(x.size(), y.size()); ++t) {
+    if (!std::isnan(x[t] + y[t])) a.push_back(x[t]), b.push_back(y[t]);
+  }
+  if (a.size() < 10) return {};
+  const double ma = mean(a), mb = mean(b);
+  double aa = 0, ab = 0;
+  for (std::size_t t = 0; t < a.size(); ++t) aa += (a[t] - ma) * (a[t] - ma), ab += (a[t] - ma) * (b[t] - mb);
+  Line line{aa > 0 ? ab / aa : 0, 0, 0, deviation(b)};
+  line.level = mb - line.slope * ma;
+  for (std::size_t t = 0; t < a.size(); ++t) line.rest += std::pow(b[t] - line.level - line.slope * a[t], 2);
+  line.rest = std::sqrt(line.rest / static_cast<double>(a.size()));
+  return line;
+}
+
+void look_for_redundancy(const Subject& subject, std::vector<Remark>& out) {
+  constexpr double kSame = 1e-5;  // of a deviation: a model in single precision cannot tell less
+  const auto names = subject.names();
+  for (std::size_t l = 1; l < names.size(); ++l) {
+    const Samples y = subject.all_of(names[l]);
+    for (std::size_t k = 0; k < l; ++k) {
+      const Samples x = subject.all_of(names[k]);
+      const Line line = line_of(x, y);
+      if (!(line.size > 0) || line.slope == 0) continue;
+      const double rounding = std::hypot(last_digit(present(y)), line.slope * last_digit(present(x))) / std::sqrt(12.0);
+      if (line.rest > std::max(kSame * line.size, std::min(1.5 * rounding, 0.05 * line.size))) continue;
+      const bool minus = line.level < 0;
+      const std::string scaled = (line.slope == 1 ? "" : number_text(line.slope, 5) + " ") + quoted(names[k]);
+      const bool level = std::abs(line.level) > 1e-6 * line.size;
+      out.push_back({RemarkKind::kRedundant, names[l],
+                     quoted(names[l]) + " is " + scaled +
+                         (level ? (minus ? " - " : " + ") + number_text(std::abs(line.level), 5) : "") + ", within " +
+                         number_text(line.rest, 2) + ": it tells nothing new",
+                     "leave one of them out"});
+      break;
+    }
+  }
+}
+
+void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
+  constexpr std::size_t kFewMoves = 4;
+  for (const std::string& name : subject.inputs) {
+    const Samples all = present(subject.all_of(name));
+    std::size_t moves = 0;
+    for (std::size_t t = 1; t < all.size(); ++t) moves += all[t] != all[t - 1];
+    if (all.size() < 40 || moves == 0 || moves >= kFewMoves) continue;
+    out.push_back({RemarkKind::kExcitation, name,
+                   "input " + quoted(name) + " moves only " + (moves == 1 ? "once" : std::to_string(moves) + " times") +
+                       ": that shows one response, not how sure it is",
+                   "record with an input that moves often, at uneven intervals"});
+  }
+}
+
+// Mean squared error of least squares; rows are sampled where they are many.
+double squared_rest(const MatrixXd& x, const VectorXd& y) {
+  return (y - x * x.colPivHouseholderQr().solve(y)).squaredNorm() / static_cast<double>(y.size());
+}
+
+// Whether the output's past tells of the input what the input's own past does not.
+void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
+  constexpr std::size_t kOwn = 20, kLags = 5;
+  constexpr double kShare = 0.05, kChance = 1e-6;
+  for (const std::string& input : subject.inputs) {
+    for (const std::string& output : subject.outputs) {
+      const Recording& recording = subject.recordings.front();
+      const Samples *u = subject.find(recording, input), *y = subject.find(recording, output);
+      if (!u || !y || u->size() < 200) continue;
+      std::vector<std::size_t> rows;
+      for (std::size_t t = kOwn; t < std::min(u->size(), kManyRows); ++t) {
+        double sum = 0;
+        for (std::size_t lag = 0; lag <= kOwn; ++lag) sum += (*u)[t - lag] + (*y)[t - lag];
+        if (!std::isnan(sum)) rows.push_back(t);
+      }
+      if (rows.size() < 150) continue;
+      MatrixXd x(Index(rows.size()), Index(1 + kOwn + kLags));
+      VectorXd target(Index(rows.size()));
+      for (Index r = 0; r < x.rows(); ++r) {
+        const std::size_t t = rows[std::size_t(r)];
+        x(r, 0) = 1;
+        for (std::size_t lag = 1; lag <= kOwn; ++lag) x(r, Index(lag)) = (*u)[t - lag];
+        for (std::size_t lag = 1; lag <= kLags; ++lag) x(r, Index(kOwn + lag)) = (*y)[t - lag];
+        target[r] = (*u)[t];
+      }
+      const double own = squared_rest(x.leftCols(1 + kOwn), target), both = squared_rest(x, target);
+      const double size = (target.array() - target.mean()).square().mean();
+      if (!(own > 1e-8 * size) || both > (1 - kShare) * own) continue;
+      if (double(rows.size()) * std::log(own / both) < chi_squared_quantile(1 - kChance, kLags)) continue;
+      out.push_back({RemarkKind::kFeedback, input,
+                     "input " + quoted(input) + " is set by " + quoted(output) + " (its past explains " +
+                         number_text(100 * (1 - both / own), 2) +
+                         " % of what the input's own past leaves): a controller closes the loop",
+                     "record with the controller off, or with a change of set point that moves the input by itself"});
+      break;
+    }
+  }
+}
+
+void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
+  constexpr int kLong = 4;
+  const ChannelChoice channels{subject.inputs, subject.outputs};
+  const auto delays = estimate_delays(subject.recordings, channels);
+  if (!delays) return;
+  for (int i = 0; i < delays->nk.rows(); ++i) {
+    for (int k = 0; k < delays->nk.columns(); ++k) {
+      if (delays->supported(i, k) == 0 || delays->nk(i, k) < kLong) continue;
+      const std::string samples = std::to_string(delays->nk(i, k));
+      out.push_back({RemarkKind::kDelay, subject.inputs[std::size_t(k)],
+                     quoted(subject.inputs[std::size_t(k)]) + " acts on " + quoted(subject.outputs[std::size_t(i)]) +
+                         " after " + samples + " samples (0 to " + std::to_string(delays->most) + " were tried)",
+                     "--nk auto, or --nk " + samples, double(delays->nk(i, k))});
+    }
+  }
+}
+
+void look_for_drift(const Subject& subject, std::vector<Remark>& out) {
+  constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
+  const Recording& recording = subject.recordings.front();
+  Samples time(recording.rows());
+  for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);
+  const auto share = [&](const std::string& name) {
+    const Samples* its = subject.find(recording, name);
+    if (!its) return 0.0;
+    const Line line = line_of(time, *its);
+    return line.size > 0 ? 1 - std::pow(line.rest / line.size, 2) : 0.0;
+  };
+  double inputs = 0;
+  for (const std::string& name : subject.inputs) inputs = std::max(inputs, share(name));
+  for (const std::string& name : subject.outputs) {
+    if (recording.rows() < 50 || subject.inputs.empty() || inputs > kLittle || share(name) < kMuch) continue;
+    const Line line = line_of(time, *subject.find(recording, name));
+    out.push_back(
+        {RemarkKind::kDrift, name,
+         quoted(name) + " drifts by " + number_text(line.slope * double(recording.rows()), 3) +
+             " from the first row to the last, and no input does",
+         "take the straight line off, add a channel that tells what drifts, or learn from a stretch with --range"});
+  }
+}
+
+void look_at_clock(const Subject& subject, std::vector<Remark>& out) {
+  for (const Recording& one : subject.recordings) {
+    if (!one.rate_note.guessed) continue;
+    out.push_back({RemarkKind::kClock, "", one.source + ": " + one.rate_note.text,
+                   "say --rate HZ or --dt S where that is wrong"});
+  }
+}
+
+void look_for_integrators(const Subject& subject, std::vector<Remark>& out) {
+  for (const std::string& output : subject.outputs) {
+    const auto count = arx::integrators_in(subject.recordings, subject.inputs, output);
+    if (count == 0) continue;
+    out.push_back({RemarkKind::kIntegrates, output,
+                   quoted(output) + " integrates" + (count > 1 ? " twice" : "") +
+                       ": it sums what goes in, and has no level of its own",
+                   "--coupling diagonal keeps the integrator in the model"});
+  }
+}
+
+ReportTable channel_table(const Recording& recording) {
+  ReportTable table{"channels",
+                    "channels",
+                    {{"name", "channel"},
+                     {"role", "role"},
+                     {"unit", "unit"},
+                     {"lowest", "lowest"},
+                     {"highest", "highest"},
+                     {"mean", "mean"},
+                     {"deviation", "deviation"},
+                     {"missing", "missing"},
+                     {"digit", "last digit"}},
+                    {}};
+  for (const Channel& channel : recording.channels) {
+    const Samples there = present(channel.samples);
+    const char* role = channel.role == Role::kInput ? "input" : channel.role == Role::kOutput ? "output" : "motion";
+    auto& row = table.rows.emplace_back(std::vector<ReportValue>{channel.name, role, channel.unit});
+    if (there.empty()) {
+      row.resize(7);
+    } else {
+      const auto [low, high] = std::minmax_element(there.begin(), there.end());
+      for (double figure : {*low, *high, mean(there), deviation(there)}) row.emplace_back(figure);
+    }
+    row.emplace_back(channel.samples.size() - there.size());
+    const double digit = there.empty() ? 0 : last_digit(there);
+    row.push_back(digit > 0 ? ReportValue(digit) : ReportValue());
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
+                               const std::vector<std::string>& outputs) {
+  std::vector<Remark> out;
+  if (recordings.empty()) return out;
+  const Subject subject{recordings, inputs, outputs};
+  look_at_samples(subject, out);
+  look_for_redundancy(subject, out);
+  look_at_clock(subject, out);
+  const bool spoiled =
+      std::any_of(out.begin(), out.end(), [](const Remark& one) { return one.kind <= RemarkKind::kOutliers; });
+  if (!inputs.empty() && !outputs.empty() && !spoiled) {
+    look_at_excitation(subject, out);
+    look_for_feedback(subject, out);
+    look_for_delays(subject, out);
+    look_for_integrators(subject, out);
+    const bool integrates =
+        std::any_of(out.begin(), out.end(), [](const Remark& one) { return one.kind == RemarkKind::kIntegrates; });
+    if (!integrates) look_for_drift(subject, out);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Remark& a, const Remark& b) { return a.kind < b.kind; });
+  return out;
+}
+
+std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names) {
+  const std::vector<Recording> some = arx::middles_of(recordings, kManyRows);
+  std::vector<Remark> out;
+  if (names.size() > 1) look_for_redundancy({some, names, {}}, out);
+  return out;
+}
+
+Report advise(const Recording& recording) {
+  std::vector<std::string> inputs, outputs;
+  for (const Channel& channel : recording.channels) {
+    if (channel.role == Role::kInput) inputs.push_back(channel.name);
+    if (channel.role == Role::kOutput) outputs.push_back(channel.name);
+  }
+  Report report;
+  ReportSection& section = report.add("Recording");
+  const auto rows = static_cast<double>(recording.rows());
+  arx::add(section, "rate_hz", recording.rate_hz, "rate", "Hz",
+           recording.rate_note.text.empty() ? "as the file or the flags say" : recording.rate_note.text);
+  arx::add(section, "rows", recording.rows(), "rows", "", number_text(rows / recording.rate_hz, 5) + " s");
+  arx::add(section, "episodes", episodes(recording).size(), "episodes");
+  section.tables.push_back(channel_table(recording));
+  ReportTable table{"remarks",
+                    "what will spoil a model",
+                    {{"kind", ""}, {"channel", ""}, {"cause", "what"}, {"cure", "what to do"}},
+                    {}};
+  for (const Remark& one : remarks_on({&recording, 1}, inputs, outputs)) {
+    table.rows.push_back({static_cast<int>(one.kind), one.channel, one.cause, one.cure});
+  }
+  if (table.rows.empty()) table.label.clear();
+  arx::add_line(section, "remarks", table.rows.size(),
+                table.rows.empty() ? "nothing was found that spoils a model"
+                : inputs.empty()   ? "say --inputs and --outputs to hear of excitation, feedback and delays"
+                                   : "");
+  section.tables.push_back(std::move(table));
+  for (const Channel& channel : recording.channels) {
+    section.series.push_back({"channel." + arx::as_id(channel.name), channel.name, "time, s", channel.unit,
+                              seconds_of(recording), channel.samples});
+  }
+  return report;
+}
+
+}  // namespace wisp

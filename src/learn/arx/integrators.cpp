@@ -1,0 +1,85 @@
+// Source: D. Dickey and W. Fuller, "Distribution of the estimators for autoregressive time series with a unit root",
+// JASA 74 (1979): the limit of the squared t statistic with an estimated constant.
+
+#include "learn/arx/integrators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "learn/arx/rows/arx_orders.hpp"
+
+namespace wisp::arx {
+namespace {
+
+constexpr double kDickeyFuller = 8.2;  // 2.86²
+constexpr double kExact = 99.9;        // a one-step fit in percent beyond which rounding decides the test
+constexpr double kGain = 2;            // percent of fit by which simulation has to be better
+
+bool remembers_itself_only(const OrderMatrix& na, int output) {
+  for (int j = 0; j < na.rows(); ++j) {
+    if (j != output && (na(output, j) > 0 || na(j, output) > 0)) return false;
+  }
+  return na(output, output) > 0;
+}
+
+}  // namespace
+
+std::vector<int> find_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                  const ArxOptions& options, const ArxFit& plain) {
+  const int outputs = options.orders.outputs();
+  std::vector<int> found(std::size_t(outputs), 0);
+  if (channels.inputs.empty() || plain.summary.free_run_fit_percent.empty()) return {};
+  ArxOptions tried = options;
+  tried.offset = ArxOffset::kEstimate;
+  tried.stabilise = tried.covariance = false;
+  const auto free = fit_arx(recordings, channels, tried);
+  if (!free) return {};
+  std::vector<double> before = free->summary.loss, best = plain.summary.free_run_fit_percent;
+  std::vector<bool> open(std::size_t(outputs), true);
+  for (int count = 1; count <= 2; ++count) {
+    tried.integrators.assign(std::size_t(outputs), 0);
+    for (int i = 0; i < outputs; ++i) {
+      const auto at = std::size_t(i);
+      open[at] = open[at] && remembers_itself_only(options.orders.na, i) && options.orders.na(i, i) >= count;
+      if (open[at]) tried.integrators[at] = count;
+    }
+    if (std::find(open.begin(), open.end(), true) == open.end()) break;
+    const auto held = fit_arx(recordings, channels, tried);
+    if (!held) break;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (!open[i]) continue;
+      const double statistic = double(held->summary.samples_used) * std::log(held->summary.loss[i] / before[i]);
+      open[i] = statistic <= kDickeyFuller || held->summary.fit_percent[i] > kExact;
+      before[i] = held->summary.loss[i];
+      if (!open[i] || !(held->summary.free_run_fit_percent[i] > best[i] + kGain)) continue;
+      best[i] = held->summary.free_run_fit_percent[i];
+      found[i] = count;
+    }
+  }
+  if (std::all_of(found.begin(), found.end(), [](int count) { return count == 0; })) return {};
+  return found;
+}
+
+Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
+                               const std::vector<int>& integrators, ArxOptions& options) {
+  options.integrators = integrators;
+  options.offset = ArxOffset::kEstimate;
+  for (const double distance : {1e-5, 1e-4, 3e-4, 1e-3}) {
+    options.integrator_pole = 1 - distance;
+    auto fit = fit_arx(recordings, channels, options);
+    if (!fit || !fit->summary.stable.changed || distance == 1e-3) return fit;
+  }
+  return Error{"no pole near 1 is stable in single precision"};
+}
+
+int integrators_in(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
+                   const std::string& output) {
+  const ChannelChoice channels{inputs, {output}};
+  const ArxOptions options{.orders = make_orders({.outputs = 1, .inputs = int(inputs.size())})};
+  const auto plain = fit_arx(recordings, channels, options);
+  if (!plain) return 0;
+  const auto found = find_integrators(recordings, channels, options, *plain);
+  return found.empty() ? 0 : found.front();
+}
+
+}  // namespace wisp::arx
