@@ -115,9 +115,9 @@ void add_dynamics(const ChainModel& chain, ReportSection& section) {
   add(section, "dynamics.transitions", arx::matrix_of(chain.transitions(), static_cast<std::size_t>(chain.modes)));
   add(section, "",
       "chain of " + std::to_string(chain.segments.size()) + " segments" +
-          (chain.modes > 1 ? " in " + std::to_string(chain.modes) + " modes, each by the last " +
-                                 std::to_string(chain.history)
-                           : ""),
+          (chain.modes > 1
+               ? " in " + std::to_string(chain.modes) + " modes, each by the last " + std::to_string(chain.history)
+               : ""),
       "dynamics");
 }
 

@@ -100,16 +100,15 @@ double switched(const Tanks& tanks, int n, int modes) {
 
 void print_linear(const Tanks& tanks) {
   std::printf(
-      "\nRoot mean square error of free simulation on what was not learned from, volt\n   n   ARX    held to the range\n");
+      "\nRoot mean square error of free simulation on what was not learned from, volt\n   n   ARX    held to the "
+      "range\n");
   for (int n = 2; n <= 4; ++n) {
     const Simulated plain = linear(tanks, n);
     std::printf("   %d  %.3f    %.3f\n", n, plain.free, plain.clipped);
   }
 }
 
-void print_choices(const Tanks& tanks) {
-  std::printf("\nWhat rows held out of the learned recording say\n");
-}
+void print_choices(const Tanks& tanks) { std::printf("\nWhat rows held out of the learned recording say\n"); }
 
 double print_switched(const Tanks& tanks) {
   double best = std::numeric_limits<double>::infinity();

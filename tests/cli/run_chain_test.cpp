@@ -73,7 +73,8 @@ TEST_F(RunChain, RefusesWhatItCannotDo) {
     EXPECT_THAT(refused("--steer " + std::string(target)), HasSubstr("expected X,Y,Z@S")) << target;
   }
   EXPECT_THAT(refused("--steer 1,2,3@4 --near 0"), HasSubstr("--near is 0"));
-  EXPECT_THAT(refused("--steer 1,2,3@4", "old.wisp", 1), HasSubstr("can't be steered: it does not say where its segments lead"));
+  EXPECT_THAT(refused("--steer 1,2,3@4", "old.wisp", 1),
+              HasSubstr("can't be steered: it does not say where its segments lead"));
   EXPECT_THAT(refused("--steer 1,2,3@4", "flame.wisp"), HasSubstr("is for segment chains"));
 }
 

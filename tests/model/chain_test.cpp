@@ -53,7 +53,8 @@ void expect_same(const Model& a, const Model& b) {
 }
 
 TEST(ChainModel, WhatIsWrittenIsRead) {
-  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), bounded_chain(), windy_chain(), steered_chain()}) {
+  for (const Model& model :
+       {sample_chain(), sample_chain(ChainMotion::kPosition), bounded_chain(), windy_chain(), steered_chain()}) {
     const auto bytes = model_bytes(model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const auto read = parse_model(*bytes, "chain.wisp");
@@ -89,7 +90,8 @@ Model lengthened(Model model) {
     steps = static_cast<std::uint16_t>(100 * steps);
     for (int step = 0; step <= steps; ++step) {
       const double part = static_cast<double>(step) / steps, half = 0.4 * part;
-      for (double x : {8000 * part, 3000 * part * part, -9900 * part, 32767 * std::cos(half), 32767 * std::sin(half), 0.0, 0.0})
+      for (double x :
+           {8000 * part, 3000 * part * part, -9900 * part, 32767 * std::cos(half), 32767 * std::sin(half), 0.0, 0.0})
         segments.rows.push_back(static_cast<std::int16_t>(std::lround(x)));
     }
   }
@@ -179,10 +181,7 @@ TEST_P(ChainBytes, EveryTruncationAndEveryBitFlipIsAnError) { expect_damage_noti
 TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<std::string, std::function<void(Model&)>>> broken = {
-      {"sum to",
-       [](Model& m) {
-         chain(m).probabilities[3] = 0.4;
-       }},
+      {"sum to", [](Model& m) { chain(m).probabilities[3] = 0.4; }},
       {"not a probability",
        [](Model& m) {
          chain(m).initial = {1.5, -0.5};

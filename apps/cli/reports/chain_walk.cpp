@@ -51,7 +51,8 @@ Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const A
   if (!(target->near >= 0.001F && target->near <= 1000)) {
     return Error{"--near is " + arguments.text("near") + ", expected 0.001 to 1000"};
   }
-  if (!chain->drift) return Error{"the model can't be steered: it does not say where its segments lead; learn it again"};
+  if (!chain->drift)
+    return Error{"the model can't be steered: it does not say where its segments lead; learn it again"};
   return std::optional(*target);
 }
 

@@ -46,7 +46,7 @@ struct ChainSegments {
   std::vector<double> rate_scale;    ///< of velocities and, for poses, of angular velocities; > 0
   std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the segments of that mode that join it best, best
                                       ///< first; empty where breadth is 0
-  int breadth = 0;                               ///< 0: any segment of the mode follows
+  int breadth = 0;                   ///< 0: any segment of the mode follows
   std::vector<std::int16_t> height;  ///< per segment z where it begins, of motion that stays between a floor and a
                                      ///< ceiling: joins lead back to it. Empty: z goes on from where it is
   double height_scale = 0;           ///< metres = scale · height; > 0 where there are heights
@@ -91,8 +91,8 @@ struct ChainModel {
   bool heading_free = true;  ///< segments are turned about z to join; otherwise only moved
   int modes = 0;
   ChainSegments segments;
-  std::vector<double> initial;  ///< per mode: how a recording begins; sums to 1
-  int history = 1;              ///< modes that the next one depends on, 1 or 2
+  std::vector<double> initial;        ///< per mode: how a recording begins; sums to 1
+  int history = 1;                    ///< modes that the next one depends on, 1 or 2
   std::vector<double> probabilities;  ///< rows of one number a mode, each of which sums to 1: what follows mode b is
                                       ///< row b and, where the history is 2, what follows a and then b is row
                                       ///< modes · (1 + a) + b

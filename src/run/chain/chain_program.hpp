@@ -59,21 +59,23 @@ struct ChainProgram {
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;
-  std::span<std::int16_t> height;              ///< per segment; empty: height is free
-  std::span<std::uint32_t> first_of_mode;      ///< per mode its first segment, and one past the last
-  std::span<std::uint32_t> threshold;  ///< states × modes: the first mode whose threshold a word is below is drawn
-  std::span<std::int16_t> lead;        ///< segments × 3; empty: it can't be steered
+  std::span<std::int16_t> height;          ///< per segment; empty: height is free
+  std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
+  std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
+  std::span<std::int16_t> lead;            ///< segments × 3; empty: it can't be steered
   float lead_scale = 0;
   std::array<float, 3> drift{};  ///< metres a second
   float spread_ground = 0;       ///< m² a second
   float spread_height = 0;
-  float mean_steps = 0;      ///< of the segments
-  float memory = 0;          ///< seconds
-  float half_width = 0;      ///< of the body, along its first axis, metres; 0: a point
-  float half_length = 0;     ///< and along its second
+  float mean_steps = 0;   ///< of the segments
+  float memory = 0;       ///< seconds
+  float half_width = 0;   ///< of the body, along its first axis, metres; 0: a point
+  float half_length = 0;  ///< and along its second
 
   std::uint32_t segments() const { return static_cast<std::uint32_t>(mode.size()); }
-  std::uint32_t states() const { return static_cast<std::uint32_t>(threshold.size()) / static_cast<std::uint32_t>(modes); }
+  std::uint32_t states() const {
+    return static_cast<std::uint32_t>(threshold.size()) / static_cast<std::uint32_t>(modes);
+  }
   std::uint32_t state_after(std::uint32_t state, std::uint32_t drawn) const {
     const auto count = static_cast<std::uint32_t>(modes);
     if (history < 2 || state == 0) return 1 + drawn;

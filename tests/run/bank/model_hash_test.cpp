@@ -144,10 +144,7 @@ TEST(ModelHash, TellsChainsApart) {
                   [](Model& m) {
                     chain(m).initial = {0.5, 0.5};
                   }},
-                 {"probability",
-                  [](Model& m) {
-                    chain(m).probabilities[8] = chain(m).probabilities[9] = 0.5;
-                  }},
+                 {"probability", [](Model& m) { chain(m).probabilities[8] = chain(m).probabilities[9] = 0.5; }},
                  {"history",
                   [](Model& m) {
                     chain(m).history = 1;

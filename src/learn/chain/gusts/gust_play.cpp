@@ -118,9 +118,7 @@ struct Angles {
   std::vector<double> all;
   std::vector<double> clear;
 
-  GustDirection direction() const {
-    return {median(all), mean(all), mean(clear)};
-  }
+  GustDirection direction() const { return {median(all), mean(all), mean(clear)}; }
 };
 
 // Everything that is summed over gusts.
