@@ -1,15 +1,28 @@
 #include "wisp/base/result.hpp"
 
 #include <atomic>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 namespace wisp {
 namespace {
 
-void print_and_end(const char* sentence) {
-  std::fprintf(stderr, "wisp: %s\n", sentence);
+// In a page a trap ends the call with its stack; printing would be a tenth of the module.
+[[noreturn]] void end_program() {
+#ifdef __EMSCRIPTEN__
+  __builtin_trap();
+#else
   std::abort();
+#endif
+}
+
+void print_and_end([[maybe_unused]] const char* sentence) {
+#ifndef __EMSCRIPTEN__
+  std::fprintf(stderr, "wisp: %s\n", sentence);
+#endif
+  end_program();
 }
 
 std::atomic<MisuseHandler> handler_of_misuse = print_and_end;
@@ -24,15 +37,23 @@ void report_misuse(const char* sentence) { handler_of_misuse.load()(sentence); }
 
 void end_on_misuse(const char* sentence) {
   report_misuse(sentence);
-  std::abort();
+  end_program();
 }
 
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more) {
   if (found == expected || (or_more && found > expected)) [[likely]]
     return true;
-  char sentence[160];  // the frame path allocates nothing
-  std::snprintf(sentence, sizeof sentence, "%s was given %zu numbers, expected %s%zu", call, found,
-                or_more ? "at least " : "", expected);
+  char sentence[160] = "";  // the frame path allocates nothing
+  const auto add = [&](std::size_t number) {
+    char digits[24] = "";
+    std::to_chars(digits, digits + 23, number);
+    std::strcat(sentence, digits);
+  };
+  std::strncat(sentence, call, 80);
+  std::strcat(sentence, " was given ");
+  add(found);
+  std::strcat(sentence, or_more ? " numbers, expected at least " : " numbers, expected ");
+  add(expected);
   report_misuse(sentence);
   return false;
 }

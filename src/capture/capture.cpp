@@ -87,16 +87,4 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   return wind;
 }
 
-Result<std::vector<Captured>> capture_all(std::span<const std::filesystem::path> paths, ClipCapture options,
-                                          const Progress& progress) {
-  std::vector<Captured> out;
-  for (const std::filesystem::path& path : paths) {
-    auto clip = capture(path, options, progress);
-    if (!clip) return clip.error();
-    if (!options.curve) options.curve = curve_of(clip->recording);
-    out.push_back(*std::move(clip));
-  }
-  return out;
-}
-
 }  // namespace wisp

@@ -2,7 +2,6 @@
 // From a clip's file to a recording: the outline in its picture, joined with the wind in its sound.
 
 #include <filesystem>
-#include <span>
 #include <vector>
 
 #include "wisp/base/progress.hpp"
@@ -35,10 +34,5 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
 ///
 /// Precondition: rate_hz > 0.
 Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, std::size_t frames);
-
-/// Captures clips that are to be learned from together: all have the curve of the first, or `options.curve`.
-/// Errors: as capture(), of the first clip that fails.
-Result<std::vector<Captured>> capture_all(std::span<const std::filesystem::path> paths, ClipCapture options,
-                                          const Progress& progress = {});
 
 }  // namespace wisp

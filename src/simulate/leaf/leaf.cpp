@@ -116,6 +116,4 @@ std::array<double, 3> leaf_normal(const LeafState& state) {
   return leaf::array_of(leaf::rotation_of(leaf::quaternion_of(state.attitude))(leaf::Vec<double>{0, 0, 1}));
 }
 
-double leaf_forward_speed(const LeafState& state) { return state.velocity[1]; }
-
 }  // namespace wisp

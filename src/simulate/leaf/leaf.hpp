@@ -53,7 +53,4 @@ std::array<double, 3> leaf_world_velocity(const LeafState& state);
 /// The leaf's upper side in the world's axes.
 std::array<double, 3> leaf_normal(const LeafState& state);
 
-/// A stall is a zero of this: the speed along the short axis, in the leaf's plane, m/s.
-double leaf_forward_speed(const LeafState& state);
-
 }  // namespace wisp

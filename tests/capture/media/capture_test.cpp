@@ -52,14 +52,6 @@ TEST_F(Capture, AnotherClipsCurveOverridesTheNumberOfPoints) {
   EXPECT_EQ(curve_of(other.recording)->knots, curve->knots);
 }
 
-TEST_F(Capture, ClipsThatAreLearnedFromTogetherShareTheFirstOnesCurve) {
-  const std::vector<std::filesystem::path> paths{folder_.path(), folder_.path()};
-  const auto clips = capture_all(paths, {.rate_hz = 50});
-  ASSERT_TRUE(clips) << clips.error().message;
-  ASSERT_EQ(clips->size(), 2u);
-  EXPECT_EQ(curve_of((*clips)[0].recording)->knots, curve_of((*clips)[1].recording)->knots);
-}
-
 TEST_F(Capture, OptionsOutOfRangeAreRefused) {
   EXPECT_THAT(capture(folder_.path(), {.points = 3, .rate_hz = 50}).error().message, HasSubstr("expected 4 to 64"));
   EXPECT_THAT(capture(folder_.path(), {.frames = FrameRange{1, 400}, .rate_hz = 50}).error().message,

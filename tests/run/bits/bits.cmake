@@ -32,7 +32,7 @@ list(FILTER computing EXCLUDE REGEX "/(cost|chain_loop)[^/]*$")
 list(APPEND computing model/bspline.cpp)
 file(GLOB ground RELATIVE ${SOURCE}/src ${SOURCE}/src/model/*.cpp)
 list(FILTER ground EXCLUDE REGEX "/(bspline|file|.*payload)\\.cpp$")  # on the path; not needed
-list(APPEND ground base/hash.cpp)
+list(APPEND ground base/hash.cpp base/result.cpp)
 
 # One translation unit a folder, as the library has them: most of a small source's compilation is reading headers.
 function(units name sources)
