@@ -222,7 +222,7 @@ class ChainJoins {
     Curves out;
     out.slip[1] = scaled(added(to.slip, from.slip), load<Values>(slope));
     out.slip[0] = from.slip;
-    if (program_.channels < 7) return out;
+    if (program_.channels < 7) return {{}, out.slip};  // what is saved must have been set
     Values shares[4];
     columns_of<N>(row, 0, shares);
     for (std::size_t k = 0; k < 4; ++k) {
