@@ -9,21 +9,15 @@
 namespace wisp {
 namespace {
 
-// In a page a trap ends the call with its stack; printing would be a tenth of the module.
-[[noreturn]] void end_program() {
 #ifdef __EMSCRIPTEN__
-  __builtin_trap();
+// A trap ends the call with its stack; printing would be a tenth of a page's module.
+[[noreturn]] void print_and_end(const char*) { __builtin_trap(); }
 #else
-  std::abort();
-#endif
-}
-
-void print_and_end([[maybe_unused]] const char* sentence) {
-#ifndef __EMSCRIPTEN__
+[[noreturn]] void print_and_end(const char* sentence) {
   std::fprintf(stderr, "wisp: %s\n", sentence);
-#endif
-  end_program();
+  std::abort();
 }
+#endif
 
 std::atomic<MisuseHandler> handler_of_misuse = print_and_end;
 
@@ -37,7 +31,7 @@ void report_misuse(const char* sentence) { handler_of_misuse.load()(sentence); }
 
 void end_on_misuse(const char* sentence) {
   report_misuse(sentence);
-  end_program();
+  print_and_end(sentence);  // where the handler returned
 }
 
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more) {

@@ -210,7 +210,10 @@ Result<void> CsvReader::read_rate(const CsvOptions& options) {
   if (time_) {
     if (auto ok = learn_step(); !ok) return ok;
   }
-  if (header_.rate_hz == 0) header_.rate_hz = options.usual_rate_hz;
+  if (header_.rate_hz == 0 && options.usual_rate_hz > 0) {
+    header_.rate_hz = options.usual_rate_hz;
+    header_.rate_note = {"the table states no rate: taken as " + number_text(header_.rate_hz, 6) + " Hz", true};
+  }
   if (header_.rate_hz == 0) {
     return Error{name_ +
                  ": states no rate; expected a line \"# rate_hz 30\" above the header, a column of time in seconds, or "
@@ -372,6 +375,7 @@ Result<void> CsvReader::read_columns(const CsvOptions& options) {
     const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator_);
     if (options.every_column && text && !own_form_) {
       columns_.push_back({});
+      header_.attributes.push_back({std::string(kNotNumbers), (*names)[k]});
     } else if (auto ok = add_column((*names)[k], options); !ok) {
       return ok;
     }

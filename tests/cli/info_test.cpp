@@ -12,6 +12,7 @@ namespace wisp::info_test {
 namespace {
 
 using Json = nlohmann::json;
+using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 template <class T>
@@ -360,6 +361,27 @@ TEST_F(InfoPlayed, WhatIsNotPlayedIsRefusedInASentence) {
   std::ifstream stream(at("why"));
   std::getline(stream, why);
   EXPECT_NE(why.find("the chain moves a point"), std::string::npos) << why;
+}
+
+class InfoOfATable : public InFolder {};
+
+// What a stranger's table holds, before anybody said what drives what.
+TEST_F(InfoOfATable, SaysWhatItHasToAssume) {
+  std::ofstream(at("plain.csv")) << "heat,temperature,who\n1,2,ann\n3,4,bob\n5,7,ann\n";
+  const Said said = wisp("info " + at("plain.csv"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  for (const char* sentence : {"the table states no rate: taken as 1 Hz", "say --rate HZ or --dt S", "not said",
+                               "'who' is not a column of numbers", "has only 3 rows"}) {
+    EXPECT_THAT(said.out, HasSubstr(sentence));
+  }
+  EXPECT_THAT(said.out, testing::Not(HasSubstr("nothing was found")));
+}
+
+TEST_F(InfoOfATable, ALongTableOfKnownRateHasNothingToSay) {
+  const Said said = wisp("info " WISP_SOURCE_DIR "/examples/load.csv --inputs busy --outputs load");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.out, HasSubstr("nothing was found that spoils a model"));
+  EXPECT_THAT(said.out, HasSubstr("in steps of 5 s"));
 }
 
 }  // namespace

@@ -17,12 +17,14 @@ enum class RemarkKind {
   kConstant,    ///< a channel that never changes
   kRedundant,   ///< a channel that others already tell
   kMissing,     ///< a tenth of the samples or more
+  kShort,       ///< few rows
   kExcitation,  ///< an input that hardly moves
   kFeedback,    ///< an input that is set by the output
   kDelay,       ///< an input that acts late
   kIntegrates,  ///< an output that sums what goes in
   kDrift,       ///< an output that wanders whatever the inputs do
-  kClock,       ///< a clock that was resampled, or whose unit was guessed
+  kClock,       ///< a clock that was resampled, or a rate or unit that was guessed
+  kText,        ///< a column that is not of numbers
 };
 
 /// One remark: a cause and its cure, each a sentence that begins small.

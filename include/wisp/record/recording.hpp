@@ -34,11 +34,13 @@ struct RowFlag {
   std::vector<std::uint8_t> rows;
 };
 
-/// A named fact about the whole recording (a CSV comment line `# NAME VALUE…`).
+/// A named fact about the whole recording (a CSV comment line `# NAME VALUE…`). kNotNumbers names a column that was
+/// left out, since it holds no numbers.
 struct Attribute {
   std::string name;
   std::string value;
 };
+inline constexpr std::string_view kNotNumbers = "not_numbers";
 
 /// Rows [begin, end) of one episode: a stretch that history may cross.
 struct Episode {

@@ -144,10 +144,6 @@ struct CandleClipOptions {
                                 ///< the same to the last bit
 };
 
-/// Puts the candle into the middle of picture and grid and widens the grid by a quarter: room for a flame that leans to
-/// both sides, for a wind with `both_sides`.
-void centre_candle(CandleClipOptions& options);
-
 /// A frame of the clip.
 struct CandleFrame {
   std::uint64_t index = 0;

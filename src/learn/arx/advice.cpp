@@ -26,6 +26,8 @@ using Eigen::VectorXd;
 using Samples = std::vector<double>;
 
 constexpr std::size_t kManyRows = 8192;  // of regressions
+constexpr std::size_t kFewRows = 50;
+constexpr const char* kRoles[] = {"input", "output", "motion"};  // as Role has them
 
 // What is looked at: recordings and their channels.
 struct Subject {
@@ -294,8 +296,17 @@ void look_for_drift(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-void look_at_clock(const Subject& subject, std::vector<Remark>& out) {
+void look_at_table(const Subject& subject, std::vector<Remark>& out) {
   for (const Recording& one : subject.recordings) {
+    if (one.rows() < kFewRows) {
+      out.push_back({RemarkKind::kShort, "", one.source + ": has only " + std::to_string(one.rows()) + " rows",
+                     "record some hundred, or ten for every coefficient"});
+    }
+    for (const Attribute& attribute : one.attributes) {
+      if (attribute.name != kNotNumbers) continue;
+      out.push_back({RemarkKind::kText, attribute.value, quoted(attribute.value) + " is not a column of numbers",
+                     "correct its cells, or leave it out"});
+    }
     if (!one.rate_note.guessed) continue;
     out.push_back({RemarkKind::kClock, "", one.source + ": " + one.rate_note.text,
                    "say --rate HZ or --dt S where that is wrong"});
@@ -313,7 +324,7 @@ void look_for_integrators(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-ReportTable channel_table(const Recording& recording) {
+ReportTable channel_table(const Recording& recording, bool roles_are_said) {
   ReportTable table{"channels",
                     "channels",
                     {{"name", "channel"},
@@ -328,7 +339,7 @@ ReportTable channel_table(const Recording& recording) {
                     {}};
   for (const Channel& channel : recording.channels) {
     const Samples there = present(channel.samples);
-    const char* role = channel.role == Role::kInput ? "input" : channel.role == Role::kOutput ? "output" : "motion";
+    const char* role = roles_are_said ? kRoles[static_cast<std::size_t>(channel.role)] : "not said";
     auto& row = table.rows.emplace_back(std::vector<ReportValue>{channel.name, role, channel.unit});
     if (there.empty()) {
       row.resize(7);
@@ -352,7 +363,7 @@ std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std:
   const Subject subject{recordings, inputs, outputs};
   look_at_samples(subject, out);
   look_for_redundancy(subject, out);
-  look_at_clock(subject, out);
+  look_at_table(subject, out);
   const bool spoiled =
       std::any_of(out.begin(), out.end(), [](const Remark& one) { return one.kind <= RemarkKind::kOutliers; });
   if (!inputs.empty() && !outputs.empty() && !spoiled) {
@@ -388,7 +399,7 @@ Report advise(const Recording& recording) {
            recording.rate_note.text.empty() ? "as the file or the flags say" : recording.rate_note.text);
   arx::add(section, "rows", recording.rows(), "rows", "", number_text(rows / recording.rate_hz, 5) + " s");
   arx::add(section, "episodes", episodes(recording).size(), "episodes");
-  section.tables.push_back(channel_table(recording));
+  section.tables.push_back(channel_table(recording, !inputs.empty()));
   ReportTable table{"remarks",
                     "what will spoil a model",
                     {{"kind", ""}, {"channel", ""}, {"cause", "what"}, {"cure", "what to do"}},
@@ -398,9 +409,9 @@ Report advise(const Recording& recording) {
   }
   if (table.rows.empty()) table.label.clear();
   arx::add_line(section, "remarks", table.rows.size(),
-                table.rows.empty() ? "nothing was found that spoils a model"
-                : inputs.empty()   ? "say --inputs and --outputs to hear of excitation, feedback and delays"
-                                   : "");
+                inputs.empty()       ? "of samples and clock; with --inputs and --outputs also of what drives what"
+                : table.rows.empty() ? "nothing was found that spoils a model"
+                                     : "");
   section.tables.push_back(std::move(table));
   for (const Channel& channel : recording.channels) {
     section.series.push_back({"channel." + arx::as_id(channel.name), channel.name, "time, s", channel.unit,

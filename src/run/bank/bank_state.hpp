@@ -100,8 +100,7 @@ struct Bank::State {
   Channels channels;
   Stepper stepper;
   ShapeProgram shape;
-  std::size_t
-      visible;  // number of outputs that a host reads: of control points, where the dynamics move components of a shape
+  std::size_t visible;  // outputs that a host reads: of control points, where the dynamics move a shape's components
   PolylineProgram polyline;
   ExtinctionProgram extinction;
 

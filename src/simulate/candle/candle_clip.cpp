@@ -242,12 +242,6 @@ Result<void> check(const CandleClipOptions& o) {
 
 }  // namespace
 
-void centre_candle(CandleClipOptions& options) {
-  options.rig.position = 0.5;
-  options.rig.columns = options.rig.columns * 5 / 4 / 16 * 16;
-  options.camera.wick_x = 0.5;
-}
-
 Result<Recording> simulate_candle(const CandleClipOptions& options, const CandleClipOutputs& outputs) {
   if (auto good = check(options); !good) return good.error();
   auto wind = options.wind_recording ? WindSignal::from_recording(*options.wind_recording, options.wind_channel)

@@ -143,13 +143,5 @@ TEST(CandleClip, SaysWhichOptionIsWrong) {
   EXPECT_THAT(simulate_candle(options, {}).error().message, HasSubstr("noise"));
 }
 
-TEST(CandleClip, ACandleInTheMiddleHasRoomOnBothSides) {
-  CandleClipOptions options;
-  centre_candle(options);
-  EXPECT_EQ(options.rig.columns, 80);
-  EXPECT_TRUE(CandleRig::create(options.rig));
-  EXPECT_DOUBLE_EQ(options.camera.wick_x, 0.5);
-}
-
 }  // namespace
 }  // namespace wisp::candle_clip_test

@@ -53,7 +53,7 @@ std::string acts_at_once(const VerdictEvidence& evidence) {
 
 // Whether a remark explains a model that simulates badly: what the model already minds does not.
 bool explains(const Remark& remark, const VerdictEvidence& evidence) {
-  if (remark.kind == RemarkKind::kClock) return false;
+  if (remark.kind >= RemarkKind::kClock) return false;
   const auto place = [&](const std::vector<std::string>& names) {
     return int(std::find(names.begin(), names.end(), remark.channel) - names.begin());
   };
