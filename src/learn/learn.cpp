@@ -12,29 +12,28 @@ namespace {
 
 using Recordings = std::span<const Recording>;
 
-Result<Fit> learn_as(const ArxRecipe& recipe, Recordings recordings, const Progress& progress) {
-  return learn_arx(recordings, recipe, progress);
-}
-Result<Fit> learn_as(const SwitchedRecipe& recipe, Recordings recordings, const Progress& progress) {
-  return learn_switched(recordings, recipe, progress);
-}
-Result<Fit> learn_as(const FlickerRecipe& recipe, Recordings recordings, const Progress& progress) {
-  return learn_flicker(recordings, recipe, progress);
-}
-Result<Fit> learn_as(const OutlineRecipe& recipe, Recordings recordings, const Progress& progress) {
-  return learn_outline(recordings, recipe, progress);
-}
-Result<Fit> learn_as(const ChainRecipe& recipe, Recordings recordings, const Progress& progress) {
-  return learn_chain(recordings, recipe, progress);
-}
+struct Learning {
+  Recordings recordings;
+  const Progress& progress;
+
+  Result<Fit> by(const ArxRecipe& recipe) const { return learn_arx(recordings, recipe, progress); }
+  Result<Fit> by(const SwitchedRecipe& recipe) const { return learn_switched(recordings, recipe, progress); }
+  Result<Fit> by(const FlickerRecipe& recipe) const { return learn_flicker(recordings, recipe, progress); }
+  Result<Fit> by(const OutlineRecipe& recipe) const { return learn_outline(recordings, recipe, progress); }
+  Result<Fit> by(const ChainRecipe& recipe) const { return learn_chain(recordings, recipe, progress); }
+};
 
 }  // namespace
 
 Result<Fit> learn(Recordings recordings, const Recipe& recipe, const Progress& progress) {
   if (recordings.empty()) return Error{"there are no recordings to learn from"};
-  auto fit = std::visit([&](const auto& kind) { return learn_as(kind, recordings, progress); }, recipe);
+  const Learning learning{recordings, progress};
+  auto fit = std::visit([&](const auto& kind) { return learning.by(kind); }, recipe);
   if (!fit) return fit;
   complete(*fit);
+  for (const Recording& one : recordings) {
+    if (one.rate_note.guessed) fit->report.warnings.push_back(one.source + ": " + one.rate_note.text);
+  }
   return fit;
 }
 

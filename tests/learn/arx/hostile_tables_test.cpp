@@ -130,6 +130,9 @@ TEST_F(HostileTables, TimeInMillisecondsIsToldOf) {
   EXPECT_DOUBLE_EQ(recording.rate_hz, 100);
   EXPECT_THAT(recording.rate_note.text, HasSubstr("taken as milliseconds"));
   EXPECT_THAT(remarks(recording), remark(RemarkKind::kClock));
+  const auto fit = learned({recording}, {.na = 1, .nb = 1});
+  ASSERT_TRUE(fit);
+  EXPECT_THAT(fit->report.warnings, Contains(HasSubstr("taken as milliseconds")));
 }
 
 TEST_F(HostileTables, AJitteredClockIsResampledWithItsError) {
@@ -137,7 +140,9 @@ TEST_F(HostileTables, AJitteredClockIsResampledWithItsError) {
   EXPECT_NEAR(recording.rate_hz, 1, 0.01);
   EXPECT_THAT(recording.rate_note.text,
               AllOf(HasSubstr("resampled by straight lines"), HasSubstr("% of a channel's deviation")));
-  EXPECT_TRUE(learned({recording}, {.na = 1, .nb = 1}));
+  const auto fit = learned({recording}, {.na = 1, .nb = 1});
+  ASSERT_TRUE(fit);
+  EXPECT_THAT(fit->report.warnings, Contains(HasSubstr("the clock is uneven by")));
 }
 
 TEST_F(HostileTables, DatesSayTheRate) {
