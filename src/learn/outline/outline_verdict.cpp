@@ -67,17 +67,18 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
       {rows, Bound::kAtLeast, 50,
        "learned from {figure} frames; at least {limit} are needed to tell flicker from chance: record longer", 0},
       {100 * trial.unsteadiness, Bound::kAtMost, 50,
-       "neighbouring frames are hardly more alike than frames picked at random (they differ by {figure} % of what "
-       "those "
-       "do, at most {limit}): the outline is more noise than movement; film it larger, sharper or at a higher rate",
+       "neighbouring frames differ by {figure} % of what frames picked at random do, at most {limit}: the outline is "
+       "more noise than movement; film it larger, sharper or at a higher rate",
        0},
       // Shapes at the edge of the recorded ones are clamped, which nobody sees; films whose play has no foreign shape
       // have up to 21. What runs away is clamped in hundreds.
       {1000 * trial.held_share, Bound::kAtMost, 50,
        "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1},
-      {spread, Bound::kAtLeast, 0.5,
-       "playing freely it moves {figure} times as much as the recording does, at least {limit}: record longer", 2},
-      {spread, Bound::kAtMost, 2,
+      // A play should spread by 0.8 to 1.25 of the recording; two plays of a short one differ by 0.1.
+      {spread, Bound::kAtLeast, 0.7,
+       "playing freely it moves {figure} times as much as the recording, at least {limit}: use a steady part, --frames",
+       2},
+      {spread, Bound::kAtMost, 1.4,
        "playing freely it moves {figure} times as much as the recording does, at most {limit}: record longer", 2},
       {100 * (trial.crossed - trial.crossed_recorded), Bound::kAtMost, 1,
        "playing freely its outline crosses itself in {figure} % of frames more than in the recording, at most {limit}: "
@@ -88,8 +89,7 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        0},
       {share_of_way(trial.half_second), Bound::kAtMost, 1,
        "over half a second it plays no more like the recording than the recording's frames in random order do "
-       "({figure} of the way from the recording's halves to those, at most {limit}): record longer, or something that "
-       "moves more steadily",
+       "({figure} of the way from the recording's halves to those, at most {limit}): record longer",
        2},
       {share_of_way(trial.two_seconds), Bound::kAtMost, 1,
        "over two seconds it plays no more like the recording than the recording's frames in random order do ({figure} "

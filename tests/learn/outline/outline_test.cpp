@@ -11,6 +11,7 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_knots.hpp"
 #include "learn/outline/outline_synthesis.hpp"
+#include "learn/outline/outline_verdict.hpp"
 #include "model/bspline.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
@@ -95,6 +96,16 @@ TEST(Outline, PlayingFreelyItMovesAsMuchAsTheRecording) {
   const OutlineFit fit = learned({.rows = 2000});
   for (double ratio : fit.summary.trial.sd_ratio) EXPECT_NEAR(ratio, 1, 0.25);
   EXPECT_TRUE(fit.summary.usable.verdict) << fit.summary.usable.reason;
+}
+
+TEST(Outline, APlayThatMovesFarLessOrMoreThanTheRecordingIsNotUsable) {
+  OutlineSummary summary = learned({.rows = 2000}).summary;
+  for (const auto& [ratio, usable] : {std::pair{0.65, false}, {0.75, true}, {1.3, true}, {1.5, false}}) {
+    summary.trial.sd_ratio.assign(summary.trial.sd_ratio.size(), ratio);
+    const Usable verdict = outline_verdict(summary);
+    EXPECT_EQ(verdict.verdict, usable) << verdict.reason;
+    EXPECT_NE(verdict.reason.find("playing freely it moves"), std::string::npos) << verdict.reason;
+  }
 }
 
 TEST(Outline, TheEndsOfTheBaseStayMirrorImages) {
