@@ -146,7 +146,7 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
   terminal.show(fit->report);
   terminal.add("output", {});
-  if (output.empty()) return {};  // the report is all that was asked for
+  if (output.empty()) return {};  // without --output, only the report is written
   return Error{output + " was not written: an unstable model cannot be played" +
                (std::filesystem::exists(output) ? "; the file of that name is an older one" : "")};
 }

@@ -417,7 +417,7 @@ describe('the page', { skip }, () => {
     });
   }
 
-  it('ducks once as whoever comes in has breathed, and not for who asked for less motion', async () => {
+  it('ducks once when a visitor arrives, but not where the visitor prefers less motion', async () => {
     const before = () => {
       window.most = 0;
       const look = () => {
@@ -457,7 +457,7 @@ describe('the page', { skip }, () => {
     assert.equal(await page.evaluate(() => localStorage.length + sessionStorage.length + document.cookie.length), 0);
   });
 
-  it('is calmer for who asked for less motion', async () => {
+  it('is calmer where the visitor prefers less motion', async () => {
     const calm = await opened.page('#scene=candle&seed=3&detail=0.5', { reducedMotion: 'reduce' });
     await calm.keyboard.press('i');
     await until(calm, 'the drawer is open', () => !document.getElementById('drawer').hidden);

@@ -155,7 +155,7 @@ describe('tuning', { skip }, () => {
     });
     const other = ids.at(-1);
     await page.selectOption('#tuning-microphone', other);
-    await until(page, 'it was asked for', () => window.asked !== undefined);
+    await until(page, 'the chosen microphone is opened', () => window.asked !== undefined);
     assert.deepEqual(await page.evaluate(() => window.asked), { exact: other });
     await until(page, 'it listens', () => window.wisp.hearing === 'listening');
     await page.keyboard.press('Escape');

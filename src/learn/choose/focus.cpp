@@ -16,11 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kManyRows = 8192;                     // above this, candidates are compared
-constexpr std::size_t kRowsOfMany = 4096;                   // on so many rows
-constexpr double kMaxKernelWork = 2e7;                      // sum of the cubes of the rows' numbers of coefficients
-constexpr double kWorthIt = 0.02;                           // of the squared error: a gain below is no reason
-constexpr int kRowsALag = 10;                               // a stretch is that much longer than a kernel's lags
+constexpr std::size_t kManyRows = 8192;    // with more rows, candidates are compared
+constexpr std::size_t kRowsOfMany = 4096;  // on this many of them
+constexpr double kMaxKernelWork = 2e7;     // sum of the cubes of the rows' numbers of coefficients
+constexpr double kWorthIt = 0.02;          // of the squared error: a gain below is no reason
+constexpr int kRowsALag = 10;              // a stretch must be this many times longer than a kernel's lags
 constexpr double kMeasuredStarts[] = {0, 0.25, 0.5, 0.75};  // shares of a held-out recording at which runs start
 
 ArxOrders decoupled_orders(ArxOrders orders) {
@@ -178,8 +178,8 @@ class Chooser {
  private:
   const std::vector<FocusCandidate>& candidates() const { return blocks_.front().choice.candidates; }
 
-  // A kernel is tried where every stretch is long beside it, nothing else draws the coefficients in, and the
-  // coefficients are few enough for the time that a kernel takes.
+  // A kernel is tried where every stretch is long compared with it, no other prior is set, and the coefficients are few
+  // enough for the time that a kernel takes.
   bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders, int lags) const {
     if (options_.ridge > 0) return false;
     double work = 0;
@@ -252,7 +252,7 @@ class Chooser {
   std::vector<Block> blocks_;
 };
 
-// Why there is nothing to choose, or nothing.
+// The reason why there is nothing to choose; empty where there is a choice.
 std::string obstacle(const ArxOptions& options, const ArxFit& plain, ArxFocus focus) {
   const auto& nb = options.orders.nb.values();
   const auto& na = options.orders.na.values();

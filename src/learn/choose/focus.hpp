@@ -23,7 +23,7 @@ inline constexpr int kKernelLags[] = {15, 30};
 /// One candidate for outputs that feed each other, and its errors over held-out free runs.
 struct FocusCandidate {
   int kernel_lags = 0;         ///< under the TC kernel; 0: least squares at the given orders
-  bool decoupled = false;      ///< every output remembers itself only
+  bool decoupled = false;      ///< every output has feedback from itself alone
   double estimated_error = 0;  ///< root mean square as a share of the outputs' deviation, from the best initial state
   double measured_error = 0;   ///< the same from measured samples
 };

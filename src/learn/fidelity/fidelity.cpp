@@ -17,7 +17,7 @@ constexpr double kVerbatimTolerance = 0.02;  // in standard deviations of a chan
 
 using Stretches = std::vector<Stretch>;
 
-// Lengths that one comparison and its two bounds share, so that they can be read side by side.
+// Lengths of windows and stretches, common to a comparison and its two bounds, so that the three are comparable.
 struct Lengths {
   double rate_hz = 0;
   std::size_t welch = 0;

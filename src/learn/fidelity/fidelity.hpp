@@ -23,7 +23,7 @@ struct FidelityOptions {
   std::uint64_t seed = 1;
 };
 
-/// A measure and what it is worth.
+/// A measure between its two bounds.
 struct Bounded {
   double value = 0;    ///< real against synthesized
   double floor = 0;    ///< real against real: one half of the recordings against the other, or of a single one in time

@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-// Behaviour remembers, and neighbouring blocks touch. Measured on a resonance against itself (80 seeds, memory of a
+// Behaviour has memory, and neighbouring blocks touch. Measured on a resonance against itself (80 seeds, memory of a
 // window): with blocks of four windows a tenth of the p-values fall below 0.05, still somewhat too many.
 constexpr std::size_t kBlockWindows = 4;
 
@@ -65,7 +65,7 @@ double energy_distance(const Pool& pool, std::span<const std::uint8_t> in_y) {
   return (across - xx / (n * n) - yy / (m * m)) / across;
 }
 
-// Deals whole blocks to the two sides anew, as many to y as there were.
+// Exchanges whole blocks between the two sides at random; y keeps its number of blocks.
 std::vector<std::uint8_t> dealt(const Pool& pool, std::vector<std::size_t>& order, std::size_t blocks_of_y,
                                 std::mt19937_64& random) {
   shuffle(std::span(order), random);
@@ -88,9 +88,9 @@ void append_window(const Stretch& stretch, std::size_t first, std::size_t rows, 
 
 constexpr double kThinnedHz = 15;
 constexpr int kBands = 13;
-constexpr std::size_t kMinWindows = 8;           // a side: fewer tell chance
+constexpr std::size_t kMinWindows = 8;           // a side: with fewer, chance rules
 constexpr double kTailShares[] = {0.99, 0.999};  // of the sizes of second differences
-constexpr std::size_t kMinTail = 1000;           // rows that a percentile of 99.9 wants
+constexpr std::size_t kMinTail = 1000;           // fewest rows for the 99.9th percentile
 
 // Bands [first, last) of frequencies that grow by a factor, each at least one wide.
 std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencies) {
@@ -107,7 +107,7 @@ std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencie
 }
 
 void append_spectra(const Stretch& stretch, std::size_t first, std::size_t rows, std::vector<double>& out) {
-  constexpr double kMin = 1e-12;  // of nothing that moves
+  constexpr double kMin = 1e-12;  // the power of a channel that does not move
   for (std::size_t c = 0; c < stretch.channels; ++c) {
     std::vector<double> samples(rows);
     for (std::size_t t = 0; t < rows; ++t) samples[t] = stretch(first + t, c);

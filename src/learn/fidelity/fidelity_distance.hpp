@@ -13,8 +13,8 @@
 
 namespace wisp {
 
-/// Windows of behaviour, each described by the same numbers. Windows that overlap or lie close together are alike for
-/// that reason alone: they share a block.
+/// Windows of behaviour, each described by the same features. Windows that overlap or lie close together are
+/// correlated: they belong to one block.
 struct FeatureWindows {
   std::size_t features = 0;
   std::vector<double> values;       ///< windows × features, row-major

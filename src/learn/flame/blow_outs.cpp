@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kUsual = 0.95;        // share of the wind that is lived in
+constexpr double kUsual = 0.95;        // percentile of the wind in which the flame burns
 constexpr double kMinGone = 0.5;       // seconds: a flame that comes back by itself does so sooner
 constexpr double kLookedBack = 0.6;    // seconds before that in which wind may have killed it
 constexpr double kMinBlown = 0.15;     // seconds over which that wind is averaged: hiss has peaks, wind lasts
@@ -52,7 +52,7 @@ std::vector<double> averaged(const std::vector<double>& samples, std::size_t win
   return out;
 }
 
-// What the flame lives in: the wind where it is there and not about to go.
+// The wind in which the flame burns: where it is seen and is not about to go out.
 double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone, std::size_t looked_back) {
   std::vector<double> lived;
   std::size_t next = 0;
@@ -64,7 +64,7 @@ double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone,
   return quantile(lived, kUsual);
 }
 
-// The row where the wind that blew the flame out began: when it last was half as strong as at its strongest.
+// The row at which the wind that blew the flame out began: where it last had half of its peak strength.
 std::size_t onset(const Recording& recording, const BlowOut& blow_out) {
   const std::size_t back = std::min(blow_out.gone, rows_of(kLookedBack, recording.rate_hz));
   std::size_t first = blow_out.gone;

@@ -1,8 +1,8 @@
 #pragma once
-// Where in a recording a flame went out, and what is left of the recording without that.
+// Finds where in a recording a flame was blown out, and removes those parts.
 //
-// A recording says nothing of the kind itself: its outline is missing for a while, as it is where a clip fades or a
-// hand covers it. The wind just before distinguishes them.
+// A recording does not say so itself: its outline is missing for a while, as it is where a clip fades or a hand covers
+// the flame. The wind just before tells them apart.
 
 #include <span>
 #include <string>
@@ -17,15 +17,15 @@ namespace wisp {
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with one again; the number of rows where it stays away
-  double wind = 0;       ///< strongest that blew then, averaged over 0.15 s, in the recording's unit
-  bool blown = false;    ///< whether that is more than 95 % of what the flame was seen to live in
+  double wind = 0;       ///< strongest wind before it, averaged over 0.15 s, in the recording's unit
+  bool blown = false;    ///< whether that exceeds 95 % of the wind in which the flame was seen to burn
 };
 
-/// Rows of so many seconds, at least one.
+/// Number of rows in `seconds`, at least one.
 std::size_t rows_of(double seconds, double rate_hz);
 
-/// Finds the stretches without an outline of 0.5 s or more, in their order. One at the recording's start is left
-/// out: nobody saw the flame go.
+/// Finds the stretches without an outline of 0.5 s or more, in their order. A stretch at the recording's start is
+/// left out, since the flame was not seen to go out.
 /// Errors: not a recording of an outline, no such input.
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 

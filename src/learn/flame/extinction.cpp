@@ -16,13 +16,13 @@ constexpr int kDurations = 40;
 constexpr double kShortest = 0.02;  // seconds
 constexpr double kLongest = 4;
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
-constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // harm taken back a second, as a share of what the level does
+constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // recovery a second, as a share of the level's harm
 
-// What an error costs. A gust that is judged wrongly costs 1; a death that comes early or late by 0.1 s, 0.3.
+// The cost of errors. A gust that is judged wrongly costs 1, a death that is early or late by 0.1 s 0.3.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
-// Rules that cost so little more than the best do as well: nearly nothing, and an error more for every fifty that could
-// be made, since the grid does not hold the true rule and no sensor hears the true wind.
+// Rules whose cost exceeds the least by no more than this are as good: nearly nothing, plus one error for every fifty
+// possible ones, since the grid does not contain the true rule and no sensor measures the true wind.
 constexpr double kAsWell = 0.25;
 constexpr double kAsWellEach = 0.02;
 
@@ -38,10 +38,10 @@ struct Shape {
   }
 };
 
-// What a shape does in the recordings, before a duration is chosen.
+// The harm that a shape does in the recordings, before a duration is chosen.
 struct Harms {
-  std::vector<double> gusts;                // most harm in each that was survived
-  std::vector<std::vector<double>> deaths;  // harm from where each is watched, row by row
+  std::vector<double> gusts;                // largest harm in each gust that was survived
+  std::vector<std::vector<double>> deaths;  // harm in the rows in which each death is expected
   std::vector<double> first;                // seconds from a death's first watched row to where it was gone
   std::vector<double> step;                 // seconds of a row
 };
@@ -88,7 +88,7 @@ double cost_of(const Harms& harms, double seconds) {
   return cost;
 }
 
-// What speaks against a rule before anything was seen: far less than one error.
+// A weak prior on rules, far less than the cost of one error.
 double remarkable(const Shape& shape, double middle) {
   const Extinction usual;
   const auto square = [](double x) { return x * x; };
@@ -138,7 +138,7 @@ Extinction rule_of(const Trial& trial) {
   return rule;
 }
 
-// Harm of the next row by a whole rule.
+// The harm in the next row under a complete rule.
 double harmed(const Extinction& rule, double harm, double wind, double step) {
   const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
   constexpr double kMaxHarm = 0.5;  // of a step, as a bank has it
@@ -163,7 +163,7 @@ void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& 
       killed[gust] = true;
       harm = 0;
     } else {
-      harm = 1;  // what the rise of a gust has put out doesn't live through the gust
+      harm = 1;  // a flame that the rise of a gust has put out does not survive the gust
     }
   }
   out.died += died ? 1 : 0;

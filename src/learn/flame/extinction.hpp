@@ -18,23 +18,23 @@
 
 namespace wisp {
 
-/// A recording, what blew in it, and where the flame went out.
+/// A recording, its wind, and where the flame went out.
 struct ExtinctionEvidence {
   const Recording* recording = nullptr;
-  std::string input;               ///< the channel that blows
-  double scale = 1;                ///< its value that is 1 in the model, > 0
+  std::string input;               ///< the channel of the wind
+  double scale = 1;                ///< the channel's value that is 1 in the model, > 0
   std::vector<BlowOut> blow_outs;  ///< of find_blow_outs()
-  double decay = 0;                ///< seconds that a flame takes to vanish: that long before it was gone it went out
+  double decay = 0;                ///< seconds that a flame takes to vanish; it went out that long before it was gone
 };
 
-/// How a rule does on recordings. A gust is wind of at least half of what killed, with calmer wind around it; without
-/// deaths, of at least half of the strongest.
+/// The agreement of a rule with recordings. A gust is wind of at least half of the strength that killed, between calmer
+/// winds; in recordings without deaths, of at least half of the strongest.
 struct ExtinctionAgreement {
-  std::size_t deaths = 0;            ///< that the recordings have
-  std::size_t died = 0;              ///< of them, where the rule has the flame die within half a second as well
-  std::size_t gusts = 0;             ///< that the flame lived through
-  std::size_t spared = 0;            ///< of them, where it lives by the rule
-  std::vector<double> late_seconds;  ///< of each that died: by how much after it was gone from the recording
+  std::size_t deaths = 0;            ///< number of deaths in the recordings
+  std::size_t died = 0;              ///< deaths that the rule reproduces within half a second
+  std::size_t gusts = 0;             ///< number of gusts that the flame survived
+  std::size_t spared = 0;            ///< gusts that it survives under the rule
+  std::vector<double> late_seconds;  ///< for each reproduced death: how long after the recorded one
   double strongest_survived = 0;     ///< wind averaged over 0.15 s, in the model's units; 0: no gust
 
   /// Median of |late_seconds|; 0 where none died.
@@ -49,17 +49,17 @@ ExtinctionAgreement agreement(const Extinction& rule, std::span<const Extinction
 /// A learned rule and how sure it is.
 struct ExtinctionFit {
   Extinction rule;                        ///< level in the model's units
-  std::array<double, 2> level_range{};    ///< of all rules that do as well
+  std::array<double, 2> level_range{};    ///< over all rules that are as good
   std::array<double, 2> seconds_range{};  ///< likewise
-  ExtinctionAgreement agreement;          ///< of the rule with what it was learned from
+  ExtinctionAgreement agreement;          ///< with the recordings that it was learned from
 };
 
 /// Learns a rule from recordings with at least one death.
 /// Errors: no death in any of them, or no rule that reproduces more than half of the deaths.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
-/// The rule for a flame of which no death was recorded: the default, its level raised until all that was survived is
-/// survived by it, with a quarter to spare.
+/// The rule for a flame that was never seen to go out: the default with its level raised until every recorded gust is
+/// survived with a quarter to spare.
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence);
 
 }  // namespace wisp

@@ -41,7 +41,7 @@ RampTraining set_ramp(const std::optional<RampFit>& fit, double& seconds) {
   return {Origin::kLearned, static_cast<std::uint32_t>(fit->events), fit->seconds_ci95, fit->error};
 }
 
-// What is said is what happens: no haste.
+// A rule that the recipe gives is used as it is, without haste.
 Extinction given_rule(const ExtinctionRecipe& recipe) {
   return {.level = recipe.level, .seconds = recipe.seconds, .haste = 0, .recovery = recipe.seconds};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Recordings in which a flame may have been put out: what is learned from them of burning, and of extinction.
+// Recordings in which a flame may have been put out: its burning and its rule of extinction are learned from them.
 
 #include <optional>
 #include <span>
@@ -17,7 +17,7 @@ namespace wisp {
 
 /// A model's rule of extinction, and what the recordings say of it.
 struct LearnedExtinction {
-  std::string input;  ///< that puts it out
+  std::string input;  ///< the channel whose wind puts it out
   Origin origin = Origin::kDefault;
   std::optional<ExtinctionFit> fit;  ///< where the rule was learned
   ExtinctionAgreement agreement;     ///< of the rule with the recordings
@@ -50,7 +50,7 @@ class ExtinguishedRecordings {
   std::vector<std::vector<BlowOut>> found_;
 };
 
-/// How a model's rule does on a recording that it was not learned from.
+/// The agreement of a model's rule with a recording that it was not learned from.
 struct JudgedExtinction {
   ExtinctionAgreement agreement;
   std::size_t unexplained = 0;
@@ -62,8 +62,7 @@ struct JudgedExtinction {
 Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, const Recording& recording,
                                                          bool own_scale);
 
-/// The recording without what a model's rule of extinction speaks of, as it was learned from; all of it where the model
-/// has none.
+/// The recording without extinctions, as the model was learned from; the whole of it where the model has no rule.
 /// Errors: as find_blow_outs().
 Result<Recording> burning_part(const Model& model, const Recording& recording);
 

@@ -8,10 +8,10 @@
 namespace wisp {
 namespace {
 
-constexpr double kWatchedBefore = 0.5;  // seconds before it was gone in which a death counts as that one,
-constexpr double kWatchedAfter = 0.5;   // and after: capture loses a dying flame early
+constexpr double kWatchedBefore = 0.5;  // a death counts as the recorded one from so many seconds before that
+constexpr double kWatchedAfter = 0.5;   // to so many after: capture loses a dying flame early
 constexpr double kAveraged = 0.15;      // seconds
-constexpr double kGustShare = 0.5;      // of the weakest wind that killed
+constexpr double kGustShare = 0.5;      // a gust has at least this share of the weakest wind that killed
 constexpr double kOneGust = 0.15;       // seconds of calmer wind within a gust
 
 // Rows in which a flame that has gone out is still seen, as a bank shows it: its first step of decay is a row.

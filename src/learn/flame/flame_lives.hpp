@@ -11,7 +11,7 @@ namespace wisp {
 
 /// Rows [begin, end) of a life, or of a gust, in the samples of one recording.
 struct WindSpan {
-  const double* wind = nullptr;  ///< of the recording's first row; strengths in the model's units, missing ones 0
+  const double* wind = nullptr;  ///< strengths in the model's units from the recording's first row on, 0 where missing
   std::size_t begin = 0;
   std::size_t end = 0;
 };
@@ -21,9 +21,9 @@ struct FlameLife {
   WindSpan rows;  ///< ends where the flame was gone
   double rate_hz = 0;
   bool died = false;
-  std::size_t watched = 0;        ///< of one that died: from here on its death is looked for,
-  std::size_t until = 0;          ///< up to here, past its end as far as the recording goes
-  std::vector<WindSpan> gusts{};  ///< that it lived through
+  std::size_t watched = 0;        ///< first row in which its death may be found,
+  std::size_t until = 0;          ///< and one past the last; later than its end, within the recording
+  std::vector<WindSpan> gusts{};  ///< gusts that it survived
 };
 
 class FlameLives {

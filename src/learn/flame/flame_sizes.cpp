@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kDecaySeen = 0.6;     // seconds before it is gone; what came before belongs to the gust
+constexpr double kDecaySeen = 0.6;     // seconds before it is gone; earlier changes belong to the gust
 constexpr double kReIgnitionSeen = 2;  // seconds after it is seen again
 constexpr double kGridStep = 1.02;     // of durations: finer than a row tells
 
@@ -26,8 +26,8 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
   return std::sqrt(std::abs(twice) / 2);
 }
 
-// A ramp to be fitted. A bank dies in whole steps from a full size; a recorded flame begins anywhere between two rows,
-// in the mean half a row from the first, and what a bank shows of its last step jumps where a duration passes a row.
+// A ramp to be fitted. In a bank a flame dies in whole steps from full size; a recorded one begins half a row after the
+// first on average, and the size in a bank's last step jumps where a duration passes a row.
 double fitted_size(SizeChange change, double seconds, double rate_hz, std::size_t row) {
   if (change == SizeChange::kReIgnition) return ramp_size(change, seconds, rate_hz, row);
   return std::min(1.0, (static_cast<double>(row) + 0.5) / (seconds * rate_hz));

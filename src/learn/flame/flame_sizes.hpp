@@ -17,7 +17,7 @@
 
 namespace wisp {
 
-/// Which way a size goes.
+/// The direction in which a size changes.
 enum class SizeChange {
   kDecay,       ///< to nothing
   kReIgnition,  ///< from nothing
@@ -42,8 +42,8 @@ struct SizeCurve {
 std::vector<SizeCurve> size_curves(const Recording& recording, std::span<const double> sizes,
                                    std::span<const BlowOut> blow_outs, SizeChange change);
 
-/// What a bank shows `row` rows away from nothing where the whole change takes `seconds`. Dying begins with a step from
-/// a full size, so that what is left before the last one is a part of a step.
+/// The size in a bank `row` rows away from nothing, where the whole change takes `seconds`. Dying begins with a step
+/// from full size, so the remainder before the last step is a part of a step.
 ///
 /// Precondition: rate_hz > 0, seconds >= 0.
 double ramp_size(SizeChange change, double seconds, double rate_hz, std::size_t row);

@@ -18,7 +18,7 @@ ReportSection gain_section(const std::vector<double>& factors) {
   return {"Gain of the inputs", {{"gain.factors", factors, "winds on one scale, times", ""}}};
 }
 
-// Whether no input of any recording stands out from chance in the motion.
+// Whether the motion is not significantly correlated with any input of any recording.
 bool driven_by_nothing(const OutlineSummary& summary) {
   const auto stands_out = [](const InputAlignment& one) {
     return one.found.chance > 0 && std::abs(one.found.correlation) >= one.found.chance;
@@ -50,9 +50,8 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
   return fit;
 }
 
-// Most films have sound, and in most of them nobody blows. Where nobody said what drives the outline, an input that is
-// silent, or that has nothing in common with the motion, is left out: a few seconds of held-out motion are followed by
-// any wind now and then.
+// Most films have sound, and in most of them nobody blows. Where the caller did not name the inputs, an input that is
+// silent or unrelated to the motion is left out: over a few seconds of held-out motion any wind may seem to help.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
@@ -68,7 +67,7 @@ Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const 
   return flicker;
 }
 
-// However well a model follows an outline, it is no better than the outline.
+// A model is no better than the outline that it was learned from.
 void refuse_what_capture_refused(std::span<const Recording> recordings, OutlineFit& fit) {
   for (const Recording& recording : recordings) {
     const auto verdict = verdict_of(recording);

@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kSameGain = 0.02;  // factors nearer to 1 than this are not worth a word
+constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
 Result<OutlineRows> outline_rows(const Recording& recording) {
   const auto layout = outline_layout(recording);
@@ -27,7 +27,8 @@ Result<OutlineRows> outline_rows(const Recording& recording) {
   return rows;
 }
 
-// What pictures show: free simulation where an input drives it, else the longest prediction up to five frames ahead.
+// The predictions that pictures show: free simulation where an input drives the model, else the longest prediction up
+// to five frames ahead.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
@@ -61,7 +62,7 @@ std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::s
   return values;
 }
 
-// What one step is told beside what is shown, where that is another.
+// The prediction one step ahead, where pictures show another.
 const PredictedOutlines* one_step(const OutlineJudgement& found) {
   for (const PredictedOutlines& predicted : found.predicted) {
     if (predicted.steps == 1 && &predicted != &shown(found)) return &predicted;
@@ -85,7 +86,7 @@ Result<ReportSection> tip_series(const OutlineJudgement& found, const ValidatedO
   return section;
 }
 
-// A unit of 1 is no unit: what of a sound is made into a wind is given as shares of a strong gust.
+// A unit of 1 is not printed: wind from sound is given as a share of a strong gust.
 ReportSection input_series(const Channel& input, const std::vector<double>& seconds) {
   const std::string unit = input.unit == "1" ? "1: a strong gust" : input.unit;
   return {input.name, {}, {}, {{"input." + input.name, "", "seconds", unit, seconds, input.samples}}};
@@ -134,7 +135,7 @@ Result<void> add_series(const Recording& recording, const OutlineJudgement& foun
   return {};
 }
 
-// What the same wind is called elsewhere is easily overlooked.
+// Readers overlook that another microphone measures the same wind at another level.
 ReportSection gain_section(double factor) {
   ReportSection section{"", {{"gain", factor, "", ""}}};
   if (std::abs(factor - 1) < kSameGain) return section;

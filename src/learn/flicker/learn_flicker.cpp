@@ -41,7 +41,7 @@ constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
 // see.
 constexpr double kCalm = 0.02;
 
-// Below this a photodiode's own noise is all there is.
+// Smaller variation is a photodiode's own noise.
 double level(double restless) { return std::log(restless + 1e-5); }
 
 std::size_t nearest(double value, std::span<const double> levels) {
@@ -57,7 +57,7 @@ std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::m
 
 // Standard deviation around each row of a trace, over `window` of its rows.
 std::vector<double> restlessness(std::span<const double> trace, std::size_t window) {
-  // Sums about a value of the trace lose nothing to cancellation.
+  // Sums of deviations from a value of the trace avoid cancellation.
   const double origin = trace.front();
   std::vector<double> sum{0}, square{0};
   for (const double value : trace) {
@@ -208,7 +208,7 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
   return light;
 }
 
-// The regression of the rows that one mode made on the rows before them, about 1; nothing where they are too few.
+// One mode's regression of its rows on the rows before them, as deviations from 1; nothing where there are too few.
 std::optional<ArxMode> regress(const markov::Rows& rows, const std::vector<int>& modes, int mode) {
   Eigen::VectorXd weights(rows.rows());
   for (Eigen::Index t = 0; t < rows.rows(); ++t) {
@@ -252,7 +252,7 @@ void count_transitions(const std::vector<std::vector<int>>& modes, SwitchedArxMo
   }
 }
 
-// What a model plays: light, and which mode made each row.
+// A model's play: light, and the mode of each row.
 struct Play {
   Traces traces;
   std::vector<std::vector<int>> modes;
@@ -306,7 +306,7 @@ void match_shocks(const Light& light, const std::vector<std::vector<int>>& modes
       double scale = std::sqrt(wanted[k] / std::max(found[k], 1e-12));
       // The most restless mode makes nearly all of the whole's variance.
       if (k + 1 == count) scale = whole.sd / figures_of(play.traces, light.rate_hz).sd;
-      // A calm mode begins with what a restless one left ringing: it is not to be still for that.
+      // A calm mode begins while the restless one before it still rings; its shocks are not reduced for that.
       const double most = k + 1 == count ? 16 : 2;
       dynamics.modes[k].shock[0] =
           std::clamp(dynamics.modes[k].shock[0] * std::clamp(scale, 0.5, 2.0), fitted[k] / most, fitted[k] * most);

@@ -18,14 +18,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMaxTried = 6;             // modes, where their number is open
-constexpr int kStarts = 12;              // of each number of modes
-constexpr int kFirstRounds = 25;         // of every start
-constexpr int kMaxRounds = 300;          // of the best start
+constexpr int kMaxTried = 6;             // most modes that are tried where the recipe does not say
+constexpr int kStarts = 12;              // random starts for each number of modes
+constexpr int kFirstRounds = 25;         // rounds of expectation and maximisation of every start
+constexpr int kMaxRounds = 300;          // and of the best one
 constexpr double kHoldout = 0.3;         // share of every stretch, its end
 constexpr double kSureGain = 2;          // standard errors by which a further mode must gain on held-out rows
 constexpr double kSmallResidual = 0.01;  // share of the single model's
-constexpr double kGain = 1e-6;           // a round that gains less per row is the last
+constexpr double kGain = 1e-6;           // rounds end where one gains less than this per row
 constexpr double kUnseenSteps = 0.1;     // added to each count of transitions: none is impossible
 constexpr double kMaxRadius = 0.9999;    // of a mode that was unstable
 constexpr double kUsableFit = 10;        // per cent, one step ahead
@@ -43,7 +43,7 @@ int row_size(const Rows& rows) {
   return static_cast<int>(most);
 }
 
-// What determines the coefficients of one mode.
+// The rows, by weight, that one mode's coefficients need.
 double min_rows(const Rows& rows) { return 1.5 * row_size(rows) + 3; }
 
 VectorXd min_variance(const Rows& rows) {
@@ -52,7 +52,7 @@ VectorXd min_variance(const Rows& rows) {
   return (factor.rowwise().squaredNorm() * kSmallResidual * kSmallResidual).cwiseMax(1e-300);
 }
 
-// The modes and the chain that suit the weights best.
+// Maximisation: modes and chain for the given weights.
 void maximise(const Rows& rows, const VectorXd& least, const MatrixXd& steps, State& state) {
   state.chain.modes.clear();
   for (Index k = 0; k < state.weights.cols(); ++k) {
@@ -75,7 +75,8 @@ void alternate(const Rows& rows, const VectorXd& least, int rounds, State& state
   }
 }
 
-// Every row belongs to the one of some models, each of consecutive rows drawn by chance, that fits it best.
+// A random start: models are fitted to stretches of consecutive rows drawn at random, and every row is given to the
+// model that fits it best.
 State drawn_start(const Rows& rows, const VectorXd& least, int modes, Index near, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   MatrixXd error(rows.rows(), modes);
@@ -119,7 +120,7 @@ Result<State> best_of_starts(const Rows& rows, int modes, std::uint64_t seed, co
   return best;
 }
 
-// The mode that acts most often first.
+// Sorts modes by how often they act, most often first.
 void sort_modes(State& state) {
   std::vector<Index> order(state.chain.modes.size());
   std::iota(order.begin(), order.end(), Index{0});

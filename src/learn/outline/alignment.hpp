@@ -20,7 +20,7 @@ struct Alignment {
   double low_seconds = 0;     ///< the ends of its 95 % interval
   double high_seconds = 0;
   double correlation = 0;  ///< of the whitened series at that offset, −1 to 1
-  double chance = 0;       ///< what the largest |correlation| would reach by chance in one of a hundred recordings
+  double chance = 0;       ///< largest |correlation| that unrelated recordings reach in one of a hundred
   bool usable = false;     ///< the offset stands out from chance, lies within the search and is sharp
   std::string reason;      ///< one clause: what was found, or why it is not usable
 };

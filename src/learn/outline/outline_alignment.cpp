@@ -31,7 +31,7 @@ Alignment found_or_reason(const Recording& recording, const std::vector<double>&
   return none;
 }
 
-// How far a correlation stands out from chance.
+// The correlation over the level that chance reaches.
 double clarity(const Alignment& alignment) {
   return alignment.chance > 0 ? std::abs(alignment.correlation) / alignment.chance : 0;
 }

@@ -78,7 +78,7 @@ struct Components {
     power = found.values.reverse();
     vectors = found.vectors.rowwise().reverse();
   }
-  // How many have at least that power.
+  // The number of components of at least that power.
   std::size_t count(double least) const { return static_cast<std::size_t>((power.array() >= least).count()); }
 
   void append(std::size_t taken, std::vector<double>& basis) const {
@@ -116,7 +116,8 @@ std::vector<double> components_of(const ShapeComponents& shape, std::span<const 
   return out;
 }
 
-// What was recorded, and of what changes sign in the mirror image as far to the other side.
+// The recorded range, which for a component that changes sign in the mirror image is extended to the same distance on
+// the other side.
 ValueRange range_of(const Eigen::VectorXd& values, double middle, bool symmetric) {
   const double low = values.minCoeff(), high = values.maxCoeff(), far = std::max(-low, high);
   return symmetric ? ValueRange{middle + low, middle + high} : ValueRange{middle - far, middle + far};
@@ -214,7 +215,7 @@ struct Products {
     weighted.diagonal().array() += ridge;
     return symmetric_solutions(weighted, right);
   }
-  // Standard deviation of what the k-th output's regression leaves.
+  // Standard deviation of the residual of output k.
   double residual_sd(const Matrix& found, Eigen::Index k) const {
     const Matrix whole = gram.selfadjointView<Eigen::Lower>();
     const Eigen::VectorXd b = found.col(k);

@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames say the same
+constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames add nothing
 
 using Predicted = std::vector<std::vector<double>>;  // [output][row]
 
@@ -80,7 +80,7 @@ class Errors {
   Tally tally;
 
  private:
-  std::vector<double> origin_;  // a still channel is 0 then, and its spread exactly none
+  std::vector<double> origin_;  // so that a still channel is 0 and its spread exactly 0
 };
 
 // Fits of x and y to that of the point: errors and spreads add up. A fit of 0 is that of a still channel too, whose

@@ -26,7 +26,7 @@ Result<void> check_recipe(const OutlineRecipe& recipe) {
   return {};
 }
 
-// Inputs that come too late are moved; which ones, and by how much, is noted.
+// Moves inputs that come too late, and notes which and by how much.
 Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                        OutlineSummary& summary) {
   std::vector<Recording> out;
@@ -80,8 +80,8 @@ Result<std::vector<double>> residual_sd(const OutlineDynamics& dynamics, const P
   return out;
 }
 
-// What was seen, and at least three standard deviations of it about the mean: a short recording has not seen all of its
-// own flicker. With a shape, its mirror image too.
+// The ranges of the outputs: what was recorded, and at least three standard deviations about the mean, since a short
+// recording does not contain all of its own flicker. With a shape, its mirror image too.
 std::vector<Output> outputs_of(const PreparedOutlines& prepared, const ShapeComponents& shape) {
   const std::size_t count = prepared.channels.outputs.size();
   std::vector<std::vector<double>> seen(count);

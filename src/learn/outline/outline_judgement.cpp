@@ -99,7 +99,7 @@ Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, co
   return out;
 }
 
-// Where the outline stood while it was out of sight: its last place, so that playing has a place there too.
+// While the outline is missing, its base stays at its last place, so that play has one too.
 void hold_base(Recording& recording) {
   for (const char* name : {"base.x", "base.y"}) {
     auto& samples = recording.channels[*find_channel(recording, name)].samples;
@@ -148,7 +148,7 @@ void warn_of_lost_points(OutlineJudgement& out) {
   }
 }
 
-// A driven play goes along the recording again and again: what is not seen there is not judged.
+// Play repeats the recording's input; frames that the recording lacks are not compared.
 void hide_unseen(const Recording& recorded, const std::vector<std::string>& outputs, Recording& play) {
   for (const std::string& name : outputs) {
     const auto& seen = recorded.channels[*find_channel(recorded, name)].samples;

@@ -44,7 +44,7 @@ double unsteadiness(const PreparedOutlines& prepared) {
   return any > 0 ? neighbours / any : 0;
 }
 
-// One of calm among others tells nothing of what the inputs do.
+// A calm recording among others does not show the effect of the inputs.
 std::size_t liveliest(const PreparedOutlines& prepared) {
   std::size_t best = 0;
   double most = -1;

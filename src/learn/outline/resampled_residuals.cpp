@@ -58,8 +58,8 @@ std::vector<double> signed_input(const Recording& recording, const PreparedOutli
   return out;
 }
 
-// Where it begins to blow after calm. What was recorded in calm ends there: a thing that stands still in a wind that
-// stays away is not to be moved by a gust that it does not feel, however little of that gust is within the tolerance.
+// Where wind sets in after calm. A recorded calm ends there, so that a thing that stands still in a wind that stays
+// away is not moved by a gust that it does not feel, even one within the tolerance.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }

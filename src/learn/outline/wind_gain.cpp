@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kSame = 0.02;  // factors nearer to 1 than this are the same
+constexpr double kSame = 0.02;  // factors closer to 1 than this count as 1
 
 // The inputs that say in every recording how loud they are, and the loudest of each.
 struct Loudest {

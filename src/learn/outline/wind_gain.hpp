@@ -15,8 +15,8 @@ namespace wisp {
 /// as it is. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
-/// What each recording's first heard input is multiplied by for that; empty where not every recording says how loud it
-/// was, or where that is within 2 % the same. Errors: as one_rms().
+/// The factor for each recording's first heard input; empty where some recording does not say how loud it was, or where
+/// all are equal within 2 %. Errors: as one_rms().
 Result<std::vector<double>> common_gain_factors(std::span<const Recording> recordings);
 
 /// What a recording's first heard input is multiplied by to be as loud at 1 as in what the model was learned from; 1

@@ -84,7 +84,7 @@ export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): 
   return made;
 }
 
-/** Of a film that was looked at, with what was learned from it; fewer than asked for where the film is short. */
+/** Pairs of a visitor's own film and the flame learned from it; a short film gives fewer than `many`. */
 export function filmPairs(wisp: Library, bytes: Uint8Array, film: Outlines, many: number): Pair[] {
   const model = wisp.model(bytes);
   const rows = Math.round(SECONDS * film.rate);

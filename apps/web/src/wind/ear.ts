@@ -20,7 +20,7 @@ const VAIN_BLOWS = 3;
 /** Share of samples at full scale from which a microphone is too sensitive to tell soft from hard by itself. */
 const CLIPPED = 0.02;
 
-/** Sound that rises by so much over the quietest is believed to be what was asked for, though it is unlike a blow. */
+/** While Tune waits for a blow, sound that exceeds the quietest by this much is taken for it, even without a blow's spectrum. */
 const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 3, 'blow hard': 5 };
 /** Frames before a step that say how quiet it is; sound below this says nothing: microphones open with silence. */
 const READY = 60;
@@ -220,7 +220,7 @@ export class Ear {
     return rose && this.tuning;
   }
 
-  /** Where blows have no rumble: what is as loud as the one that was asked for, and lasts. */
+  /** Wind from loudness alone, of a microphone that passes no rumble: lasting sound, over the level that Tune recorded. */
   private byLoudness({ rms, time }: Wind): number {
     if (this.plain === null) return 0;
     if (rms < PLAIN.share * this.plain) this.plainSince = time;
