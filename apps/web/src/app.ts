@@ -25,11 +25,11 @@ const BLOWN = 0.3;
 /** CSS pixels that the controls cover at the lower edge. */
 const COVERED = 118;
 
-/** Pace of time for who asks for less motion. */
+/** Pace of time where the visitor prefers less motion. */
 const SLOW = 0.4;
 
-/** Milliseconds until the flame ducks once, and for which the breath lasts. */
-const DUCKS = { after: 700, lasts: 260 };
+/** Seconds of play until the flame ducks once, and for which the breath lasts; a frame counts as a tenth at most. */
+const DUCKS = { after: 0.7, lasts: 0.26, frame: 0.1 };
 
 const START_HINT = 'Move past it, or press Blow and blow';
 
@@ -62,6 +62,8 @@ export class App {
   private heardState: Hearing = 'off';
   /** the model that wind was last offered to */
   private offered: Playing | null = null;
+  /** Seconds of play since the visitor's breath began; before 0 it is still to come. */
+  private duckFrom = Infinity;
 
   constructor(
     readonly wisp: Library,
@@ -323,8 +325,9 @@ export class App {
       this.probe.firstPicture = performance.now();
       this.bring();
       // As if whoever came in had breathed.
-      if (!this.overlay && this.stage.pace === 1) this.duck();
+      if (!this.overlay && this.stage.pace === 1) this.duckFrom = -DUCKS.after;
     }
+    if (this.duckFrom < DUCKS.lasts) this.duck(Math.min(seconds, DUCKS.frame));
     if (this.parts !== null) {
       const { lit, of } = playing.scene instanceof CandleScene ? playing.scene.burning() : { lit: 0, of: 0 };
       this.parts.senses.frame(lit, of, reading.wind, this.parts.ear.state !== 'off');
@@ -343,10 +346,11 @@ export class App {
     else this.watchOthers(playing.scene);
   }
 
-  private duck(): void {
-    const { keys } = this.breath;
-    setTimeout(() => keys.press('ArrowUp'), DUCKS.after);
-    setTimeout(() => keys.release('ArrowUp'), DUCKS.after + DUCKS.lasts);
+  private duck(seconds: number): void {
+    const before = this.duckFrom;
+    this.duckFrom += seconds;
+    if (before < 0 && this.duckFrom >= 0) this.breath.keys.press('ArrowUp');
+    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.release('ArrowUp');
   }
 
   /** Says, once for each model, that it has never felt wind, and what can be done about it. */
