@@ -222,9 +222,13 @@ describe('the drawer', { skip }, () => {
     await page.click('text=Other chance');
     const seed = await page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('seed'));
     assert.notEqual(seed, '3');
-    await page.click('[data-file=link]');
-    await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=link]').textContent));
+    await page.click('[data-file=card]');
+    await page.click('[data-file=send]');
+    await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=send]').textContent));
     assert.ok(page.url().includes(`seed=${seed}`));
+    await page.keyboard.press('Escape');
+    // The card took the drawer's place.
+    await page.keyboard.press('i');
   });
 
   it('saves the model as it is', async () => {
@@ -311,7 +315,7 @@ describe('the page', { skip }, () => {
   });
 
   it('leaves what a link says out of range as it is', async () => {
-    await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=99&noise=-1'));
+    await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=101&noise=-1'));
     const frames = await page.evaluate(() => window.wisp.frames);
     await until(page, 'some frames', (many) => window.wisp.frames > many + 5, frames);
     assert.equal((await page.evaluate(() => window.wisp.burning)).of, 2);
