@@ -20,4 +20,7 @@ Result<Report> validate_switched(const Model&, const Recording&, const Validatio
   return left_out("models that switch");
 }
 
+// Nothing comes to this.
+void markov::describe(const SwitchedArxModel&, const std::string&, ReportSection&) {}
+
 }  // namespace wisp
