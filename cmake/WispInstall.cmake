@@ -30,6 +30,8 @@ if(WISP_BUILD_SHARED)
     COMPONENT development)
 endif()
 
+set(WISP_CXX_LIBRARIES ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(REMOVE_ITEM WISP_CXX_LIBRARIES ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/wisp-config.cmake.in
   ${PROJECT_BINARY_DIR}/wisp-config.cmake INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
 # Before 1.0 a minor version may break what a host relies on.

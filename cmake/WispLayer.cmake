@@ -10,9 +10,11 @@ function(wisp_layer name)
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${LAYER_FOLDER}/*.cpp)
   set(target wisp_${name})
-  add_library(${target} ${sources})
+  # Always an archive: a host with BUILD_SHARED_LIBS and hidden symbols could not link its layers to each other. A host's own
+  # unity build would put names of several folders into one source.
+  add_library(${target} STATIC ${sources})
   add_library(wisp::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF UNITY_BUILD OFF)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # A host's include_directories() would come first and bring its own version of what a layer uses.
   set_target_properties(${target} PROPERTIES INCLUDE_DIRECTORIES "")

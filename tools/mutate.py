@@ -185,7 +185,7 @@ def compile_all(kind, chosen, jobs):
         tests.append("wisp_run_frames")
     # One width of vectors: the bits of the others are another test's.
     flags = f"-include {WORK / 'mutant.hpp'} -O1 -w -ftemplate-depth=2000"
-    subprocess.run(["cmake", "-S", TREE, "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DWISP_GNU_LD=OFF",
+    subprocess.run(["cmake", "-S", TREE, "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DWISP_NARROW=ON",
                     f"-DCMAKE_CXX_FLAGS={flags}", "-DWISP_BUILD_TESTS=ON", *off], check=True, stdout=subprocess.DEVNULL)
     for _ in range(20):
         plant(chosen)

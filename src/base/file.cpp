@@ -84,7 +84,7 @@ void unlist(int place) {
   if (place >= 0) listed_files[static_cast<std::size_t>(place)].state = 0;
 }
 
-extern "C" void remove_pending_files(int signal) {
+extern "C" void wisp_remove_pending_files(int signal) {
   for (Listed& file : listed_files) {
     if (file.state == 2) system::remove_now(file.name.data());
   }
@@ -212,7 +212,7 @@ void remove_pending_files_when_interrupted() {
   constexpr std::array kSignals{SIGINT, SIGTERM};
 #endif
   for (const int signal : kSignals) {
-    if (std::signal(signal, remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup stays nohup
+    if (std::signal(signal, wisp_remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup stays nohup
   }
 }
 

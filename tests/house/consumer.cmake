@@ -120,6 +120,32 @@ if(NOT output MATCHES "^0\\.000 [-0-9.]+ [0-9.]+\n")
   message(FATAL_ERROR "the example should print one line a frame, and prints:\n${output}")
 endif()
 
+# Other hosts: one of C alone, and one of shared libraries with hidden symbols.
+set(other host_of_c)
+set(program played)
+if(HOW STREQUAL "subproject")
+  set(other host_hidden)
+  set(program hidden)
+endif()
+run("configuring ${other}" ${CMAKE_COMMAND} -S ${SOURCE}/tests/house/${other} -B ${SCRATCH}/${other} -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=Release -DEXAMPLES=${SOURCE}/examples ${where})
+run("building ${other}" ${CMAKE_COMMAND} --build ${SCRATCH}/${other})
+run("running ${other}" ${SCRATCH}/${other}/${program} ${model})
+if(HOW STREQUAL "subproject" AND NOT output STREQUAL plain)
+  message(FATAL_ERROR "a host's flags change what a model does: ${output}expected ${plain}")
+endif()
+
+# What is linked into a game defines no symbol of C that the game, or another guest, may have too.
+if(HOW STREQUAL "installed")
+  file(GLOB_RECURSE archives ${SCRATCH}/moved/libwisp_*.a)
+  run("listing the archives' symbols" ${NM} --defined-only --extern-only --format=posix ${archives})
+  string(REGEX REPLACE "[^\n]*:\n" "" symbols "${output}")
+  string(REGEX REPLACE "(_Z|wisp_|DW\\.ref\\.)[^\n]*\n" "" others "${symbols}")
+  if(NOT symbols MATCHES "wisp_bank_create" OR others MATCHES "[^\n]")
+    message(FATAL_ERROR "the archives define symbols that others may have too:\n${others}")
+  endif()
+endif()
+
 file(GLOB_RECURSE libraries ${SCRATCH}/libwisp_model.a)
 list(GET libraries 0 library)
 expect_no_symbol_of_flatbuffers(${library})

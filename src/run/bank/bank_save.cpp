@@ -14,9 +14,9 @@
 namespace wisp {
 namespace {
 
-constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
+constexpr std::array<char, 8> kSaveMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
 constexpr std::uint32_t kVersion = 2, kChainVersion = 5;  // of chains' banks
-constexpr std::size_t kHeaderSize = 32;
+constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
 
@@ -157,10 +157,10 @@ bool fields_are_sound(const Bank::State& s, const Fields& fields) {
 Error damaged(const std::string& what) { return {"a saved bank is damaged: " + what + "; save it again"}; }
 
 Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes) {
-  if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
+  if (bytes.size() < kSaveHeaderSize || std::memcmp(bytes.data(), kSaveMagic.data(), kSaveMagic.size()) != 0) {
     return Error{"these " + std::to_string(bytes.size()) + " bytes are not a saved bank: they have not its signature"};
   }
-  ByteReader in(bytes.data() + kMagic.size());
+  ByteReader in(bytes.data() + kSaveMagic.size());
   const std::uint32_t version = in.get32();
   if (version != version_of(s)) {
     return Error{"a saved bank has version " + std::to_string(version) + ", this build reads " +
@@ -168,7 +168,7 @@ Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes
   }
   const std::uint32_t reserved = in.get32();
   const std::uint64_t size = in.get64(), hash = in.get64();
-  const auto payload = bytes.subspan(kHeaderSize);
+  const auto payload = bytes.subspan(kSaveHeaderSize);
   if (reserved != 0) return damaged("reserved bytes of its header are not zero");
   if (size != payload.size()) {
     return damaged("it holds " + std::to_string(payload.size()) + " bytes after its header, which promises " +
@@ -184,7 +184,7 @@ Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes
     return Error{"a saved bank has capacity " + std::to_string(capacity) + ", the bank to restore has " +
                  std::to_string(s.capacity) + ": make it with the same"};
   }
-  const std::size_t expected = kHeaderSize + kFieldsSize + static_cast<std::size_t>(s.capacity) * record_size(s);
+  const std::size_t expected = kSaveHeaderSize + kFieldsSize + static_cast<std::size_t>(s.capacity) * record_size(s);
   if (bytes.size() != expected) {
     return damaged("it has " + std::to_string(bytes.size()) + " bytes, expected " + std::to_string(expected));
   }
@@ -194,13 +194,13 @@ Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes
 }  // namespace
 
 std::size_t Bank::save_bytes() const {
-  return kHeaderSize + kFieldsSize + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
+  return kSaveHeaderSize + kFieldsSize + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
 }
 
 void Bank::save(std::span<std::byte> bytes) const {
   State& s = *state_;
   if (!check_size("Bank::save()", bytes.size(), save_bytes())) return;
-  const auto payload = bytes.subspan(kHeaderSize);
+  const auto payload = bytes.subspan(kSaveHeaderSize);
   ByteWriter out(payload.data());
   for (std::uint64_t field : {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned,
                               static_cast<std::uint64_t>(s.passed), std::uint64_t{s.between}, bits_of(s.noise),
@@ -208,8 +208,8 @@ void Bank::save(std::span<std::byte> bytes) const {
     out.put(field);
   }
   for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);
-  std::memcpy(bytes.data(), kMagic.data(), kMagic.size());
-  ByteWriter header(bytes.data() + kMagic.size());
+  std::memcpy(bytes.data(), kSaveMagic.data(), kSaveMagic.size());
+  ByteWriter header(bytes.data() + kSaveMagic.size());
   header.put(version_of(s));
   header.put(std::uint32_t{0});
   header.put(std::uint64_t{payload.size()});
@@ -219,7 +219,7 @@ void Bank::save(std::span<std::byte> bytes) const {
 Result<void> Bank::restore(std::span<const std::byte> bytes) {
   State& s = *state_;
   if (auto ok = check_header(s, bytes); !ok) return ok;
-  const std::byte *first = bytes.data() + kHeaderSize, *records = first + kFieldsSize;
+  const std::byte *first = bytes.data() + kSaveHeaderSize, *records = first + kFieldsSize;
   ByteReader fields_in(first), sound_in(records), in(records);
   const Fields fields = read_fields(fields_in);
   if (!fields_are_sound(s, fields)) return damaged("its time or noise is out of range");

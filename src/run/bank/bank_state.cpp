@@ -104,27 +104,6 @@ void Bank::State::extinguish(int slot) {
   go_out(slot, std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper), steps);
 }
 
-// A flame that is out is drawn as its last shape, shrinking: the dynamics have not learned wind strong enough to kill.
-void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
-  const int block = slot / kLanes, lane = slot % kLanes;
-  out_at[slot] = moment;
-  using Values = Reals<LiveNumbers>;
-  const auto take = [&](std::size_t i, const Values& shown_values) {
-    float values[kLanes];
-    store(shown_values, values);
-    last_shape_of(block)[i * kLanes + lane] = values[lane];
-  };
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    const auto values = Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes));
-    if (shape.empty()) {
-      take(i, values);
-    } else {
-      store(values, components_of(block) + i * kLanes);
-    }
-  }
-  if (!shape.empty()) shape_lanes<LiveNumbers>(shape, components_of(block), take);
-}
-
 LitState Bank::State::lit_state(int slot) const {
   const std::int64_t shown_late = between ? step_time - passed : 0;
   const auto since = [&](std::uint64_t then) {
@@ -208,48 +187,6 @@ void Bank::State::show() {
     path->show(*this, first, last);
     return std::uint64_t{0};
   });
-}
-
-void Bank::State::read_block(int block, float* rows_of_all) const {
-  const std::size_t count = visible;
-  if (kAhead && count >= 4 && lives_whole(block)) return read_whole_block(block, rows_of_all);
-  for (int slot = block * kLanes; slot < std::min((block + 1) * kLanes, rows); ++slot) {
-    float* row = rows_of_all + static_cast<std::size_t>(slot) * count;
-    if (alive[slot]) {
-      read_outputs(slot, row);
-    } else {
-      std::fill_n(row, count, 0.0f);
-    }
-  }
-}
-
-// Whether every instance of a block is alive.
-bool Bank::State::lives_whole(int block) const {
-  const auto* lane = alive.data() + block * kLanes;
-  return (block + 1) * kLanes <= rows && std::all_of(lane, lane + kLanes, [](std::uint8_t one) { return one != 0; });
-}
-
-// Reads four outputs of all lanes at once. Where the number of outputs is no multiple of four, the last four overlap
-// those before.
-void Bank::State::read_whole_block(int block, float* rows_of_all) const {
-  using Values = Reals<LiveNumbers>;
-  const std::size_t count = visible;
-  const float* values = shown_of(block);
-  float* row[kLanes];
-  unrolled<kLanes>(
-      [&](auto lane) { row[lane] = rows_of_all + static_cast<std::size_t>(block * kLanes + lane) * count; });
-  for (std::size_t next = 0; next < count; next += 4) {
-    const std::size_t first = std::min(next, count - 4);
-    const float* from = values + first * kLanes;
-    rows_of<LiveNumbers>({load<Values>(from), load<Values>(from + kLanes), load<Values>(from + 2 * kLanes),
-                          load<Values>(from + 3 * kLanes)},
-                         first, row);
-  }
-}
-
-void Bank::State::read_outputs(int slot, float* values) const {
-  const float* row = shown_of(slot / kLanes) + slot % kLanes;
-  for (std::size_t i = 0; i < visible; ++i) values[i] = row[i * kLanes];
 }
 
 }  // namespace wisp
