@@ -131,7 +131,7 @@ typedef struct wisp_channel {
   double lowest; /* the trained or seen range; clamped to it and half of it more */
   double highest;
   uint32_t splits_sign; /* of inputs: 1 when the dynamics see what is positive and what is negative apart */
-  uint32_t has_curve;   /* of inputs: 1 when a curve bends what the dynamics see of them */
+  uint32_t reserved2;
 } wisp_channel;
 
 /* What input or output number `index`, from 0, is. */

@@ -24,7 +24,6 @@ wisp_status hand_out_channel(const char* function, const Channels& channels, std
   filled.highest = channel.highest;
   if constexpr (requires { channel.shape; }) {
     filled.splits_sign = wisp::splits_sign(channel.shape) ? 1 : 0;
-    filled.has_curve = wisp::has_curve(channel.shape) ? 1 : 0;
   }
   hand_out(filled, out);
   return WISP_OK;

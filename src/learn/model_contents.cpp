@@ -105,10 +105,6 @@ const char* form_of(InputShape shape) {
       return "linear";
     case InputShape::kSplitSign:
       return "split_sign";
-    case InputShape::kCurve:
-      return "curve";
-    case InputShape::kSplitSignCurve:
-      return "split_sign_curve";
     case InputShape::kSplitSignPowers:
       return "split_sign_powers";
   }

@@ -5,7 +5,7 @@
 #include "learn/arx/report/arx_description.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/complete.hpp"
-#include "learn/flame/extinction_report.hpp"
+#include "learn/flame/extinction_learning.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/cost.hpp"
@@ -16,17 +16,8 @@ namespace {
 using arx::add;
 using arx::element;
 
-// A curve as knot → value pairs.
-std::string curve_text(const InputCurve& curve) {
-  std::string text;
-  for (std::size_t k = 0; k < curve.at.size(); ++k) {
-    text += (k > 0 ? ", " : "") + number_text(curve.at[k], 3) + " → " + number_text(curve.value[k], 3);
-  }
-  return text;
-}
-
 std::string shape_text(InputShape shape) {
-  return std::string(splits_sign(shape) ? "split sign" : "linear") + (has_curve(shape) ? " bent by a curve" : "") +
+  return std::string(splits_sign(shape) ? "split sign" : "linear") +
          (has_powers(shape) ? ", its square root and its square" : "");
 }
 
@@ -41,10 +32,6 @@ void add_inputs(const std::vector<Input>& inputs, ReportSection& section) {
     add(section, element("inputs", k, "unit"), input.unit);
     add(section, element("inputs", k, "range"), ReportList{input.lowest, input.highest});
     add(section, element("inputs", k, "shape"), shape_text(input.shape));
-    if (!has_curve(input.shape)) continue;
-    add(section, element("inputs", k, "curve.at"), input.curve.at);
-    add(section, element("inputs", k, "curve.value"), input.curve.value);
-    add(section, "", curve_text(input.curve), "curve of " + input.name);
   }
 }
 

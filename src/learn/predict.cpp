@@ -6,10 +6,10 @@
 
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
-#include "learn/markov/markov_prediction.hpp"
+#include "learn/markov/markov_rows.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_judgement.hpp"
-#include "learn/outline/wind_gain.hpp"
 #include "learn/same_rate.hpp"
 #include "wisp/learn/validate.hpp"
 

@@ -30,29 +30,6 @@ Result<void> check_channels(const std::vector<Channel>& channels, const std::str
   return {};
 }
 
-Result<void> check_curve(const Input& input) {
-  if (has_curve(input.shape) == input.curve.empty()) {
-    return Error{"input " + input.name +
-                 (input.curve.empty() ? " is bent by a curve that it has not" : " has a curve that does not bend it")};
-  }
-  if (input.curve.empty()) return {};
-  const bool odd = splits_sign(input.shape);
-  const double highest = odd ? std::max(-input.lowest, input.highest) : input.highest;
-  if (auto ok = check(input.curve, odd ? 0 : input.lowest, highest); !ok) {
-    return Error{"input " + input.name + ": " + ok.error().message};
-  }
-  if (!odd || input.curve.at.front() == 0) return {};
-  return Error{"input " + input.name + ": its curve begins at " + std::to_string(input.curve.at.front()) +
-               ", expected 0 where its sign is split"};
-}
-
-Result<void> check_curves(const std::vector<Input>& inputs) {
-  for (const Input& input : inputs) {
-    if (auto ok = check_curve(input); !ok) return ok;
-  }
-  return {};
-}
-
 Result<void> check_channels_of(const Model& model, const ArxOrders& orders) {
   const auto* outline = std::get_if<OutlineView>(&model.view);
   const bool shaped = outline != nullptr && !outline->shape.empty();
@@ -193,7 +170,6 @@ Result<void> check(const Model& model) {
   }
   if (model.outputs.empty()) return Error{"the model has no outputs"};
   if (auto ok = check_channels(model.inputs, "input"); !ok) return ok;
-  if (auto ok = check_curves(model.inputs); !ok) return ok;
   if (auto ok = check_channels(model.outputs, "output"); !ok) return ok;
   if (auto ok = std::visit([&](const auto& dynamics) { return check_dynamics(model, dynamics); }, model.dynamics); !ok)
     return ok;

@@ -10,11 +10,7 @@ std::size_t regressor_count(const std::vector<Input>& inputs) {
 
 int regressor_count(InputShape shape) { return (splits_sign(shape) ? 2 : 1) * (has_powers(shape) ? 3 : 1); }
 
-bool splits_sign(InputShape shape) {
-  return shape == InputShape::kSplitSign || shape == InputShape::kSplitSignCurve || has_powers(shape);
-}
-
-bool has_curve(InputShape shape) { return shape == InputShape::kCurve || shape == InputShape::kSplitSignCurve; }
+bool splits_sign(InputShape shape) { return shape == InputShape::kSplitSign || has_powers(shape); }
 
 bool has_powers(InputShape shape) { return shape == InputShape::kSplitSignPowers; }
 

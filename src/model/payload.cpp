@@ -346,10 +346,6 @@ Result<InputShape> read_shape(file::InputShape shape) {
       return InputShape::kLinear;
     case file::InputShape::SplitSign:
       return InputShape::kSplitSign;
-    case file::InputShape::Curve:
-      return InputShape::kCurve;
-    case file::InputShape::SplitSignCurve:
-      return InputShape::kSplitSignCurve;
     case file::InputShape::SplitSignPowers:
       return InputShape::kSplitSignPowers;
   }
@@ -362,10 +358,6 @@ file::InputShape stored_shape(InputShape shape) {
       return file::InputShape::Linear;
     case InputShape::kSplitSign:
       return file::InputShape::SplitSign;
-    case InputShape::kCurve:
-      return file::InputShape::Curve;
-    case InputShape::kSplitSignCurve:
-      return file::InputShape::SplitSignCurve;
     case InputShape::kSplitSignPowers:
       return file::InputShape::SplitSignPowers;
   }
@@ -377,12 +369,7 @@ Result<void> read_channels(const file::Model& stored, Model& model) {
     for (const auto* input : *stored.inputs()) {
       const auto shape = read_shape(input->shape());
       if (!shape) return shape.error();
-      model.inputs.push_back({input->name()->str(),
-                              text(input->unit()),
-                              input->lowest(),
-                              input->highest(),
-                              *shape,
-                              {numbers(input->curve_at()), numbers(input->curve_value())}});
+      model.inputs.push_back({input->name()->str(), text(input->unit()), input->lowest(), input->highest(), *shape});
     }
   }
   for (const auto* output : *stored.outputs()) {
@@ -457,9 +444,7 @@ std::optional<Extinction> read_extinction(const file::Model& stored) {
 fb::Offset<file::Input> write_input(Builder& builder, const Input& input) {
   const auto name = builder.CreateString(input.name);
   const auto unit = builder.CreateString(input.unit);
-  const auto at = optional_vector(builder, input.curve.at);
-  const auto value = optional_vector(builder, input.curve.value);
-  return file::CreateInput(builder, name, unit, input.lowest, input.highest, stored_shape(input.shape), at, value);
+  return file::CreateInput(builder, name, unit, input.lowest, input.highest, stored_shape(input.shape));
 }
 
 // A member of a union: which, and where.

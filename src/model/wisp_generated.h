@@ -85,19 +85,15 @@ struct ModelBuilder;
 enum class InputShape : uint8_t {
   Linear = 0,
   SplitSign = 1,
-  Curve = 2,
-  SplitSignCurve = 3,
   SplitSignPowers = 4,
   MIN = Linear,
   MAX = SplitSignPowers
 };
 
-inline const InputShape (&EnumValuesInputShape())[5] {
+inline const InputShape (&EnumValuesInputShape())[3] {
   static const InputShape values[] = {
     InputShape::Linear,
     InputShape::SplitSign,
-    InputShape::Curve,
-    InputShape::SplitSignCurve,
     InputShape::SplitSignPowers
   };
   return values;
@@ -107,8 +103,8 @@ inline const char * const *EnumNamesInputShape() {
   static const char * const names[6] = {
     "Linear",
     "SplitSign",
-    "Curve",
-    "SplitSignCurve",
+    "",
+    "",
     "SplitSignPowers",
     nullptr
   };
@@ -335,9 +331,7 @@ struct Input FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_UNIT = 6,
     VT_LOWEST = 8,
     VT_HIGHEST = 10,
-    VT_SHAPE = 12,
-    VT_CURVE_AT = 14,
-    VT_CURVE_VALUE = 16
+    VT_SHAPE = 12
   };
   const flatbuffers::String *name() const {
     return GetPointer<const flatbuffers::String *>(VT_NAME);
@@ -354,12 +348,6 @@ struct Input FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   wisp::file::InputShape shape() const {
     return static_cast<wisp::file::InputShape>(GetField<uint8_t>(VT_SHAPE, 0));
   }
-  const flatbuffers::Vector<double> *curve_at() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_CURVE_AT);
-  }
-  const flatbuffers::Vector<double> *curve_value() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_CURVE_VALUE);
-  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffsetRequired(verifier, VT_NAME) &&
@@ -369,10 +357,6 @@ struct Input FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<double>(verifier, VT_LOWEST, 8) &&
            VerifyField<double>(verifier, VT_HIGHEST, 8) &&
            VerifyField<uint8_t>(verifier, VT_SHAPE, 1) &&
-           VerifyOffset(verifier, VT_CURVE_AT) &&
-           verifier.VerifyVector(curve_at()) &&
-           VerifyOffset(verifier, VT_CURVE_VALUE) &&
-           verifier.VerifyVector(curve_value()) &&
            verifier.EndTable();
   }
 };
@@ -396,12 +380,6 @@ struct InputBuilder {
   void add_shape(wisp::file::InputShape shape) {
     fbb_.AddElement<uint8_t>(Input::VT_SHAPE, static_cast<uint8_t>(shape), 0);
   }
-  void add_curve_at(flatbuffers::Offset<flatbuffers::Vector<double>> curve_at) {
-    fbb_.AddOffset(Input::VT_CURVE_AT, curve_at);
-  }
-  void add_curve_value(flatbuffers::Offset<flatbuffers::Vector<double>> curve_value) {
-    fbb_.AddOffset(Input::VT_CURVE_VALUE, curve_value);
-  }
   explicit InputBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -420,14 +398,10 @@ inline flatbuffers::Offset<Input> CreateInput(
     flatbuffers::Offset<flatbuffers::String> unit = 0,
     double lowest = 0.0,
     double highest = 0.0,
-    wisp::file::InputShape shape = wisp::file::InputShape::Linear,
-    flatbuffers::Offset<flatbuffers::Vector<double>> curve_at = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> curve_value = 0) {
+    wisp::file::InputShape shape = wisp::file::InputShape::Linear) {
   InputBuilder builder_(_fbb);
   builder_.add_highest(highest);
   builder_.add_lowest(lowest);
-  builder_.add_curve_value(curve_value);
-  builder_.add_curve_at(curve_at);
   builder_.add_unit(unit);
   builder_.add_name(name);
   builder_.add_shape(shape);
@@ -445,22 +419,16 @@ inline flatbuffers::Offset<Input> CreateInputDirect(
     const char *unit = nullptr,
     double lowest = 0.0,
     double highest = 0.0,
-    wisp::file::InputShape shape = wisp::file::InputShape::Linear,
-    const std::vector<double> *curve_at = nullptr,
-    const std::vector<double> *curve_value = nullptr) {
+    wisp::file::InputShape shape = wisp::file::InputShape::Linear) {
   auto name__ = name ? _fbb.CreateString(name) : 0;
   auto unit__ = unit ? _fbb.CreateString(unit) : 0;
-  auto curve_at__ = curve_at ? _fbb.CreateVector<double>(*curve_at) : 0;
-  auto curve_value__ = curve_value ? _fbb.CreateVector<double>(*curve_value) : 0;
   return wisp::file::CreateInput(
       _fbb,
       name__,
       unit__,
       lowest,
       highest,
-      shape,
-      curve_at__,
-      curve_value__);
+      shape);
 }
 
 struct Output FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

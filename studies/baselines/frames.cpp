@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "learn/fidelity/fidelity_stretch.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp::baselines {

@@ -54,7 +54,7 @@ const LearnedLeaf& learned_leaf() {
   return leaf;
 }
 
-std::vector<MotionSeries> series_of(std::span<const Recording> falls, const LearnedLeaf& leaf) {
+std::vector<Stretch> series_of(std::span<const Recording> falls, const LearnedLeaf& leaf) {
   const auto motion = motion_of(falls);
   if (!motion) give_up(motion.error());
   const auto cut = segment(*motion, falls, leaf.segmentation);

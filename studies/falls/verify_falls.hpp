@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "learn/chain/chain_fidelity.hpp"
 #include "learn/chain/chain_fit.hpp"
-#include "learn/chain/chain_windows.hpp"
 #include "studies/verify_bounds.hpp"
 
 namespace wisp::verify {
@@ -23,7 +23,7 @@ struct LearnedLeaf {
 const LearnedLeaf& learned_leaf();
 
 /// What an eye follows of falls, and in windows of how many rows.
-std::vector<MotionSeries> series_of(std::span<const Recording> falls, const LearnedLeaf& leaf);
+std::vector<Stretch> series_of(std::span<const Recording> falls, const LearnedLeaf& leaf);
 std::size_t window_rows(const LearnedLeaf& leaf);
 
 /// The parts of the check.

@@ -40,8 +40,8 @@ void spread(Bounds& bounds) {
   const LearnedLeaf& leaf = learned_leaf();
   std::vector<ChainFidelity> plays;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const auto play = chain_fidelity(leaf.fit.model, leaf.fit.held_out,
-                                     {.segmentation = leaf.segmentation, .permutations = 0, .seed = seed});
+    const auto play =
+        chain_fidelity(leaf.fit.model, leaf.fit.held_out, {.segmentation = leaf.segmentation, .seed = seed});
     if (!play) give_up(play.error());
     plays.push_back(*play);
     const Bounded& energy = play->energy_distance;

@@ -59,7 +59,7 @@ FeatureWindows windows_of(std::span<const Recording> falls, const LearnedLeaf& l
 double energy_distance(std::span<const Recording> falls, const LearnedLeaf& leaf) {
   FeatureWindows recorded = windows_of(leaf.fit.held_out, leaf), made = windows_of(falls, leaf);
   standardise(recorded, made);
-  return energy_test(recorded, made, 0, 1).distance;
+  return energy_distance(recorded, made);
 }
 
 /// Distances from the targets, in order.

@@ -18,7 +18,7 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/markov/markov_fit.hpp"
-#include "learn/markov/markov_prediction.hpp"
+#include "learn/markov/markov_rows.hpp"
 #include "learn/shared_files.hpp"
 #include "studies/value_or_abort.hpp"
 #include "studies/verify_bounds.hpp"

@@ -170,12 +170,8 @@ View view_of(const Json& json) {
 Input input_of(const Json& json) {
   static const std::map<std::string, InputShape> shapes = {{"linear", InputShape::kLinear},
                                                            {"split_sign", InputShape::kSplitSign},
-                                                           {"curve", InputShape::kCurve},
-                                                           {"split_sign_curve", InputShape::kSplitSignCurve},
                                                            {"split_sign_powers", InputShape::kSplitSignPowers}};
-  Input input{json["name"], json["unit"], json["range"][0], json["range"][1], shapes.at(json["form"])};
-  if (json.contains("curve")) input.curve = {json["curve"]["at"], json["curve"]["value"]};
-  return input;
+  return {json["name"], json["unit"], json["range"][0], json["range"][1], shapes.at(json["form"])};
 }
 
 Origin origin_of(const Json& word) {
@@ -292,7 +288,7 @@ class InfoPlayed : public Info {
 
 TEST_F(InfoPlayed, GaussianAndSwitchedModelsInPythonAreRunsToTheBit) {
   const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
-  for (const char* name : {"v1.wisp", "v1-curve.wisp", "v1_switched.wisp"}) {
+  for (const char* name : {"v1.wisp", "v1_switched.wisp"}) {
     for (const char* noise : {"on", "off"}) expect_same_bits(golden + name, noise);
   }
 }

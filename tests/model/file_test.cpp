@@ -20,21 +20,12 @@ using testing::HasSubstr;
 
 const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1.wisp";
 const std::string kGoldenResampled = WISP_SOURCE_DIR "/tests/model/golden/v1-resampled.wisp";
-const std::string kGoldenCurve = WISP_SOURCE_DIR "/tests/model/golden/v1-curve.wisp";
 const std::string kGoldenExtinction = WISP_SOURCE_DIR "/tests/model/golden/v1-extinction.wisp";
 
 // The sample with a rule of extinction of which no number is a default.
 Model mortal_model() {
   Model model = sample_model();
   model.extinction = Extinction{0, 1.75, 0.25, 1.5, 0.375, 0.125, 0.5};
-  return model;
-}
-
-// The sample with a wind that does little until it is strong.
-Model curved_model() {
-  Model model = sample_model();
-  model.inputs[0].shape = InputShape::kSplitSignCurve;
-  model.inputs[0].curve = {{0, 0.375, 0.875, 1.5}, {0, 0.0625, 0.5, 1.5}};
   return model;
 }
 
@@ -212,11 +203,9 @@ TEST(ModelFile, ResampledResidualsThatMeanNothingAreRefused) {
 }
 
 TEST(ModelFile, EveryShapeOfInputIsKept) {
-  for (const InputShape shape :
-       {InputShape::kLinear, InputShape::kSplitSign, InputShape::kCurve, InputShape::kSplitSignCurve}) {
+  for (const InputShape shape : {InputShape::kLinear, InputShape::kSplitSign, InputShape::kSplitSignPowers}) {
     Model model = sample_model();
     model.inputs[0].shape = shape;
-    if (has_curve(shape)) model.inputs[0].curve = {{0, 0.5, 1.5}, {0, 0.125, 1.5}};
     auto& arx = std::get<ArxModel>(model.dynamics);
     const int inputs = regressor_count(shape);
     arx.orders.nb = OrderMatrix(8, inputs, 0);
@@ -227,7 +216,6 @@ TEST(ModelFile, EveryShapeOfInputIsKept) {
     const auto read = parse_model(*model_bytes(model), "shape.wisp");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->inputs[0].shape, shape);
-    EXPECT_EQ(read->inputs[0].curve, model.inputs[0].curve);
   }
 }
 
@@ -258,17 +246,6 @@ TEST(ModelFile, TheGoldenFileWithARuleOfExtinctionStillMeansTheSame) {
   expect_same(*read, mortal_model());
 }
 
-// Written when curves came.
-TEST(ModelFile, TheGoldenFileWithACurveStillMeansTheSame) {
-  if (std::getenv("WISP_WRITE_GOLDEN")) {
-    ASSERT_TRUE(write_model(kGoldenCurve, curved_model()));
-  }
-  const auto read = read_model(kGoldenCurve);
-  ASSERT_TRUE(read) << read.error().message;
-  expect_same(*read, curved_model());
-  EXPECT_EQ(read->inputs[0].curve, curved_model().inputs[0].curve);
-}
-
 TEST(ModelFile, EverySingleBitFlipIsAnError) {
   std::vector<std::byte> bytes = sample_bytes();
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -290,7 +267,7 @@ TEST(ModelFile, EveryTruncationIsAnError) {
 // With the hash mended, damage reaches the FlatBuffer's verifier and the checks of meaning: none may crash, and what
 // still loads must be a valid model.
 TEST(ModelFile, DamageBehindAGoodHashNeverGivesAnInvalidModel) {
-  Model whole = curved_model();
+  Model whole = sample_model();
   whole.extinction = mortal_model().extinction;
   const std::vector<std::byte> good = *model_bytes(whole);
   const auto fnv = [](std::span<const std::byte> payload) {

@@ -57,7 +57,6 @@ inline Model flame_model(const FlameOptions& options = {}) {
   model.name = "made-up flame";
   model.rate_hz = 30;
   model.inputs = {{"wind", "", splits_sign(options.wind) ? -1.0 : 0.0, 1.0, options.wind}};
-  if (has_curve(options.wind)) model.inputs[0].curve = {{0, 0.3, 0.55, 0.8, 1}, {0, 0.07, 0.32, 0.9, 1}};
   for (int i = 0; i < outputs; ++i) {
     const bool x_row = i % 2 == 0;
     const double along = static_cast<double>(i / 2) / (options.points - 1);

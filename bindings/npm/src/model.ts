@@ -14,8 +14,6 @@ export interface Channel {
   highest: number;
   /** Of inputs: the dynamics see what is positive and what is negative apart. */
   splitsSign: boolean;
-  /** Of inputs: a curve bends what the dynamics see of them. */
-  hasCurve: boolean;
 }
 
 /** 'arx': autoregression with exogenous inputs. 'chain': pieces of recorded motion, one after another by chance. */
@@ -278,7 +276,6 @@ export class Model {
       lowest: data.getFloat64(p + at.channel.lowest, true),
       highest: data.getFloat64(p + at.channel.highest, true),
       splitsSign: data.getUint32(p + at.channel.splitsSign, true) === 1,
-      hasCurve: data.getUint32(p + at.channel.hasCurve, true) === 1,
     }), index);
   }
 

@@ -1,7 +1,7 @@
 // What chains.wasm leaves out: everything that is no chain, and of chains a fall's answer to gusts, which wants pairs
 // of recordings.
 
-#include "learn/chain/gusts/gust_report.hpp"
+#include "learn/chain/gusts/gust_play.hpp"
 #include "learn/flame/learn_outline.hpp"
 #include "learns.hpp"
 #include "wisp/learn/arx_recipe.hpp"

@@ -14,7 +14,6 @@
 #include "wisp/model/arx.hpp"
 #include "wisp/model/chain.hpp"
 #include "wisp/model/extinction.hpp"
-#include "wisp/model/input_curve.hpp"
 #include "wisp/model/shape_components.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/model/training.hpp"
@@ -26,8 +25,6 @@ enum class InputShape {
   kLinear,     ///< as it is: one regressor
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
-  kCurve,      ///< bent by the input's own curve: one regressor
-  kSplitSignCurve,   ///< as the two of kSplitSign, each bent by the input's curve
   kSplitSignPowers,  ///< as six: max(u, 0), its square root and its square, then those of max(−u, 0)
 };
 
@@ -38,7 +35,6 @@ struct Input {
   double lowest = 0;  ///< the trained range; input beyond it and a margin is clamped
   double highest = 0;
   InputShape shape = InputShape::kLinear;
-  InputCurve curve{};  ///< where the shape has one, and else empty
 };
 
 /// An output as the dynamics make it.
@@ -96,9 +92,6 @@ int regressor_count(InputShape shape);
 
 /// Whether the sign is carried by regressors of their own.
 bool splits_sign(InputShape shape);
-
-/// Whether a curve bends the values.
-bool has_curve(InputShape shape);
 
 /// Whether square roots and squares are regressors too.
 bool has_powers(InputShape shape);

@@ -4,25 +4,57 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "learn/chain/chain_seconds.hpp"
-#include "learn/chain/join_defect.hpp"
+#include "learn/chain/motion/motion.hpp"
 #include "learn/chain/motion/segmentation.hpp"
 #include "learn/fidelity/fidelity.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::chain {
 
+/// How far rows at joins are from where the two rows before them, going on as they did, would lead; over the 99th
+/// percentile of the same in the recording, joins or not.
+struct JoinJumps {
+  double percentile_99 = 0;  ///< of all joins
+  double median = 0;
+  double share_above = 0;  ///< of jumps above the recording's 99th percentile; 0.01 where joins are like anything else
+};
+
+/// At joins of the synthesized falls, and at the recording's own events, which nobody joined.
+struct JoinDefect {
+  JoinJumps position;
+  JoinJumps rotation;  ///< zeros without orientation
+  JoinJumps position_floor;
+  JoinJumps rotation_floor;
+};
+
+/// `joins`: rows of each piece of `made` at which a segment was joined.
+JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, const Motion& made,
+                       std::span<const std::vector<std::size_t>> joins);
+
+/// Descent speed, horizontal speed, heading change and segment length, and for poses tilt and spin: one row a row of
+/// each piece, from its first event to its last.
+/// A piece without two events has no rows.
+std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments);
+
+/// Windows of `rows` rows, end to end; the features are mean, standard deviation, least and most of every column. A
+/// block is a piece.
+///
+/// Precondition: rows >= 2.
+FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows);
+
 struct ChainFidelityOptions {
   SegmentationOptions segmentation{};
-  double window_segments = 2.5;    ///< ≥ 2: length of a window in mean segments
-  std::size_t max_windows = 500;   ///< ≥ 2, a side
-  std::size_t permutations = 199;  ///< for the p-value
-  int smooth_rows = 0;             ///< as motion_of()
-  int synthesized_per_real = 2;    ///< ≥ 1: synthesized falls for each recorded one
+  double window_segments = 2.5;   ///< ≥ 2: length of a window in mean segments
+  std::size_t max_windows = 500;  ///< ≥ 2, a side
+  int smooth_rows = 0;            ///< as motion_of()
+  int synthesized_per_real = 2;   ///< ≥ 1: synthesized falls for each recorded one
   std::uint64_t seed = 1;
 };
 
@@ -38,7 +70,6 @@ struct ChainFidelity {
   FallFigures real;
   FallFigures synthesized;
   Bounded energy_distance;
-  double energy_p_value = 0;
   Bounded long_energy_distance;  ///< over windows of two seconds; NaN where recordings are shorter
   SecondsFidelity seconds;
   JoinDefect join_defect;

@@ -85,7 +85,7 @@ void add_seconds(const ChainFidelity& fidelity, Entries& entries) {
   add_bounded("fidelity.two_seconds", fidelity.long_energy_distance, "energy distance over 2 s",
               "of windows of two seconds", shuffled, entries);
   add_bounded("fidelity.spectra", fidelity.seconds.spectra, "energy distance of spectra",
-              "of log powers to 12 Hz over two seconds, but for what is below 0.3 mm and 0.2°", shuffled, entries);
+              "of log powers over two seconds, but for what is below 0.3 mm and 0.2°", shuffled, entries);
   add_bounded("fidelity.tails", fidelity.seconds.tails, "tails off by",
               "share of the worst percentile of vertical speed (0.1, 1) and acceleration (99, 99.9)",
               "a normal distribution of the same mean and deviation", entries);
@@ -141,7 +141,6 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
   entries.add("fidelity.energy_distance.value", energy.value, "energy distance", "", "0: one distribution, to 1");
   entries.add("fidelity.energy_distance.floor", energy.floor, "  floor", "", "two halves of the recorded falls");
   entries.add("fidelity.energy_distance.ceiling", energy.ceiling, "  ceiling", "", "recorded rows in random order");
-  entries.add("fidelity.energy_p_value", fidelity.energy_p_value, "  p-value", "", "that chance alone is as far apart");
   section.entries.push_back({"fidelity.windows", fidelity.windows, "windows", "", {}, "a side"});
   entries.add("fidelity.window_seconds", fidelity.window_seconds, "length of a window", "s");
   add_seconds(fidelity, entries);

@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 #include "base/statistics.hpp"
 #include "learn/fidelity/fidelity_distance.hpp"
-#include "learn/fidelity/fidelity_stretch.hpp"
 #include "learn/numeric/constants.hpp"
 
 namespace wisp::chain {
 namespace {
 
 constexpr std::array kLags = {0.5, 1.0, 2.0};                                            // seconds
-constexpr std::array kBandEdges = {0.25, 0.75, 1.25, 2.25, 3.75, 5.75, 8.75, 12.25};     // Hz
 constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // no eye sees less
 constexpr double kTailValues[] = {0.001, 0.01, 0.99, 0.999};
 constexpr double kNormalValues[] = {-3.0902, -2.3263, 2.3263, 3.0902};  // of a normal distribution, in deviations
@@ -35,100 +32,40 @@ std::array<Pieces, 2> halves_of(const Motion& motion) {
   return halves;
 }
 
-// One signal of a piece, and in what unit nothing below is seen: metres, or radians.
-struct Signal {
-  std::vector<double> values;
-  double unseen = 0;
-  bool is_rate = true;  // a velocity of what is unseen
-};
-
-std::vector<Signal> signals_of(const MotionPiece& piece) {
-  std::vector<Signal> out(2);
-  for (Signal& one : out) one.unseen = kUnseenMetres;
-  for (const Triple& v : piece.velocity) {
-    out[0].values.push_back(v[2]);
-    out[1].values.push_back(std::hypot(v[0], v[1]));
-  }
-  if (piece.orientation.empty()) return out;
-  Signal up{{}, kUnseenRadians, false};
-  std::array<Signal, 3> velocity, spin;
-  for (Signal& one : velocity) one.unseen = kUnseenMetres;
-  for (Signal& one : spin) one.unseen = kUnseenRadians;
-  for (std::size_t row = 0; row < piece.rows(); ++row) {
-    up.values.push_back(std::abs(in_world_axes(piece.orientation[row], {0, 0, 1})[2]));
-    const Triple v = in_body_axes(piece.orientation[row], piece.velocity[row]);
-    const Triple w = in_body_axes(piece.orientation[row], piece.spin[row]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      velocity[axis].values.push_back(v[axis]);
-      spin[axis].values.push_back(w[axis]);
-    }
-  }
-  out.push_back(std::move(up));
-  for (Signal& one : velocity) out.push_back(std::move(one));
-  for (Signal& one : spin) out.push_back(std::move(one));
-  return out;
-}
-
-// Power of a stretch at a frequency, tapered by Hann's window; of a sine of height 1 it is 1.
-double power_at(std::span<const double> values, double mean, double cycles) {
-  const auto rows = static_cast<double>(values.size());
-  double real = 0, imaginary = 0;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    const double turn = 2 * std::numbers::pi * static_cast<double>(row) / rows;
-    const double x = (values[row] - mean) * (1 - std::cos(turn));
-    real += x * std::cos(cycles * turn);
-    imaginary += x * std::sin(cycles * turn);
-  }
-  return (real * real + imaginary * imaginary) * 4 / (rows * rows);
-}
-
-void add_bands(const Signal& signal, std::size_t first, std::size_t rows, double rate_hz, std::vector<double>& out) {
-  const auto part = std::span(signal.values).subspan(first, rows);
-  const double seconds = static_cast<double>(rows) / rate_hz, middle = mean(part);
-  for (std::size_t band = 0; band + 1 < kBandEdges.size(); ++band) {
-    double power = 0;
-    for (double cycle = std::ceil(kBandEdges[band] * seconds); cycle < kBandEdges[band + 1] * seconds; ++cycle) {
-      const double unseen = signal.unseen * (signal.is_rate ? 2 * std::numbers::pi * cycle / seconds : 1);
-      power += power_at(part, middle, cycle) + unseen * unseen;
-    }
-    out.push_back(std::log(power + 1e-30));
-  }
-}
-
-// The rows of all signals in one random order.
-void mix(std::vector<Signal>& signals, std::mt19937_64& random) {
-  std::vector<std::size_t> order(signals.front().values.size());
-  std::iota(order.begin(), order.end(), 0U);
-  shuffle(std::span(order), random);
-  for (Signal& signal : signals) {
-    const std::vector<double> before = signal.values;
-    for (std::size_t row = 0; row < order.size(); ++row) signal.values[row] = before[order[row]];
-  }
-}
-
-// Windows end to end; the features are log powers in bands of all signals. A block is a piece.
-FeatureWindows spectral_windows(const Pieces& pieces, double rate_hz, std::size_t rows,
-                                std::mt19937_64* random = nullptr) {
-  FeatureWindows out;
-  for (std::size_t block = 0; block < pieces.size(); ++block) {
-    auto signals = signals_of(*pieces[block]);
-    if (random) mix(signals, *random);
-    for (std::size_t first = 0; first + rows <= pieces[block]->rows(); first += rows) {
-      const std::size_t before = out.values.size();
-      for (const Signal& signal : signals) add_bands(signal, first, rows, rate_hz, out.values);
-      out.features = out.values.size() - before;
-      out.blocks.push_back(block);
+// What an eye follows of pieces: descent and speed over ground, and of poses the height of the normal, velocities and
+// spins in the body's axes; with noise of the size that no eye sees.
+std::vector<Stretch> signals_of(const Pieces& pieces, double rate_hz, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto noise = [&] { return std::sqrt(12.0) * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
+  std::vector<Stretch> out;
+  for (const MotionPiece* piece : pieces) {
+    const bool pose = !piece->orientation.empty();
+    Stretch& own = out.emplace_back(Stretch{pose ? std::size_t{9} : std::size_t{2}, {}});
+    std::vector<double> before(own.channels);
+    for (std::size_t row = 0; row < piece->rows(); ++row) {
+      std::vector<double> values{piece->velocity[row][2], std::hypot(piece->velocity[row][0], piece->velocity[row][1])};
+      if (pose) {
+        const Quad& q = piece->orientation[row];
+        for (const Triple& x : {in_body_axes(q, piece->velocity[row]), in_body_axes(q, piece->spin[row])})
+          values.insert(values.end(), x.begin(), x.end());
+        values.push_back(std::abs(in_world_axes(q, {0, 0, 1})[2]));
+      }
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const double unseen = (k < 5 ? kUnseenMetres : kUnseenRadians) * noise();
+        own.values.push_back(values[k] + (k < 8 ? rate_hz * (unseen - before[k]) : unseen));
+        before[k] = unseen;
+      }
     }
   }
   return out;
 }
 
-double distance_of(FeatureWindows x, FeatureWindows y, std::size_t most, std::uint64_t seed) {
+double distance_of(FeatureWindows x, FeatureWindows y, std::size_t most) {
   x = thinned(x, most);
   y = thinned(y, most);
   if (x.size() < 2 || y.size() < 2) return kMissing;
   standardise(x, y);
-  return energy_test(x, y, 0, seed).distance;
+  return energy_distance(x, y);
 }
 
 // Mean squared distance over ground after so many rows.
@@ -212,12 +149,13 @@ SecondsFidelity seconds_fidelity(const Motion& real, const Motion& synthesized, 
   const Pieces all = pieces_of(real), made = pieces_of(synthesized);
   const auto halves = halves_of(real);
   SecondsFidelity out;
-  const auto apart_by_spectra = [&](const Pieces& a, const Pieces& b, std::mt19937_64* random = nullptr) {
-    return distance_of(spectral_windows(a, rate, rows), spectral_windows(b, rate, rows, random), max_windows, seed);
+  const auto seen = signals_of(all, rate, 1);
+  const auto apart_by_spectra = [&](const std::vector<Stretch>& a, const std::vector<Stretch>& b) {
+    return distance_of(spectral_windows(a, rows, rows), spectral_windows(b, rows, rows), max_windows);
   };
-  std::mt19937_64 random(seed);
-  out.spectra = {apart_by_spectra(all, made), apart_by_spectra(halves[0], halves[1]),
-                 apart_by_spectra(all, all, &random)};
+  out.spectra = {apart_by_spectra(seen, signals_of(made, rate, 2)),
+                 apart_by_spectra(signals_of(halves[0], rate, 1), signals_of(halves[1], rate, 2)),
+                 apart_by_spectra(seen, shuffled(seen, seed))};
   out.real = extremes_of(all, rate);
   out.synthesized = extremes_of(made, rate);
   const FallExtremes half = extremes_of(halves[0], rate), other = extremes_of(halves[1], rate);

@@ -21,7 +21,7 @@ struct FallExtremes {
 
 /// NaN where recordings are too short for it.
 struct SecondsFidelity {
-  Bounded spectra;  ///< energy distance of windows of two seconds: of the logarithms of their power in bands to 12 Hz;
+  Bounded spectra;  ///< energy distance of windows of two seconds: of the logarithms of their power in bands;
                     ///< below 0.3 mm and 0.2° nothing counts
   Bounded tails;    ///< largest relative deviation of a percentile; its ceiling is a normal distribution's
   Bounded spread;   ///< relative deviation of the spread in 2 s; its ceiling is that of steps in random order

@@ -65,7 +65,7 @@ Distances compare(const Stretches& a, const Stretches& b, const Lengths& lengths
   FeatureWindows y = windows_of(b, lengths, options.max_windows);
   if (x.size() == 0 || y.size() == 0) return out;
   standardise(x, y);
-  out.energy = energy_test(x, y, 0, options.seed).distance;
+  out.energy = energy_distance(x, y);
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
@@ -13,8 +12,17 @@
 namespace wisp {
 namespace {
 
-// Behaviour has memory, and neighbouring blocks touch. Measured on a resonance against itself (80 seeds, memory of a
-// window): with blocks of four windows a tenth of the p-values fall below 0.05, still somewhat too many.
+bool complete(const Recording& recording, std::span<const std::size_t> channels, std::size_t row) {
+  return std::none_of(channels.begin(), channels.end(),
+                      [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); });
+}
+
+Stretch rows_of(const Stretch& stretch, std::size_t first, std::size_t last) {
+  const auto begin = stretch.values.begin();
+  return {stretch.channels, {begin + first * stretch.channels, begin + last * stretch.channels}};
+}
+
+// Behaviour has memory.
 constexpr std::size_t kBlockWindows = 4;
 
 double distance(std::span<const double> a, std::span<const double> b) {
@@ -23,57 +31,13 @@ double distance(std::span<const double> a, std::span<const double> b) {
   return std::sqrt(sum);
 }
 
-// All windows of both sides and the distances between them.
-struct Pool {
-  std::size_t size = 0;
-  std::vector<double> distances;    // size × size
-  std::vector<std::size_t> blocks;  // of x, then of y, all different
-
-  Pool(const FeatureWindows& x, const FeatureWindows& y) : size(x.size() + y.size()), distances(size * size) {
-    const auto window = [&](std::size_t i) { return i < x.size() ? x.window(i) : y.window(i - x.size()); };
-    for (std::size_t i = 0; i < size; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        distances[i * size + j] = distances[j * size + i] = distance(window(i), window(j));
-      }
-    }
-    blocks = x.blocks;
-    const std::size_t first_of_y = x.blocks.back() + 1;
-    for (std::size_t block : y.blocks) blocks.push_back(first_of_y + block);
+// Mean distance of all pairs.
+double mean_distance(const FeatureWindows& x, const FeatureWindows& y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j < y.size(); ++j) sum += distance(x.window(i), y.window(j));
   }
-};
-
-double energy_distance(const Pool& pool, std::span<const std::uint8_t> in_y) {
-  double xx = 0;
-  double yy = 0;
-  double xy = 0;
-  for (std::size_t i = 0; i < pool.size; ++i) {
-    double to_x = 0;
-    double to_y = 0;
-    const double* row = &pool.distances[i * pool.size];
-    for (std::size_t j = 0; j < pool.size; ++j) (in_y[j] != 0 ? to_y : to_x) += row[j];
-    if (in_y[i] != 0) {
-      yy += to_y;
-    } else {
-      xx += to_x;
-      xy += to_y;
-    }
-  }
-  const auto m = static_cast<double>(std::accumulate(in_y.begin(), in_y.end(), std::size_t{0}));
-  const double n = static_cast<double>(pool.size) - m;
-  if (n == 0 || m == 0 || xy == 0) return 0;
-  const double across = 2 * xy / (n * m);
-  return (across - xx / (n * n) - yy / (m * m)) / across;
-}
-
-// Exchanges whole blocks between the two sides at random; y keeps its number of blocks.
-std::vector<std::uint8_t> dealt(const Pool& pool, std::vector<std::size_t>& order, std::size_t blocks_of_y,
-                                std::mt19937_64& random) {
-  shuffle(std::span(order), random);
-  std::vector<std::uint8_t> block_in_y(order.size(), 0);
-  for (std::size_t k = 0; k < blocks_of_y; ++k) block_in_y[order[k]] = 1;
-  std::vector<std::uint8_t> in_y(pool.size);
-  for (std::size_t i = 0; i < pool.size; ++i) in_y[i] = block_in_y[pool.blocks[i]];
-  return in_y;
+  return sum / static_cast<double>(x.size() * y.size());
 }
 
 void append_window(const Stretch& stretch, std::size_t first, std::size_t rows, FeatureWindows& out) {
@@ -135,7 +99,7 @@ std::vector<Stretch> every(std::span<const Stretch> stretches, std::size_t step)
 double energy_of(FeatureWindows x, FeatureWindows y) {
   if (x.size() < kMinWindows || y.size() < kMinWindows) return kMissing;
   standardise(x, y);
-  return energy_test(x, y, 0, 1).distance;
+  return energy_distance(x, y);
 }
 
 std::vector<double> accelerations(std::span<const Stretch> stretches, std::size_t channel) {
@@ -202,6 +166,79 @@ std::size_t longest_common_run(const Stretch& a, const Stretch& b, std::span<con
 
 }  // namespace
 
+std::vector<double> Stretch::channel(std::size_t index) const {
+  std::vector<double> samples(rows());
+  for (std::size_t t = 0; t < samples.size(); ++t) samples[t] = (*this)(t, index);
+  return samples;
+}
+
+Result<std::vector<Stretch>> stretches_of(const Recording& recording, std::span<const std::string> channels) {
+  std::vector<std::size_t> indices;
+  for (const std::string& name : channels) {
+    const auto index = find_channel(recording, name);
+    if (!index) return Error{recording.source + ": there is no channel " + name};
+    indices.push_back(*index);
+  }
+  std::vector<Stretch> stretches;
+  for (const Episode& episode : episodes(recording)) {
+    bool open = false;
+    for (std::size_t row = episode.begin; row < episode.end; ++row) {
+      if (!complete(recording, indices, row)) {
+        open = false;
+        continue;
+      }
+      if (!open) stretches.push_back({indices.size(), {}});
+      open = true;
+      for (std::size_t c : indices) stretches.back().values.push_back(recording.channels[c].samples[row]);
+    }
+  }
+  return stretches;
+}
+
+std::size_t total_rows(std::span<const Stretch> stretches) {
+  return std::accumulate(stretches.begin(), stretches.end(), std::size_t{0},
+                         [](std::size_t sum, const Stretch& stretch) { return sum + stretch.rows(); });
+}
+
+std::vector<Stretch> cut_to(std::span<const Stretch> stretches, std::size_t max_rows) {
+  std::vector<Stretch> pieces;
+  for (const Stretch& stretch : stretches) {
+    for (std::size_t first = 0; first < stretch.rows(); first += max_rows) {
+      pieces.push_back(rows_of(stretch, first, std::min(stretch.rows(), first + max_rows)));
+    }
+  }
+  return pieces;
+}
+
+Halves halves_of(std::span<const Stretch> stretches) {
+  Halves halves;
+  std::size_t left = total_rows(stretches) / 2;
+  for (const Stretch& stretch : stretches) {
+    const std::size_t before = std::min(left, stretch.rows());
+    if (before > 0) halves.first.push_back(rows_of(stretch, 0, before));
+    if (before < stretch.rows()) halves.second.push_back(rows_of(stretch, before, stretch.rows()));
+    left -= before;
+  }
+  return halves;
+}
+
+std::vector<Stretch> shuffled(std::span<const Stretch> stretches, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Stretch> out;
+  for (const Stretch& stretch : stretches) {
+    std::vector<std::size_t> order(stretch.rows());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    shuffle(std::span(order), random);
+    Stretch& mixed = out.emplace_back(Stretch{stretch.channels, {}});
+    mixed.values.reserve(stretch.values.size());
+    for (std::size_t t : order) {
+      const auto row = stretch.row(t);
+      mixed.values.insert(mixed.values.end(), row.begin(), row.end());
+    }
+  }
+  return out;
+}
+
 FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop) {
   assert(rows >= 1 && hop >= 1);
   FeatureWindows out;
@@ -256,23 +293,10 @@ void standardise(FeatureWindows& reference, FeatureWindows& other) {
   }
 }
 
-EnergyTest energy_test(const FeatureWindows& x, const FeatureWindows& y, std::size_t permutations, std::uint64_t seed) {
+double energy_distance(const FeatureWindows& x, const FeatureWindows& y) {
   assert(x.size() > 0 && y.size() > 0 && x.features == y.features);
-  const Pool pool(x, y);
-  std::vector<std::uint8_t> in_y(pool.size, 0);
-  std::fill(in_y.begin() + static_cast<std::ptrdiff_t>(x.size()), in_y.end(), std::uint8_t{1});
-  EnergyTest test;
-  test.distance = energy_distance(pool, in_y);
-  std::mt19937_64 random(seed);
-  std::vector<std::size_t> order(pool.blocks.back() + 1);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::size_t as_large = 1;
-  for (std::size_t k = 0; k < permutations; ++k) {
-    const auto exchanged = dealt(pool, order, y.blocks.back() + 1, random);
-    if (energy_distance(pool, exchanged) >= test.distance) ++as_large;
-  }
-  test.p_value = static_cast<double>(as_large) / static_cast<double>(permutations + 1);
-  return test;
+  const double across = 2 * mean_distance(x, y);
+  return across > 0 ? (across - mean_distance(x, x) - mean_distance(y, y)) / across : 0;
 }
 
 FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop) {

@@ -6,12 +6,61 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "learn/fidelity/fidelity_stretch.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/record/recording.hpp"
 
 namespace wisp {
+
+/// A number below `bound`. The modulo's bias is below bound / 2^64.
+inline std::size_t below(std::mt19937_64& random, std::size_t bound) { return random() % bound; }
+
+/// Fisher–Yates: std::shuffle leaves its method to the library.
+template <class T>
+void shuffle(std::span<T> items, std::mt19937_64& random) {
+  for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(random, left)]);
+}
+
+/// Consecutive rows without a missing sample, all of one episode.
+struct Stretch {
+  std::size_t channels = 0;
+  std::vector<double> values;  ///< rows × channels, row-major
+
+  std::size_t rows() const { return channels == 0 ? 0 : values.size() / channels; }
+  std::span<const double> row(std::size_t t) const { return std::span(values).subspan(t * channels, channels); }
+  double operator()(std::size_t t, std::size_t channel) const { return values[t * channels + channel]; }
+
+  /// One channel's samples.
+  std::vector<double> channel(std::size_t index) const;
+};
+
+/// The maximal stretches of a recording over the named channels, in order.
+/// Errors: a channel that the recording has not.
+Result<std::vector<Stretch>> stretches_of(const Recording& recording, std::span<const std::string> channels);
+
+/// Rows of all stretches together.
+std::size_t total_rows(std::span<const Stretch> stretches);
+
+/// Cuts what is longer than `max_rows` into pieces of that length; a remainder shorter than that is kept.
+///
+/// Precondition: max_rows >= 1.
+std::vector<Stretch> cut_to(std::span<const Stretch> stretches, std::size_t max_rows);
+
+/// Both sides of a cut in time after half of all rows; a stretch that spans it is cut in two.
+struct Halves {
+  std::vector<Stretch> first;
+  std::vector<Stretch> second;
+};
+Halves halves_of(std::span<const Stretch> stretches);
+
+/// Every stretch with its rows in random order: what the same frames would be without time.
+/// The same seed gives the same order everywhere.
+std::vector<Stretch> shuffled(std::span<const Stretch> stretches, std::uint64_t seed);
 
 /// Windows of behaviour, each described by the same features. Windows that overlap or lie close together are
 /// correlated: they belong to one block.
@@ -37,17 +86,11 @@ FeatureWindows thinned(const FeatureWindows& windows, std::size_t most);
 /// only shifted.
 void standardise(FeatureWindows& reference, FeatureWindows& other);
 
-/// An energy distance and how likely chance alone makes one as large.
-struct EnergyTest {
-  double distance = 0;  ///< (2E‖X−Y‖ − E‖X−X′‖ − E‖Y−Y′‖) / (2E‖X−Y‖), in [0, 1]; 0: the same distribution
-  double p_value = 1;  ///< share of random exchanges of whole blocks, this one counted, with at least this distance
-};
-
-/// Compares two sets of windows. E‖X−X′‖ runs over all pairs, a window with itself included, so the distance of two
-/// samples of one distribution is above 0 by about 1/n.
+/// (2E‖X−Y‖ − E‖X−X′‖ − E‖Y−Y′‖) / (2E‖X−Y‖), in [0, 1]; 0: the same distribution. E‖X−X′‖ runs over all pairs, a
+/// window with itself included, so the distance of two samples of one distribution is above 0 by about 1/n.
 ///
 /// Precondition: both have windows, and the same features.
-EnergyTest energy_test(const FeatureWindows& x, const FeatureWindows& y, std::size_t permutations, std::uint64_t seed);
+double energy_distance(const FeatureWindows& x, const FeatureWindows& y);
 
 /// Distances of two sides over long windows (two seconds: bursts, dives and drift). NaN where there are too few data.
 struct LongDistances {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "learn/flame/extinction.hpp"
+#include "learn/flame/extinction_learning.hpp"
 #include "learn/flame/flame_sizes.hpp"
+#include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/outline_recipe.hpp"
 #include "wisp/model/model.hpp"
@@ -65,5 +67,16 @@ Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, con
 /// The recording without extinctions, as the model was learned from; the whole of it where the model has no rule.
 /// Errors: as find_blow_outs().
 Result<Recording> burning_part(const Model& model, const Recording& recording);
+
+/// `extinction` {input, level, seconds, haste, recovery, modes […]} as model_report() has it; none where nothing puts
+/// the model out.
+ReportSection extinction_section(const Model& model);
+
+/// extinction_section() of a model that was just learned, with `source`, `agreement` {…}, `unexplained`, `level_range`
+/// and `seconds_range`.
+ReportSection extinction_section(const Model& model, const std::optional<LearnedExtinction>& learned);
+
+/// `extinction` {deaths, died, gusts, spared, …}; none where the model has no rule.
+ReportSection extinction_section(const std::optional<JudgedExtinction>& judged);
 
 }  // namespace wisp

@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "learn/flame/extinction_learning.hpp"
-#include "learn/flame/extinction_report.hpp"
 #include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/report/outline_report.hpp"
-#include "learn/outline/wind_gain.hpp"
 #include "record/verdict.hpp"
 
 namespace wisp {

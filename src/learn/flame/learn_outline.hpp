@@ -14,7 +14,7 @@ namespace wisp {
 /// Learns a model of an outline from recordings in pixels: puts their inputs on a common scale where that is better,
 /// leaves extinctions out of what the dynamics are learned from, and learns the rule of extinction from them. The model
 /// has the knots of the first recording; recordings with others are expressed in those, with a warning.
-/// The report has rate_hz, inputs, points, na, nb, nk, order_and_delay, alignment, input_curve, samples, channels, J,
+/// The report has rate_hz, inputs, points, na, nb, nk, order_and_delay, alignment, samples, channels, J,
 /// tip, overlap, fpe, stable, held_share, cost, gain, extinction, and the verdict.
 /// Errors, naming the recording: none, not an outline, another number of points than the first, rates that differ,
 /// inputs that it has not, too few rows for the order, a recipe out of range; kStopped.

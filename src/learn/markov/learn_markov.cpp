@@ -7,7 +7,7 @@
 #include "learn/arx/report/arx_description.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/markov/markov_fit.hpp"
-#include "learn/markov/markov_prediction.hpp"
+#include "learn/markov/markov_rows.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "base/statistics.hpp"
-#include "learn/markov/markov_prediction.hpp"
 #include "learn/markov/markov_rows.hpp"
 #include "learn/numeric/decompositions.hpp"
 

@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
+#include "learn/markov/markov_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
@@ -84,5 +86,19 @@ struct Belief {
   std::vector<int> likeliest() const;  ///< mode of every row, by all rows of its run
 };
 Belief believe(const Chain& chain, const Rows& rows);
+
+/// How likely the rows of a recording are, and which modes acted. Errors: channels that do not fit the model or are
+/// missing, rates that differ, no usable row.
+Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording, const ChannelChoice& channels);
+
+/// One series an output, as predict() of an ARX model has them, from measured samples: `steps` ahead, or kFreeRun.
+/// Errors: as believe().
+Result<std::vector<std::vector<double>>> predict(const SwitchedArxModel& model, const Recording& recording,
+                                                 const ChannelChoice& channels, int steps);
+
+/// Figures of those predictions over all recordings together, as prediction_figures() has them.
+/// Errors: as predict; steps below 0 or above 100000.
+Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const Recording> recordings,
+                                  const ChannelChoice& channels, int steps);
 
 }  // namespace wisp::markov

@@ -17,6 +17,22 @@
 
 namespace wisp {
 
+/// The recordings with their inputs as loud at 1 as in the loudest of them. Whatever does not say how loud it was stays
+/// as it is. Errors: as one_rms().
+Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
+
+/// The factor for each recording's first heard input; empty where some recording does not say how loud it was, or where
+/// all are equal within 2 %. Errors: as one_rms().
+Result<std::vector<double>> common_gain_factors(std::span<const Recording> recordings);
+
+/// What a recording's first heard input is multiplied by to be as loud at 1 as in what the model was learned from; 1
+/// where either does not say. Errors: as one_rms().
+Result<double> factor_to_trained_gain(const Model& model, const Recording& recording);
+
+/// A recording whose inputs are as loud at 1 as in those that the model was learned from; as it is where either does
+/// not say how loud that was. Errors: as one_rms().
+Result<Recording> at_trained_gain(const Model& model, Recording recording);
+
 /// Below this share of its 99th percentile an input counts as calm: microphones and anemometers are never at 0.
 inline constexpr double kCalmShare = 0.1;
 

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "learn/numeric/constants.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "learn/outline/wind_gain.hpp"
 
 namespace wisp {
 namespace {

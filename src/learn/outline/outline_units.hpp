@@ -30,7 +30,7 @@ struct OutlineLayout {
 Result<OutlineLayout> outline_layout(const Recording& recording);
 
 /// Checks that recordings can be learned from together: as many control points in all of them. Their knots may differ
-/// (outline_knots.hpp brings them together). Returns the first one's layout.
+/// (outline_preparation.hpp brings them together). Returns the first one's layout.
 /// Errors: as outline_layout(); another number of points than the first recording has, naming both.
 Result<OutlineLayout> common_layout(std::span<const Recording> recordings);
 

@@ -6,10 +6,20 @@
 
 #include "run/chain/chain_choice.hpp"
 #include "run/chain/chain_program.hpp"
-#include "run/chain/chain_settings.hpp"
 #include "run/chain/rigid.hpp"
 
 namespace wisp {
+
+/// Positions are clamped to this many metres from the origin: single precision can't place a body beyond it.
+inline constexpr float kFarthest = 1e6f;
+
+/// Lower than anything falls.
+inline constexpr float kNoGround = -4.0f * kFarthest;
+
+/// What may be set of a playing chain, of all instances of a bank alike.
+struct ChainSettings {
+  float ground = kNoGround;
+};
 
 /// How fast a body moves and turns, in the world.
 template <class Real>

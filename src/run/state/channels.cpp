@@ -42,28 +42,7 @@ OutputChannel make_output(const ValueRange& output, double mean) {
   return channel;
 }
 
-std::size_t piece_count(const Model& model) {
-  std::size_t count = 0;
-  for (const Input& input : model.inputs) count += input.curve.at.size();
-  return count;
-}
-
-// One piece a knot. The piece of the last knot has no end and the slope 1.
-std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<CurvePiece> pieces) {
-  const std::size_t last = curve.at.size() - 1;
-  auto value = static_cast<float>(curve.at[0]);
-  for (std::size_t k = 0; k < last; ++k) {
-    const double width = curve.at[k + 1] - curve.at[k];
-    const double slope = (curve.value[k + 1] - curve.value[k]) / width;
-    pieces[k] = {static_cast<float>(curve.at[k]), static_cast<float>(width), static_cast<float>(slope), value};
-    value = value + pieces[k].slope * pieces[k].width;  // as the piece before ends, so that the curve is continuous
-  }
-  pieces[last] = {static_cast<float>(curve.at[last]), std::numeric_limits<float>::max(), 1.0f, value};
-  return pieces.first(last + 1);
-}
-
-RegressorChannel make_regressor(const Input& input, int index, RegressorForm form, double mean,
-                                std::span<const CurvePiece> curve) {
+RegressorChannel make_regressor(const Input& input, int index, RegressorForm form, double mean) {
   const double room = margin(input.lowest, input.highest);
   RegressorChannel channel{};
   channel.input = index;
@@ -74,7 +53,6 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorForm for
   const bool power = form.power != RegressorPower::kOne;
   channel.mean = static_cast<float>(power ? mean / regressor_unit(input, form.power) : mean);
   channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
-  channel.curve = curve;
   // The history of a new instance is z = 0, whatever the range is.
   const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
   channel.least = *std::min_element(std::begin(ends), std::end(ends));
@@ -137,7 +115,6 @@ std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   for (const RegressorChannel& c : channels.regressors) {
     const auto place = static_cast<float>((c.input * 3 + static_cast<int>(c.part)) * 3 + static_cast<int>(c.power));
     hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
-    for (const CurvePiece& piece : c.curve) hash = hash_floats({piece.from, piece.width, piece.slope}, hash);
   }
   return hash;
 }
@@ -154,19 +131,13 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
   const std::vector<ValueRange> ranges = moved_ranges(model);
   Channels channels{arena.take<OutputChannel>(ranges.size()),
                     arena.take<RegressorChannel>(regressor_count(model.inputs))};
-  auto pieces = arena.take<CurvePiece>(piece_count(model));
   if (arena.measures()) return channels;
   for (std::size_t i = 0; i < ranges.size(); ++i) channels.outputs[i] = make_output(ranges[i], point.outputs[i]);
   std::size_t next = 0;
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     const Input& input = model.inputs[k];
-    std::span<const CurvePiece> curve;
-    if (!input.curve.empty()) {
-      curve = fill_pieces(input.curve, pieces);
-      pieces = pieces.subspan(curve.size());
-    }
     for (const RegressorForm form : regressor_forms(input.shape)) {
-      channels.regressors[next] = make_regressor(input, static_cast<int>(k), form, point.regressors[next], curve);
+      channels.regressors[next] = make_regressor(input, static_cast<int>(k), form, point.regressors[next]);
       ++next;
     }
   }

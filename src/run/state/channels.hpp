@@ -41,17 +41,8 @@ struct RegressorForm {
 /// The regressors that an input of that shape makes, in their order.
 std::span<const RegressorForm> regressor_forms(InputShape shape);
 
-/// A piece of an input's curve: its value at a knot, and its slope to the next.
-struct CurvePiece {
-  float from;
-  float width;
-  float slope;
-  float value;
-};
-
-/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. Where there is a curve,
-/// it is applied to the part. A power is power(part(u) · inverse_scale) − mean · inverse_scale, so that a square can't
-/// overflow.
+/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. A power is
+/// power(part(u) · inverse_scale) − mean · inverse_scale, so that a square can't overflow.
 struct RegressorChannel {
   std::int32_t input;
   RegressorPart part;
@@ -60,9 +51,8 @@ struct RegressorChannel {
   float high;
   float mean;
   float inverse_scale;
-  float least;                        ///< lower bound of z
-  float most;                         ///< upper bound of z
-  std::span<const CurvePiece> curve;  ///< the last piece has no end; empty: no curve
+  float least;  ///< lower bound of z
+  float most;   ///< upper bound of z
 };
 
 struct Channels {
@@ -98,20 +88,6 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// A curve at an input: below the first knot the input itself, then the value at the knot before plus slope times
-/// distance. Finding the knot takes comparisons alone, so more knots cost no more arithmetic.
-template <class Real>
-inline Real bend(std::span<const CurvePiece> curve, Real input) {
-  if (!(input > Real(curve.front().from))) return input;
-  const CurvePiece* piece = curve.data();
-  for (const CurvePiece& next : curve) {
-    if (!(input < Real(next.from))) piece = &next;
-  }
-  Real climbed = input - Real(piece->from);
-  if (climbed > Real(piece->width)) climbed = Real(piece->width);  // rounding could pass the next knot
-  return Real(piece->value) + Real(piece->slope) * climbed;
-}
-
 /// A power of the parts of inputs, which are not negative.
 template <class N>
 inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
@@ -135,12 +111,6 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   auto part = clamped;
   if (channel.part == RegressorPart::kPositive) part = larger(clamped, zero);
   if (channel.part == RegressorPart::kNegative) part = zero - smaller(clamped, zero);
-  if (!channel.curve.empty()) {
-    typename N::Real bent[N::kLanes];
-    store(part, bent);
-    for (auto& lane : bent) lane = bend(channel.curve, lane);
-    part = load<Reals<N>>(bent);
-  }
   if (channel.power != RegressorPower::kOne) return settle(power_of<N>(channel, part));
   if (channel.mean != 0) part = part - all<Reals<N>>(channel.mean);
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);

@@ -42,7 +42,6 @@ TEST(FitChain, AnotherFallIsToldFromWhatWasLearned) {
   const auto fidelity = chain_fidelity(fit->model, std::span(&other, 1), {});
   ASSERT_TRUE(fidelity);
   EXPECT_GT(fidelity->energy_distance.value, 0.1);
-  EXPECT_LT(fidelity->energy_p_value, 0.01);
 }
 
 TEST(FitChain, PositionsAloneAreEnough) {
@@ -87,7 +86,7 @@ TEST(FitChain, StoredSegmentsPlayWhatWasRecorded) {
 TEST(FitChain, JoinsJumpNoMoreThanRowsOfTheRecordingDo) {
   const auto fit = learned(made_falls({.falls = 60}), {.modes = 4, .holdout = 0.5});
   ASSERT_TRUE(fit);
-  const auto fidelity = chain_fidelity(fit->model, fit->held_out, {.permutations = 1});
+  const auto fidelity = chain_fidelity(fit->model, fit->held_out, {});
   ASSERT_TRUE(fidelity);
   EXPECT_LE(fidelity->join_defect.position.percentile_99, 1);
   EXPECT_LE(fidelity->join_defect.rotation.percentile_99, 1);
@@ -124,7 +123,7 @@ TEST(FitChain, ModesAreRealisedInOtherWaysToo) {
   for (Realisation realisation : {Realisation::kLinear, Realisation::kOde, Realisation::kChain, Realisation::kSpline}) {
     const auto fit = learned(recording, {.modes = 3, .realisation = realisation, .best_of = 0});
     ASSERT_TRUE(fit) << fit.error().message;
-    const auto fidelity = chain_fidelity(fit->model, fit->held_out, {.permutations = 1});
+    const auto fidelity = chain_fidelity(fit->model, fit->held_out, {});
     ASSERT_TRUE(fidelity) << fidelity.error().message;
     EXPECT_NEAR(fidelity->synthesized.descent_speed, fidelity->real.descent_speed, 0.3 * fidelity->real.descent_speed)
         << word_of(realisation);

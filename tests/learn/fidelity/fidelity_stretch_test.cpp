@@ -1,4 +1,4 @@
-#include "learn/fidelity/fidelity_stretch.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 
 #include <gtest/gtest.h>
 

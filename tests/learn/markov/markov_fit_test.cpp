@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "learn/markov/made_markov.hpp"
-#include "learn/markov/markov_prediction.hpp"
 #include "learn/markov/markov_rows.hpp"
 
 namespace wisp::markov_fit_test {

@@ -1,4 +1,4 @@
-#include "learn/outline/alignment.hpp"
+#include "learn/outline/outline_alignment.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "learn/outline/outline_knots.hpp"
+#include "learn/outline/outline_preparation.hpp"
 
 #include <gtest/gtest.h>
 

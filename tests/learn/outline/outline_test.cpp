@@ -9,7 +9,7 @@
 #include <random>
 
 #include "learn/outline/made_outline.hpp"
-#include "learn/outline/outline_knots.hpp"
+#include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/outline_verdict.hpp"
 #include "model/bspline.hpp"

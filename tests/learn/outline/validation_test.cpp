@@ -9,7 +9,7 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_inputs.hpp"
-#include "learn/outline/outline_knots.hpp"
+#include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 #include "model/bspline.hpp"

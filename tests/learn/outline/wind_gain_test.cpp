@@ -1,6 +1,6 @@
 // One scale for all recordings, or each its own: what one microphone heard, and what two did.
 
-#include "learn/outline/wind_gain.hpp"
+#include "learn/outline/outline_inputs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,6 @@ std::vector<double> regressors_of(const Model& model, double input) {
   const InputShape shape = model.inputs[0].shape;
   std::vector<double> parts{input};
   if (splits_sign(shape)) parts = {std::max(input, 0.0), std::max(-input, 0.0)};
-  for (double& part : parts) part = value_at(model.inputs[0].curve, part);
   return parts;
 }
 
@@ -134,16 +133,13 @@ double error_growth(const Model& model) {
 // The largest difference that rounding may make. A row of n terms, each a rounded coefficient times a rounded state,
 // summed one by one, errs by at most (n + 3) u Σ|terms| with u = 2^-24 (Higham, Accuracy and Stability, section 3.1:
 // n − 1 sums, a product and a coefficient; the noise adds a product and its deviate). Errors of all steps add up to at
-// most error_growth times that. A curve says what it is at a knot, a sum of as many products of a slope and a width
-// that were rounded as knots lie before it, and a last product more, none of them negative: of k knots k + 3 u of it.
-// Reading rounds the mean, a product and a sum: 3 u of the largest output.
+// most error_growth times that. Reading rounds the mean, a product and a sum: 3 u of the largest output.
 double rounding_bound(const Model& model, const PlainArx& plain, double largest_noise, double largest_output) {
   constexpr double kUnit = 0x1p-24;
   const auto& arx = std::get<ArxModel>(model.dynamics);
   double worst = 0;
   for (int i = 0; i < arx.orders.outputs(); ++i) {
-    const int curve = static_cast<int>(model.inputs[0].curve.at.size());
-    const int terms = arx.orders.row_size(i) + 2 + arx.noise.rank + (curve > 0 ? curve + 3 : 0);
+    const int terms = arx.orders.row_size(i) + 2 + arx.noise.rank;
     worst = std::max(worst, (terms + 3) * kUnit * (plain.sum_of_sizes(i) + largest_noise));
   }
   return error_growth(model) * worst + 3 * kUnit * largest_output;
@@ -180,11 +176,6 @@ TEST(ArxReference, AFlameAgreesWithDoublePrecision) { expect_agreement(flame_mod
 
 TEST(ArxReference, SoDoesOneWithSignedWindAndSharedNoise) {
   expect_agreement(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 3}));
-}
-
-TEST(ArxReference, SoDoesOneWhoseWindIsBentByACurve) {
-  expect_agreement(flame_model({.wind = InputShape::kCurve}));
-  expect_agreement(flame_model({.wind = InputShape::kSplitSignCurve, .noise_rank = 1}));
 }
 
 TEST(ArxReference, SoDoesAModelWithDelaysConstantsAndMixedOrders) { expect_agreement(sample_model()); }

@@ -20,8 +20,7 @@ bool is_there(const Model& model) {
   return TimeLanes<LiveNumbers>(make_arx_program(model, arx, measured), measured).there();
 }
 
-constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kSplitSign, InputShape::kSplitSignPowers,
-                                  InputShape::kSplitSignCurve};
+constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kSplitSign, InputShape::kSplitSignPowers};
 
 // Orders, delays, gaps among the lags, inputs' shapes and shared shocks by chance; outputs that are often clamped.
 Model filter_of_chance(unsigned seed) {
@@ -31,9 +30,8 @@ Model filter_of_chance(unsigned seed) {
   model.rate_hz = 50;
   model.outputs = {{"y", "", -0.2, 0.15}};
   for (int inputs = below(3); inputs >= 0; --inputs) {
-    const InputShape shape = kShapes[below(4)];
+    const InputShape shape = kShapes[below(3)];
     model.inputs.push_back({"u" + std::to_string(inputs), "", splits_sign(shape) ? -1.0 : 0.0, 1.0, shape});
-    if (has_curve(shape)) model.inputs.back().curve = {{0, 0.3, 0.55, 0.8, 1}, {0, 0.07, 0.32, 0.9, 1}};
   }
   const auto regressors = static_cast<int>(regressor_count(model.inputs));
   ArxModel arx;

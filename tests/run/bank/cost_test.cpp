@@ -79,27 +79,15 @@ TEST(Cost, APolylineTakesFewerThanFiveOperationsACoordinate) {
   EXPECT_EQ(cost_of(model, 32).view_operations, cost_of(model).view_operations + 2 * (derivatives + first + 4 * other));
 }
 
-// A wind that is bent on either side by as many knots as a curve may have.
-Model bent_by_many_knots(Model model) {
-  InputCurve& curve = model.inputs[0].curve = {};
-  for (std::size_t knot = 0; knot < kMaxCurveKnots; ++knot) {
-    curve.at.push_back(knot + 1 < kMaxCurveKnots ? static_cast<double>(knot) / kMaxCurveKnots : 1);
-    curve.value.push_back(curve.at.back() * (2 - curve.at.back()));
-  }
-  return model;
-}
-
-// Resampled residuals, an input curve, the rule of extinction, and an outline that is looked at.
+// Resampled residuals, the rule of extinction, and an outline that is looked at.
 TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan660Operations) {
-  for (const Model& flame : {default_flame_model(), default_flame_model(InputShape::kSplitSignCurve)}) {
-    const Cost cost = cost_of(has_curve(flame.inputs[0].shape) ? bent_by_many_knots(flame) : flame, 32);
-    EXPECT_EQ(cost.multiply_adds_per_frame, 144 - 4);  // the ends have no last tap of either wind
-    for (std::int64_t part : {cost.dynamics_operations, cost.noise_operations, cost.random_operations,
-                              cost.view_operations, cost.extinction_operations}) {
-      EXPECT_GT(part, 0);
-    }
-    EXPECT_LT(cost.operations_per_frame, 660);  // of them 100 for a search in every step, in a wind never recorded
+  const Cost cost = cost_of(default_flame_model(), 32);
+  EXPECT_EQ(cost.multiply_adds_per_frame, 144 - 4);  // the ends have no last tap of either wind
+  for (std::int64_t part : {cost.dynamics_operations, cost.noise_operations, cost.random_operations,
+                            cost.view_operations, cost.extinction_operations}) {
+    EXPECT_GT(part, 0);
   }
+  EXPECT_LT(cost.operations_per_frame, 660);  // of them 100 for a search in every step, in a wind never recorded
 }
 
 // 14 coordinates that hear two lags of each other and eight of the wind that blows, its root and its square; a search;
@@ -127,21 +115,6 @@ TEST(Cost, AModelWithoutNoiseDrawsNoRandomNumbers) {
   std::get<ArxModel>(model.dynamics).noise.sd.assign(16, 0.0);
   EXPECT_EQ(cost_of(model).random_operations, 0);
   EXPECT_EQ(cost_of(model).noise_operations, 0);
-}
-
-// A difference, a product and a sum; which knots an input lies between, and the wind's bounds, cost nothing. Of a wind
-// that is split, the side from which nothing blows is not bent.
-TEST(Cost, ACurveCostsThreeOperationsAnInputWhateverItsKnots) {
-  const Cost plain = cost_of(flame_model());
-  Model bent = flame_model({.wind = InputShape::kCurve});
-  for (const InputCurve& curve : {bent.inputs[0].curve, InputCurve{{0, 0.5, 1}, {0, 0.7, 1}}}) {
-    bent.inputs[0].curve = curve;
-    EXPECT_EQ(cost_of(bent).multiply_adds_per_frame, plain.multiply_adds_per_frame);
-    EXPECT_EQ(cost_of(bent).dynamics_operations, plain.dynamics_operations + 3);
-  }
-  const Cost split = cost_of(flame_model({.wind = InputShape::kSplitSign}));
-  EXPECT_EQ(cost_of(flame_model({.wind = InputShape::kSplitSignCurve})).dynamics_operations,
-            split.dynamics_operations + 3);
 }
 
 TEST(Cost, ABadModelHasNone) {

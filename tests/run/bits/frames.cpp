@@ -154,8 +154,6 @@ int main() {
   step_frames(hash, sample_model(), 13, 2'000);
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 600}), 11, 2'000);
   step_frames(hash, still_flame_model(), 11, 2'000);
-  step_frames(hash, flame_model({.wind = InputShape::kSplitSignCurve}), 5, 3'000);
-  step_frames(hash, flame_model({.wind = InputShape::kCurve}), 9, 1'000);
   time_frames(hash, flame_model(), 37, 1'000);
   mortal_frames(hash, flame_model({.wind = InputShape::kSplitSign}), 11, 2'000);
   mortal_frames(hash, default_flame_model(), 5, 2'000);

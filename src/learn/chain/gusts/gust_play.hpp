@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "learn/chain/gusts/gust_play.hpp"
+#include "learn/chain/gusts/gust_response.hpp"
 #include "learn/chain/motion/motion.hpp"
+#include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
@@ -66,5 +69,15 @@ struct GustPlay {
 /// Errors: the model is not a chain with a response to gusts; as learn_gusts(); rates that differ.
 Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Recording& calm,
                             const GustPlayOptions& options = {});
+
+/// Of gusts that were held out.
+ReportSection gusts_section(const GustFigures& figures);
+
+/// Of gusts that the model played.
+ReportSection gusts_section(const GustPlayFigures& figures);
+
+/// Tracks of a scene from above, in centimetres from each clone's own onset, where the wind blows and where it does
+/// not: ids `gusts-above.NUMBER.SIDE.WHAT`. The title says which gust it is.
+ReportSection scene_section(const GustScene& scene, std::size_t number);
 
 }  // namespace wisp::chain

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "learn/chain/motion/motion.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/chain_recipe.hpp"
 
@@ -59,5 +60,12 @@ std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::s
   }
   return stretches;
 }
+
+/// Whether heights vary hardly more within a quarter of the longest stretch than within a sixteenth. By the variance
+/// within a window: it is the same in both for what is bounded, four times as large for a random walk, sixteen times
+/// for what falls. False where a quarter has fewer than 8 usual segments.
+///
+/// Precondition: segments are of the motion, not none.
+bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);
 
 }  // namespace wisp::chain

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "learn/chain/segments/segment_features.hpp"
+#include "learn/chain/segments/modes.hpp"
 #include "learn/numeric/clustering.hpp"
 #include "learn/numeric/decompositions.hpp"
 #include "model/bspline.hpp"

@@ -1,4 +1,4 @@
-#include "learn/chain/motion/height_bound.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,281 @@
+#include "learn/outline/report/outline_report.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/statistics.hpp"
+#include "learn/arx/judge/prediction.hpp"
+#include "learn/arx/report/fit_report.hpp"
+#include "learn/arx/report/report_values.hpp"
+#include "learn/outline/outline_alignment.hpp"
+#include "wisp/base/report.hpp"
+
+namespace wisp {
+namespace {
+
+std::string horizon(int steps) {
+  if (steps == kFreeRun) return "simulated freely";
+  return steps == 1 ? "next frame" : std::to_string(steps) + " frames ahead";
+}
+
+// A number of steps in an id: "1", "5", … and "inf".
+std::string step_id(int steps) { return steps == kFreeRun ? "inf" : std::to_string(steps); }
+
+// An entry ID.STEPS for every number of steps. `label` empty: for programs only; else the horizon is added in words.
+void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
+                  const std::string& label, const std::string& unit, ReportSection& section) {
+  for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
+    section.entries.push_back(
+        {id + "." + step_id(steps[k]), values[k], label.empty() ? label : label + ", " + horizon(steps[k]), unit});
+  }
+}
+
+// The mean over control points of figures that are one a number of steps and control point.
+std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
+  std::vector<double> means;
+  for (const auto& values : per_step) means.push_back(mean(values));
+  return means;
+}
+
+// The entry of `values` for a number of steps; NaN where it was not judged.
+double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted) {
+  for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
+    if (steps[k] == wanted) return values[k];
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Columns PREFIX.STEPS of a table for programs.
+void add_step_columns(const std::string& prefix, const std::vector<int>& steps, ReportTable& table) {
+  for (int k : steps) table.columns.push_back({prefix + "." + step_id(k), ""});
+}
+
+// `alignment` [{recording, input, motion, offset_seconds, …}], and a sentence each for people.
+void add_alignment(const std::vector<InputAlignment>& alignment, ReportSection& section) {
+  ReportTable table{"alignment",
+                    "",
+                    {{"recording", ""},
+                     {"input", ""},
+                     {"motion", ""},
+                     {"offset_seconds", ""},
+                     {"offset_ci95", ""},
+                     {"usable", ""},
+                     {"reason", ""},
+                     {"frames_moved", ""}},
+                    {}};
+  for (const InputAlignment& one : alignment) {
+    section.entries.push_back({"", one.note(), "timing", ""});
+    table.rows.push_back({one.source, one.input, one.motion, one.found.offset_seconds,
+                          ReportList{one.found.low_seconds, one.found.high_seconds}, one.found.usable, one.found.reason,
+                          one.frames_moved});
+  }
+  section.tables.push_back(std::move(table));
+}
+
+// What was learned from.
+ReportSection data_section(const OutlineSummary& summary) {
+  ReportSection section{"Data"};
+  std::string names;
+  ReportTable inputs{"inputs", "", {{"name", ""}, {"unit", ""}, {"scale", ""}}, {}};
+  for (const OutlineInput& input : summary.inputs) {
+    names += (names.empty() ? "" : ", ") + input.name;
+    inputs.rows.push_back({input.name, input.unit, input.scale});
+  }
+  section.entries = {
+      {"rate_hz", summary.rate_hz, "rate", "frames a second"},
+      {"", names.empty() ? "none: a model of flicker" : names, "inputs", ""},
+      {"points", summary.points, "control points", ""},
+      {"samples.learned", summary.rows_learned, "frames to learn from", ""},
+      {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, "what the fit is judged on"}};
+  section.tables.push_back(std::move(inputs));
+  add_alignment(summary.alignment, section);
+  return section;
+}
+
+// The structure of the equations.
+ReportSection structure_section(const OutlineSummary& summary) {
+  const OutlineDynamics& dynamics = summary.dynamics;
+  const ShapeComponents& shape = dynamics.shape;
+  const std::string text = shape.empty()
+                               ? "one system a control point, as in the paper"
+                               : std::to_string(shape.symmetric) + " symmetric and " +
+                                     std::to_string(shape.antisymmetric) + " antisymmetric components of the shape";
+  const std::string noise =
+      summary.resampled_rows > 0 ? std::to_string(summary.resampled_rows) + " resampled residuals" : "Gaussian";
+  return {"Structure",
+          {{"na", arx::list_of(dynamics.arx.orders.na), "", ""},
+           {"nb", arx::list_of(dynamics.arx.orders.nb), "", ""},
+           {"nk", arx::list_of(dynamics.arx.orders.nk), "", ""},
+           {"", text, "dynamics", ""},
+           {"components.symmetric", shape.symmetric, "", ""},
+           {"components.antisymmetric", shape.antisymmetric, "", ""},
+           {"ridge", dynamics.ridge, "", ""},
+           {"noise.rows", summary.resampled_rows, "", ""},
+           {"", noise, "noise", ""}}};
+}
+
+ReportTable channels_table(const OutlineFit& fit) {
+  const OutlineSummary& summary = fit.summary;
+  ReportTable table{"channels", "", {{"name", ""}, {"residual_sd", ""}}, {}};
+  add_step_columns("fit_percent", summary.learned.steps, table);
+  if (summary.held_out) {
+    add_step_columns("held_out_fit_percent", summary.held_out->steps, table);
+  } else {
+    table.columns.push_back({"held_out_fit_percent", ""});
+  }
+  for (std::size_t k = 0; k < fit.model.outputs.size(); ++k) {
+    std::vector<ReportValue> row{fit.model.outputs[k].name, summary.residual_sd[k]};
+    for (double value : summary.learned.channels[k].fit_percent) row.push_back(value);
+    if (summary.held_out) {
+      for (double value : summary.held_out->channels[k].fit_percent) row.push_back(value);
+    } else {
+      row.emplace_back();
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+// How well the outline is followed.
+ReportSection fit_section(const OutlineFit& fit) {
+  const OutlineSummary& summary = fit.summary;
+  const bool held_out = summary.held_out.has_value();
+  const OutlineFigures& judged = held_out ? *summary.held_out : summary.learned;
+  ReportSection section{held_out ? "Fit to held-out frames" : "Fit to the frames learned from"};
+  add_by_steps("tip.fit_percent", summary.learned.steps, summary.learned.tip_fit_percent, held_out ? "" : "tip fit",
+               "%", section);
+  if (held_out) {
+    add_by_steps("tip.held_out_fit_percent", judged.steps, judged.tip_fit_percent, "tip fit", "%", section);
+  } else {
+    section.entries.push_back({"tip.held_out_fit_percent", {}, "", ""});
+  }
+  section.entries.push_back({"overlap", at_steps(judged.steps, judged.overlap, kFreeRun), "", ""});
+  add_by_steps("overlap_by_steps", judged.steps, judged.overlap, "outline overlap", "", section);
+  add_by_steps("J", judged.steps, mean_per_step(judged.j), "", "", section);
+  for (std::size_t k = 0; k < judged.steps.size(); ++k) {
+    section.entries.push_back({"J_per_point." + step_id(judged.steps[k]), judged.j[k], "", ""});
+  }
+  section.tables.push_back(channels_table(fit));
+  return section;
+}
+
+// What is seen of free play.
+ReportSection play_section(const OutlineSummary& summary) {
+  const OutlineTrial& trial = summary.trial;
+  ReportSection section{
+      "Free play beside the recording",
+      {{"stable.radius", summary.radius, "spectral radius", "", {}, summary.dynamics.stabilised ? "made stable" : ""},
+       {"stable.changed", summary.dynamics.stabilised, "", ""},
+       {"spread", median(trial.sd_ratio), "spread, played over recorded", "", {}, "0.8 to 1.25 is good"},
+       {"outside_share", trial.outside, "shapes that the recording has not", "", {}, "at most 0.03 is good"},
+       {"crossed_share", trial.crossed, "outlines that cross themselves", ""},
+       {"crossed_share_recorded", trial.crossed_recorded, "", ""},
+       {"held_share", trial.held_share, "share of steps clamped", "", {}, "at most 0.001 is good"}}};
+  const auto add = [&](const char* id, const char* label, const std::optional<Bounded>& distance) {
+    if (!distance) return;
+    section.entries.push_back({std::string(id) + ".value", distance->value, label, ""});
+    section.entries.push_back({std::string(id) + ".floor", distance->floor, "", ""});
+    section.entries.push_back({std::string(id) + ".ceiling", distance->ceiling, "", ""});
+  };
+  add("play.half_second", "energy distance over half a second", trial.half_second);
+  add("play.two_seconds", "energy distance over two seconds", trial.two_seconds);
+  return section;
+}
+
+ReportTable channels_table(const OutlineFigures& figures) {
+  ReportTable table{"channels", "", {{"name", ""}}, {}};
+  add_step_columns("fit_percent", figures.steps, table);
+  for (const OutlineChannelFigures& channel : figures.channels) {
+    std::vector<ReportValue> row{channel.name};
+    for (double value : channel.fit_percent) row.push_back(value);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable points_table(const OutlineFigures& figures) {
+  ReportTable table{"points", "", {}, {}};
+  add_step_columns("fit_percent", figures.steps, table);
+  add_step_columns("J", figures.steps, table);
+  for (std::size_t p = 0; !figures.j.empty() && p < figures.j.front().size(); ++p) {
+    std::vector<ReportValue> row;
+    for (const auto& fits : figures.point_fit_percent) row.push_back(fits[p]);
+    for (const auto& errors : figures.j) row.push_back(errors[p]);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportSection fit_section(const OutlineJudgement& found) {
+  const OutlineFigures& figures = found.figures;
+  ReportSection section{"Prediction and simulation", {{"rows", figures.rows, "frames judged", ""}}};
+  add_alignment(found.alignment, section);
+  add_by_steps("J", figures.steps, mean_per_step(figures.j), "", "", section);
+  add_by_steps("tip.fit_percent", figures.steps, figures.tip_fit_percent, "tip fit", "%", section);
+  section.entries.push_back({"overlap", at_steps(figures.steps, figures.overlap, kFreeRun), "", ""});
+  add_by_steps("overlap_by_steps", figures.steps, figures.overlap, "outline overlap", "", section);
+  section.tables.push_back(channels_table(figures));
+  section.tables.push_back(points_table(figures));
+  return section;
+}
+
+void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
+                 ReportSection& section) {
+  const auto bound = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return std::isfinite(value) ? std::string(text) : std::string("too short to tell");
+  };
+  const std::string meaning =
+      "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
+  section.entries.push_back({id + ".value", measure.value, label, unit, {}, meaning});
+  section.entries.push_back({id + ".floor", measure.floor, "", ""});
+  section.entries.push_back({id + ".ceiling", measure.ceiling, "", ""});
+}
+
+ReportSection fidelity_section(const OutlineJudgement& found) {
+  ReportSection section{"Fidelity of free play"};
+  if (!found.fidelity) {
+    section.entries.push_back({"fidelity", {}, "", ""});
+  } else {
+    const Fidelity& figures = *found.fidelity;
+    add_bounded("fidelity.log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB",
+                section);
+    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance over half a second",
+                "", section);
+    add_bounded("fidelity.two_seconds.energy_distance", figures.long_motion, "the same over two seconds", "", section);
+    add_bounded("fidelity.two_seconds.spectral_distance", figures.long_spectra, "of log spectra over two seconds", "",
+                section);
+    add_bounded("fidelity.tails", figures.tails, "violence of the rarest motion, |ln| of its ratio", "", section);
+    section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
+    const char* bounded = "log_spectral_distance";
+    ReportTable channels{"fidelity.channels", "", {{"name", ""}, {"sd_real", ""}, {"sd_synthesized", ""}}, {}};
+    for (const char* bound : {".value", ".floor", ".ceiling"})
+      channels.columns.push_back({std::string(bounded) + bound, ""});
+    for (const ChannelFidelity& one : figures.channels) {
+      const Bounded& distance = one.log_spectral_distance;
+      channels.rows.push_back(
+          {one.name, one.sd_real, one.sd_synthesized, distance.value, distance.floor, distance.ceiling});
+    }
+    section.tables.push_back(std::move(channels));
+  }
+  section.entries.push_back({"held_share", found.held_share, "share of steps clamped", ""});
+  section.entries.push_back({"crossed_share", found.self_intersection_rate, "self-intersection rate", ""});
+  return section;
+}
+
+}  // namespace
+
+std::vector<ReportSection> report_sections(const OutlineFit& fit) {
+  return {data_section(fit.summary), structure_section(fit.summary), fit_section(fit), play_section(fit.summary)};
+}
+
+std::vector<ReportSection> report_sections(const OutlineJudgement& found) {
+  return {fit_section(found), fidelity_section(found)};
+}
+
+}  // namespace wisp
