@@ -1,12 +1,15 @@
-// Banks: living instances of one model, stepped together.
+// Banks: living instances of one model, stepped together; of a chain also their segment, placing, steering and ground.
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "c/boundary.hpp"
-#include "c/handles.hpp"
+#include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
 namespace {
@@ -27,12 +30,11 @@ std::optional<wisp::BankOptions> options_of(const char* function, const wisp_ban
     if (!size_is_right(function, given->size)) return {};
     take_in(given, known);
   }
-  wisp::BankOptions options;
-  options.capacity = static_cast<int>(std::min<std::uint32_t>(known.capacity, 0x7fffffff));
-  options.polyline_points = static_cast<int>(std::min<std::uint32_t>(known.polyline_points, 0x7fffffff));
-  if (known.capacity == 0) options.capacity = 1;
-  if (known.polyline_points == 0) options.polyline_points = wisp::BankOptions().polyline_points;
-  options.seed = known.seed;
+  const auto whole = [](std::uint32_t value, int zero) {
+    return value == 0 ? zero : static_cast<int>(std::min<std::uint32_t>(value, 0x7fffffff));
+  };
+  wisp::BankOptions options{.capacity = whole(known.capacity, 1), .seed = known.seed};
+  options.polyline_points = whole(known.polyline_points, options.polyline_points);
   if (known.memory) options.memory = {static_cast<std::byte*>(known.memory), known.memory_size};
   return options;
 }
@@ -62,18 +64,30 @@ std::optional<wisp::LitState> state_of(const wisp_bank* bank, InstanceId id) {
   return bank->bank.valid(id) ? std::optional<wisp::LitState>(wisp::LitState{}) : std::nullopt;
 }
 
+// Calls use(chain) with the bank's chain (const for a const bank); what it returns, if anything, is the outcome.
+template <class Handle, class Use>
+wisp_status on_chain(const char* function, Handle* bank, Use use) {
+  if (!bank) return null_argument(function);
+  auto* chain = bank->bank.chain();
+  if (!chain) return fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not a chain", function);
+  if constexpr (std::is_void_v<decltype(use(*chain))>) {
+    use(*chain);
+    return WISP_OK;
+  } else {
+    return use(*chain);
+  }
+}
+
 }  // namespace
 
 extern "C" {
 
 wisp_bank_options wisp_bank_default_options(void) {
   const wisp::BankOptions defaults;
-  wisp_bank_options options{};
-  options.size = sizeof options;
-  options.capacity = static_cast<uint32_t>(defaults.capacity);
-  options.polyline_points = static_cast<uint32_t>(defaults.polyline_points);
-  options.seed = defaults.seed;
-  return options;
+  return {.size = sizeof(wisp_bank_options),
+          .capacity = static_cast<uint32_t>(defaults.capacity),
+          .polyline_points = static_cast<uint32_t>(defaults.polyline_points),
+          .seed = defaults.seed};
 }
 
 wisp_status wisp_bank_bytes(const wisp_model* model, const wisp_bank_options* options, size_t* bytes) {
@@ -106,16 +120,15 @@ wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts) {
   if (!bank || !facts) return null_argument(__func__);
   if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
   const wisp::Bank& b = bank->bank;
-  wisp_bank_facts filled{};
-  filled.capacity = static_cast<uint32_t>(b.capacity());
-  filled.alive = static_cast<uint32_t>(b.size());
-  filled.slots = static_cast<uint32_t>(b.slots());
-  filled.inputs = static_cast<uint32_t>(b.input_count());
-  filled.outputs = static_cast<uint32_t>(b.output_count());
-  filled.polyline_points = static_cast<uint32_t>(b.polyline_points());
-  filled.clamped = b.clamped().clamped;
-  filled.steps = b.clamped().steps;
-  hand_out(filled, facts);
+  hand_out(wisp_bank_facts{.capacity = static_cast<uint32_t>(b.capacity()),
+                           .alive = static_cast<uint32_t>(b.size()),
+                           .slots = static_cast<uint32_t>(b.slots()),
+                           .inputs = static_cast<uint32_t>(b.input_count()),
+                           .outputs = static_cast<uint32_t>(b.output_count()),
+                           .polyline_points = static_cast<uint32_t>(b.polyline_points()),
+                           .clamped = b.clamped().clamped,
+                           .steps = b.clamped().steps},
+           facts);
   return WISP_OK;
 }
 
@@ -152,16 +165,14 @@ wisp_status wisp_bank_set_inputs(wisp_bank* bank, const float* values, size_t co
 
 wisp_status wisp_bank_set_common_inputs(wisp_bank* bank, const float* values, size_t count) {
   if (!bank) return null_argument(__func__);
-  const auto expected = static_cast<size_t>(bank->bank.input_count());
-  if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, bank->bank.input_count())) return WISP_BAD_ARGUMENT;
   bank->bank.set_common_inputs({values, count});
   return WISP_OK;
 }
 
 wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instance instance, const float* values, size_t count) {
   if (!bank) return null_argument(__func__);
-  const auto expected = static_cast<size_t>(bank->bank.input_count());
-  if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, bank->bank.input_count())) return WISP_BAD_ARGUMENT;
   return bank->bank.set_inputs(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
 }
 
@@ -225,8 +236,7 @@ wisp_status wisp_bank_outputs(const wisp_bank* bank, float* values, size_t count
 
 wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_instance instance, float* values, size_t count) {
   if (!bank) return null_argument(__func__);
-  const auto expected = static_cast<size_t>(bank->bank.output_count());
-  if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, bank->bank.output_count())) return WISP_BAD_ARGUMENT;
   return bank->bank.outputs(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
 }
 
@@ -242,8 +252,7 @@ wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t cou
 wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count) {
   if (!bank) return null_argument(__func__);
   if (!has_outline(__func__, bank)) return WISP_BAD_ARGUMENT;
-  const auto expected = 2 * static_cast<size_t>(bank->bank.polyline_points());
-  if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, values, count, 2 * bank->bank.polyline_points())) return WISP_BAD_ARGUMENT;
   return bank->bank.polyline(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
 }
 
@@ -252,12 +261,11 @@ wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance insta
   if (!size_is_right(__func__, state->size)) return WISP_BAD_ARGUMENT;
   const auto found = state_of(bank, id_of(instance));
   if (!found) return not_alive(__func__);
-  wisp_flame_state filled{};
-  filled.lit = found->lit ? 1 : 0;
-  filled.flame_size = found->size;
-  filled.since_lit = found->since_lit.count();
-  filled.since_out = found->since_out.count();
-  hand_out(filled, state);
+  hand_out(wisp_flame_state{.lit = found->lit ? 1U : 0U,
+                            .flame_size = found->size,
+                            .since_lit = found->since_lit.count(),
+                            .since_out = found->since_out.count()},
+           state);
   return WISP_OK;
 }
 
@@ -315,6 +323,82 @@ wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size) {
   return guarded(__func__, [&]() -> wisp_status {
     const auto outcome = bank->bank.restore({static_cast<const std::byte*>(bytes), size});
     return outcome ? static_cast<wisp_status>(WISP_OK) : fail(WISP_BAD_DATA, outcome.error());
+  });
+}
+
+wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place) {
+  if (!bank || !place) return null_argument(__func__);
+  const char* const call = __func__;  // within a lambda __func__ is operator()
+  if (!size_is_right(call, place->size)) return WISP_BAD_ARGUMENT;
+  return on_chain(call, bank, [&](const wisp::ChainFacet& chain) {
+    const auto found = chain.place_of(id_of(instance));
+    if (!found) return not_alive(call);
+    hand_out(wisp_chain_place{sizeof(wisp_chain_place), found->segment, found->step, found->mode}, place);
+    return wisp_status{WISP_OK};
+  });
+}
+
+wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body) {
+  if (!bank || !body) return null_argument(__func__);
+  const char* const call = __func__;
+  if (!size_is_right(call, body->size)) return WISP_BAD_ARGUMENT;
+  return on_chain(call, bank, [&](wisp::ChainFacet& chain) {
+    if (!bank->bank.valid(id_of(instance))) return not_alive(call);
+    wisp_body known{};
+    known.orientation[0] = 1;
+    take_in(body, known);
+    const wisp::BodyMoment moment{std::to_array(known.position), std::to_array(known.orientation),
+                                  std::to_array(known.velocity), std::to_array(known.spin)};
+    if (chain.place(id_of(instance), moment)) return wisp_status{WISP_OK};
+    return fail(WISP_BAD_ARGUMENT, "%s was given a number that is not finite", call);
+  });
+}
+
+wisp_status wisp_bank_steer(wisp_bank* bank, wisp_instance instance, const wisp_target* target) {
+  if (!bank || !target) return null_argument(__func__);
+  const char* const call = __func__;
+  if (!size_is_right(call, target->size)) return WISP_BAD_ARGUMENT;
+  return on_chain(call, bank, [&](wisp::ChainFacet& chain) {
+    if (!bank->bank.valid(id_of(instance))) return not_alive(call);
+    wisp_target known{};
+    take_in(target, known);
+    wisp::SteerTarget wanted{std::to_array(known.position), std::chrono::nanoseconds(known.nanoseconds)};
+    if (known.within != 0) wanted.near = known.within;
+    if (chain.steer(id_of(instance), wanted)) return wisp_status{WISP_OK};
+    if (!chain.can_steer()) return fail(WISP_BAD_ARGUMENT, "%s: this chain cannot be steered", call);
+    return fail(WISP_BAD_ARGUMENT, "%s was given a place, a time or a nearness that is out of its range", call);
+  });
+}
+
+wisp_status wisp_bank_release(wisp_bank* bank, wisp_instance instance) {
+  const char* const call = __func__;
+  return on_chain(call, bank, [&](wisp::ChainFacet& chain) {
+    return chain.release(id_of(instance)) ? wisp_status{WISP_OK} : not_alive(call);
+  });
+}
+
+int32_t wisp_bank_can_steer(const wisp_bank* bank) {
+  const wisp::ChainFacet* chain = bank ? bank->bank.chain() : nullptr;
+  return chain && chain->can_steer() ? 1 : 0;
+}
+
+wisp_status wisp_bank_set_ground(wisp_bank* bank, float height) {
+  if (bank && !std::isfinite(height)) {
+    return fail(WISP_BAD_ARGUMENT, "%s was given a height that is not finite", __func__);
+  }
+  return on_chain(__func__, bank, [&](wisp::ChainFacet& chain) { chain.set_ground(height); });
+}
+
+wisp_status wisp_bank_clear_ground(wisp_bank* bank) {
+  return on_chain(__func__, bank, [](wisp::ChainFacet& chain) { chain.set_ground({}); });
+}
+
+wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings) {
+  if (!bank || !settings) return null_argument(__func__);
+  if (!size_is_right(__func__, settings->size)) return WISP_BAD_ARGUMENT;
+  return on_chain(__func__, bank, [&](const wisp::ChainFacet& chain) {
+    const auto ground = chain.ground();
+    hand_out(wisp_chain_settings{.has_ground = ground ? 1U : 0U, .ground = ground.value_or(0.0f)}, settings);
   });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Common checks of the C ABI: error messages, structs of other sizes, no exceptions.
+// Common to the C ABI: the types behind its handles, error messages, structs of other sizes, no exceptions.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,6 +8,8 @@
 #include <new>
 
 #include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/run/bank.hpp"
 #include "wisp/wisp.h"
 
 // C99 format strings, which MinGW's own printf does not support.
@@ -19,7 +21,24 @@
 #define WISP_FORMAT
 #endif
 
+struct wisp_model {
+  wisp::Model model;
+};
+
+struct wisp_bank {
+  wisp::Bank bank;
+};
+
 namespace wisp::c {
+
+inline InstanceId id_of(wisp_instance instance) {
+  return {static_cast<std::uint32_t>(instance), static_cast<std::uint32_t>(instance >> 32)};
+}
+
+inline wisp_instance instance_of(InstanceId id) {
+  if (id.generation == 0) return WISP_NO_INSTANCE;
+  return static_cast<wisp_instance>(id.generation) << 32 | id.slot;
+}
 
 /// Stores a message as this thread's last error. Returns `status`. Allocates nothing.
 wisp_status fail(wisp_status status, const char* format, ...) WISP_FORMAT;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "c/boundary.hpp"
-#include "c/handles.hpp"
 #include "wisp/model/file.hpp"
 
 namespace {
@@ -71,7 +70,7 @@ wisp_status on_dynamics(const char* function, const wisp_model* model, Use use) 
 
 // Fills an array with what take(dynamics) returns.
 template <class Kind, class Take, class Value>
-wisp_status hand_out_of(const char* function, const wisp_model* model, Take take, Value* values, std::size_t count) {
+wisp_status hand_out_of(const char* function, const wisp_model* model, Value* values, std::size_t count, Take take) {
   return on_dynamics<Kind>(function, model, [&](const Kind& dynamics) {
     return guarded(function, [&] { return hand_out_values(function, take(dynamics), values, count); });
   });
@@ -127,14 +126,13 @@ wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* 
   if (!model || !provenance) return null_argument(__func__);
   if (!size_is_right(__func__, provenance->size)) return WISP_BAD_ARGUMENT;
   const wisp::Training& made = model->model.training;
-  wisp_provenance filled{};
-  filled.sources = static_cast<uint32_t>(made.sources.size());
-  filled.options = static_cast<uint32_t>(made.recipe.size());
-  filled.figures = static_cast<uint32_t>(made.figures.size());
-  filled.usable = made.usable.verdict ? 1 : 0;
-  filled.program = made.program.c_str();
-  filled.reason = made.usable.reason.c_str();
-  hand_out(filled, provenance);
+  hand_out(wisp_provenance{.sources = static_cast<uint32_t>(made.sources.size()),
+                           .options = static_cast<uint32_t>(made.recipe.size()),
+                           .figures = static_cast<uint32_t>(made.figures.size()),
+                           .usable = made.usable.verdict ? 1U : 0U,
+                           .program = made.program.c_str(),
+                           .reason = made.usable.reason.c_str()},
+           provenance);
   return WISP_OK;
 }
 
@@ -151,10 +149,7 @@ wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_
   const auto& options = model->model.training.recipe;
   if (!size_is_right(__func__, option->size)) return WISP_BAD_ARGUMENT;
   if (!index_is_right(__func__, index, options.size())) return WISP_BAD_ARGUMENT;
-  wisp_note filled{};
-  filled.name = options[index].name.c_str();
-  filled.value = options[index].value.c_str();
-  hand_out(filled, option);
+  hand_out(wisp_note{.name = options[index].name.c_str(), .value = options[index].value.c_str()}, option);
   return WISP_OK;
 }
 
@@ -163,10 +158,7 @@ wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_
   const auto& figures = model->model.training.figures;
   if (!size_is_right(__func__, figure->size)) return WISP_BAD_ARGUMENT;
   if (!index_is_right(__func__, index, figures.size())) return WISP_BAD_ARGUMENT;
-  wisp_figure filled{};
-  filled.name = figures[index].name.c_str();
-  filled.value = figures[index].value;
-  hand_out(filled, figure);
+  hand_out(wisp_figure{.name = figures[index].name.c_str(), .value = figures[index].value}, figure);
   return WISP_OK;
 }
 
@@ -174,60 +166,52 @@ wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
   if (!model || !facts) return null_argument(__func__);
   if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
   return on_dynamics<wisp::ArxModel>(__func__, model, [&](const wisp::ArxModel& arx) {
-    wisp_arx_facts filled{};
-    filled.outputs = static_cast<uint32_t>(arx.orders.outputs());
-    filled.regressors = static_cast<uint32_t>(arx.orders.inputs());
-    filled.history = static_cast<uint32_t>(arx.orders.history());
-    filled.shocks = static_cast<uint32_t>(arx.noise.rank);
-    filled.resamples = arx.noise.resampled.empty() ? 0 : 1;
-    hand_out(filled, facts);
+    hand_out(wisp_arx_facts{.outputs = static_cast<uint32_t>(arx.orders.outputs()),
+                            .regressors = static_cast<uint32_t>(arx.orders.inputs()),
+                            .history = static_cast<uint32_t>(arx.orders.history()),
+                            .shocks = static_cast<uint32_t>(arx.noise.rank),
+                            .resamples = arx.noise.resampled.empty() ? 0U : 1U},
+             facts);
     return wisp_status{WISP_OK};
   });
 }
 
 wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values, size_t count) {
-  return hand_out_of<wisp::ArxModel>(
-      __func__, model, [](auto& arx) { return arx.orders.na.values(); }, values, count);
+  return hand_out_of<wisp::ArxModel>(__func__, model, values, count, [](auto& arx) { return arx.orders.na.values(); });
 }
 
 wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count) {
-  return hand_out_of<wisp::ArxModel>(
-      __func__, model, [](auto& arx) { return arx.orders.nb.values(); }, values, count);
+  return hand_out_of<wisp::ArxModel>(__func__, model, values, count, [](auto& arx) { return arx.orders.nb.values(); });
 }
 
 wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count) {
-  return hand_out_of<wisp::ArxModel>(
-      __func__, model, [](auto& arx) { return arx.orders.nk.values(); }, values, count);
+  return hand_out_of<wisp::ArxModel>(__func__, model, values, count, [](auto& arx) { return arx.orders.nk.values(); });
 }
 
 wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count) {
-  return hand_out_of<wisp::ArxModel>(
-      __func__, model, [](auto& arx) { return arx.noise.sd; }, values, count);
+  return hand_out_of<wisp::ArxModel>(__func__, model, values, count, [](auto& arx) { return arx.noise.sd; });
 }
 
 wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts) {
   if (!model || !facts) return null_argument(__func__);
   if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
   return on_dynamics<wisp::ChainModel>(__func__, model, [&](const wisp::ChainModel& chain) {
-    wisp_chain_facts filled{};
-    filled.modes = static_cast<uint32_t>(chain.modes);
-    filled.segments = static_cast<uint32_t>(chain.segments.size());
-    filled.history = static_cast<uint32_t>(chain.history);
-    filled.gust_order = chain.gust ? static_cast<uint32_t>(chain.gust->order()) : 0;
-    filled.heading_free = chain.heading_free ? 1 : 0;
-    hand_out(filled, facts);
+    hand_out(wisp_chain_facts{.modes = static_cast<uint32_t>(chain.modes),
+                              .segments = static_cast<uint32_t>(chain.segments.size()),
+                              .history = static_cast<uint32_t>(chain.history),
+                              .gust_order = chain.gust ? static_cast<uint32_t>(chain.gust->order()) : 0,
+                              .heading_free = chain.heading_free ? 1U : 0U},
+             facts);
     return wisp_status{WISP_OK};
   });
 }
 
 wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count) {
-  return hand_out_of<wisp::ChainModel>(
-      __func__, model, [](auto& chain) { return chain.initial; }, values, count);
+  return hand_out_of<wisp::ChainModel>(__func__, model, values, count, [](auto& chain) { return chain.initial; });
 }
 
 wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count) {
-  return hand_out_of<wisp::ChainModel>(
-      __func__, model, [](auto& chain) { return chain.transitions(); }, values, count);
+  return hand_out_of<wisp::ChainModel>(__func__, model, values, count, [](auto& chain) { return chain.transitions(); });
 }
 
 wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count) {

@@ -54,18 +54,15 @@ bool is_amplitude(float value) { return value >= 0 && value <= 8; }
 extern "C" {
 
 wisp_wind_options wisp_wind_default_options(void) {
-  const wisp::SoundFormat sound;
   const wisp::WindOptions defaults;
-  wisp_wind_options options{};
-  options.size = sizeof options;
-  options.channels = static_cast<uint32_t>(sound.channels);
-  options.rate_hz = sound.rate_hz;
-  options.frame_rate_hz = defaults.frame_rate_hz;
-  options.exponent = defaults.exponent;
-  options.smoothing_seconds = defaults.smoothing_seconds;
-  options.floor_rise_db_per_second = defaults.floor_rise_db_per_second;
-  options.first_gust_rms = defaults.first_gust_rms;
-  return options;
+  return {.size = sizeof(wisp_wind_options),
+          .channels = static_cast<uint32_t>(wisp::SoundFormat().channels),
+          .rate_hz = wisp::SoundFormat().rate_hz,
+          .frame_rate_hz = defaults.frame_rate_hz,
+          .exponent = defaults.exponent,
+          .smoothing_seconds = defaults.smoothing_seconds,
+          .floor_rise_db_per_second = defaults.floor_rise_db_per_second,
+          .first_gust_rms = defaults.first_gust_rms};
 }
 
 wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_wind** wind) {
@@ -76,15 +73,13 @@ wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_wind** wind)
     take_in(options, known);
   }
   if (known.channels == 0) known.channels = 1;
-  wisp::SoundFormat sound;
-  sound.rate_hz = known.rate_hz;
-  sound.channels = static_cast<int>(std::min<std::uint32_t>(known.channels, 0x7fffffff));
-  wisp::WindOptions wanted;
-  wanted.frame_rate_hz = known.frame_rate_hz;
-  wanted.exponent = known.exponent;
-  wanted.smoothing_seconds = known.smoothing_seconds;
-  wanted.floor_rise_db_per_second = known.floor_rise_db_per_second;
-  wanted.first_gust_rms = known.first_gust_rms;
+  const wisp::SoundFormat sound{.rate_hz = known.rate_hz,
+                                .channels = static_cast<int>(std::min<std::uint32_t>(known.channels, 0x7fffffff))};
+  const wisp::WindOptions wanted{.frame_rate_hz = known.frame_rate_hz,
+                                 .exponent = known.exponent,
+                                 .smoothing_seconds = known.smoothing_seconds,
+                                 .floor_rise_db_per_second = known.floor_rise_db_per_second,
+                                 .first_gust_rms = known.first_gust_rms};
   return guarded(__func__, [&]() -> wisp_status {
     auto level = wisp::WindLevel::create(sound, wanted);
     if (!level) return fail(WISP_BAD_ARGUMENT, level.error());
@@ -132,12 +127,11 @@ wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibrati
   if (!wind || !calibration) return null_argument(__func__);
   if (!size_is_right(__func__, calibration->size)) return WISP_BAD_ARGUMENT;
   const wisp::WindCalibration known = wind->level.calibration();
-  wisp_wind_calibration filled{};
-  filled.background_rms = known.background_rms;
-  filled.background_level = known.background_level;
-  filled.floor_db = known.floor_db;
-  filled.gust_rms = known.gust_rms;
-  hand_out(filled, calibration);
+  hand_out(wisp_wind_calibration{.background_rms = known.background_rms,
+                                 .background_level = known.background_level,
+                                 .floor_db = known.floor_db,
+                                 .gust_rms = known.gust_rms},
+           calibration);
   return WISP_OK;
 }
 

@@ -58,11 +58,8 @@ wisp::Result<wisp::Recipe> kind_of(const wisp_recipe& given, const wisp::Recordi
       return chain_recipe(given, wisp::ChainRecipe());
     case WISP_RECIPE_LEAF:
       return chain_recipe(given, wisp::LeafRecipe());
-    case WISP_RECIPE_FLICKER: {
-      wisp::FlickerRecipe recipe;
-      if (given.modes > 0) recipe.modes = given.modes;
-      return wisp::Recipe(recipe);
-    }
+    case WISP_RECIPE_FLICKER:
+      return wisp::Recipe(wisp::FlickerRecipe{.modes = given.modes > 0 ? given.modes : wisp::FlickerRecipe().modes});
     default:
       return wisp::Error{"wisp_learn was given a recipe of kind " + std::to_string(given.kind)};
   }
@@ -139,14 +136,8 @@ wisp_status wisp_recording_set_attribute(wisp_recording* recording, const char* 
 
 wisp_recipe wisp_recipe_default(uint32_t kind) {
   const wisp::ArxRecipe arx;
-  return {sizeof(wisp_recipe),
-          kind,
-          std::get<int>(arx.na),
-          std::get<int>(arx.nb),
-          std::get<int>(*arx.nk),
-          0,
-          nullptr,
-          nullptr};
+  const int nk = std::get<int>(*arx.nk);
+  return {sizeof(wisp_recipe), kind, std::get<int>(arx.na), std::get<int>(arx.nb), nk, 0, nullptr, nullptr};
 }
 
 wisp_status wisp_learn(const wisp_recording* const* recordings, size_t count, const wisp_recipe* recipe,

@@ -1,4 +1,4 @@
-// Binary glTF 2.0 (ISO/IEC 12113:2022) of bodies and outlines, with the extension KHR_materials_unlit.
+// Binary glTF 2.0 (ISO/IEC 12113:2022) of bodies and outlines, with the extension KHR_materials_emissive_strength.
 
 #include <algorithm>
 #include <array>
@@ -19,19 +19,55 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
+namespace exporting {
+extern const unsigned char flame_picture[];
+extern const unsigned flame_picture_size;
+}  // namespace exporting
 namespace {
 
 // The number of components of a value.
 enum class Shape { kScalar = 1, kVector2 = 2, kVector3 = 3, kVector4 = 4 };
 
+// glTF 2.0 Specification (ISO/IEC 12113:2022), sections 3.6 and 4.4.
+constexpr int kFloat = 5126, kShort = 5123, kVertices = 34962, kIndices = 34963;
+constexpr std::uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
+
+void append(std::vector<std::byte>& bytes, std::uint32_t word, int size = 4) {
+  for (int k = 0; k < size; ++k) bytes.push_back(static_cast<std::byte>(word >> 8 * k & 0xff));
+}
+
 class Buffer {
  public:
-  /// Adds numbers; returns the index of their accessor.
-  int add(std::span<const float> values, Shape shape);
-  /// Adds an attribute of vertices.
-  int add_vertices(std::span<const float> values, Shape shape);
+  /// Adds numbers, of vertices where kVertices is the target; returns the index of their accessor.
+  int add(std::span<const float> values, Shape shape, int target = 0) {
+    const auto width = static_cast<std::size_t>(shape);
+    Accessor accessor{bytes_.size(), values.size() * 4, values.size() / width, shape, target, {}, {}};
+    accessor.lowest.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width));
+    accessor.highest = accessor.lowest;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      accessor.lowest[k % width] = std::min(accessor.lowest[k % width], values[k]);
+      accessor.highest[k % width] = std::max(accessor.highest[k % width], values[k]);
+      append(bytes_, std::bit_cast<std::uint32_t>(values[k]));
+    }
+    return close(std::move(accessor));
+  }
+
   /// Adds indices of vertices.
-  int add_indices(std::span<const std::uint16_t> indices);
+  int add_indices(std::span<const std::uint16_t> indices) {
+    Accessor accessor{bytes_.size(), indices.size() * 2, indices.size(), Shape::kScalar, kIndices, {}, {}};
+    for (const std::uint16_t index : indices) append(bytes_, index, 2);
+    return close(std::move(accessor));
+  }
+
+  /// Adds a file of another format, a picture. Precondition: it comes after all numbers.
+  void add_picture(std::span<const std::byte> picture) {
+    Accessor accessor{.offset = bytes_.size(), .bytes = picture.size()};
+    bytes_.insert(bytes_.end(), picture.begin(), picture.end());
+    close(std::move(accessor));
+  }
+  bool has_picture() const { return accessors_.back().count == 0; }
 
   /// Writes "accessors", "bufferViews" and "buffers" into an open object.
   void describe(JsonText& json) const;
@@ -43,68 +79,29 @@ class Buffer {
   struct Accessor {
     std::size_t offset = 0;
     std::size_t bytes = 0;
-    std::size_t count = 0;
+    std::size_t count = 0;  // 0: a picture, which has a view of the bytes alone
     Shape shape = Shape::kScalar;
     int target = 0;  // glTF buffer target; 0: none
     std::vector<float> lowest, highest;
   };
 
+  int close(Accessor accessor) {
+    bytes_.resize(padded(bytes_.size()));
+    accessors_.push_back(std::move(accessor));
+    return static_cast<int>(accessors_.size()) - 1;
+  }
+
   std::vector<Accessor> accessors_;
   std::vector<std::byte> bytes_;
 };
 
-// glTF 2.0 Specification (ISO/IEC 12113:2022), sections 3.6 and 4.4.
-
-constexpr int kFloat = 5126, kShort = 5123, kVertices = 34962, kIndices = 34963;
-constexpr std::uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-
-void append(std::vector<std::byte>& bytes, std::uint32_t word) {
-  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
-}
-
-std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
-
-const char* name_of(Shape shape) {
-  constexpr std::array kNames{"SCALAR", "VEC2", "VEC3", "VEC4"};
-  return kNames[static_cast<std::size_t>(shape) - 1];
-}
-
-int Buffer::add(std::span<const float> values, Shape shape) {
-  const auto width = static_cast<std::size_t>(shape);
-  Accessor accessor{bytes_.size(), values.size() * 4, values.size() / width, shape, 0, {}, {}};
-  accessor.lowest.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width));
-  accessor.highest = accessor.lowest;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    accessor.lowest[k % width] = std::min(accessor.lowest[k % width], values[k]);
-    accessor.highest[k % width] = std::max(accessor.highest[k % width], values[k]);
-    append(bytes_, std::bit_cast<std::uint32_t>(values[k]));
-  }
-  accessors_.push_back(std::move(accessor));
-  return static_cast<int>(accessors_.size()) - 1;
-}
-
-int Buffer::add_vertices(std::span<const float> values, Shape shape) {
-  const int index = add(values, shape);
-  accessors_.back().target = kVertices;
-  return index;
-}
-
-int Buffer::add_indices(std::span<const std::uint16_t> indices) {
-  accessors_.push_back({bytes_.size(), indices.size() * 2, indices.size(), Shape::kScalar, kIndices, {}, {}});
-  for (const std::uint16_t index : indices) {
-    bytes_.push_back(static_cast<std::byte>(index & 0xff));
-    bytes_.push_back(static_cast<std::byte>(index >> 8));
-  }
-  bytes_.resize(padded(bytes_.size()));
-  return static_cast<int>(accessors_.size()) - 1;
-}
-
 void Buffer::describe(JsonText& json) const {
+  constexpr std::array kShapes{"SCALAR", "VEC2", "VEC3", "VEC4"};
   json.list("accessors");
-  for (std::size_t k = 0; k < accessors_.size(); ++k) {
+  for (std::size_t k = 0; k < accessors_.size() - (has_picture() ? 1 : 0); ++k) {
     const Accessor& accessor = accessors_[k];
     json.object().value(k, "bufferView").value(accessor.target == kIndices ? kShort : kFloat, "componentType");
-    json.value(accessor.count, "count").value(name_of(accessor.shape), "type");
+    json.value(accessor.count, "count").value(kShapes[static_cast<std::size_t>(accessor.shape) - 1], "type");
     if (accessor.target != kIndices) json.values(accessor.lowest, "min").values(accessor.highest, "max");
     json.end();
   }
@@ -114,21 +111,23 @@ void Buffer::describe(JsonText& json) const {
     if (accessor.target != 0) json.value(accessor.target, "target");
     json.end();
   }
-  json.end().list("buffers").object().value(bytes_.size(), "byteLength").end().end();
+  json.end();
+  if (has_picture()) {
+    json.list("images").object().value(accessors_.size() - 1, "bufferView").value("image/png", "mimeType").end().end();
+    json.list("textures").object().value(0, "source").end().end();
+  }
+  json.list("buffers").object().value(bytes_.size(), "byteLength").end().end();
 }
 
 std::vector<std::byte> Buffer::file(std::string json) const {
   json.resize(padded(json.size()), ' ');
   std::vector<std::byte> out;
-  append(out, kMagic);
-  append(out, 2);
-  append(out, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + bytes_.size()));
-  append(out, static_cast<std::uint32_t>(json.size()));
-  append(out, kJsonChunk);
+  const auto total = static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + bytes_.size());
   const auto text = std::as_bytes(std::span(json));
+  for (const std::uint32_t word : {kMagic, 2U, total, static_cast<std::uint32_t>(json.size()), kJsonChunk})
+    append(out, word);
   out.insert(out.end(), text.begin(), text.end());
-  append(out, static_cast<std::uint32_t>(bytes_.size()));
-  append(out, kBinaryChunk);
+  for (const std::uint32_t word : {static_cast<std::uint32_t>(bytes_.size()), kBinaryChunk}) append(out, word);
   out.insert(out.end(), bytes_.begin(), bytes_.end());
   return out;
 }
@@ -146,6 +145,7 @@ struct Mesh {
 
 // Keys of one node, as accessors.
 struct Track {
+  int times = 0;
   int translation = -1, rotation = -1, weights = -1;
 };
 
@@ -153,7 +153,6 @@ struct Track {
 struct Document {
   Buffer buffer;
   Mesh mesh;
-  int times = 0;
   std::vector<Track> tracks;
   std::array<double, 4> turn{0, 0, 0, 1};  // of the root: x, y, z, w
   double scale = 1;                        // of the root
@@ -161,14 +160,6 @@ struct Document {
 };
 
 std::size_t key_count(const Take& take) { return take.frames + (take.loop ? 1 : 0); }
-
-std::vector<float> times_of(const Take& take) {
-  std::vector<float> times;
-  for (std::size_t key = 0; key < key_count(take); ++key) {
-    times.push_back(static_cast<float>(static_cast<double>(key) / take.rate_hz));
-  }
-  return times;
-}
 
 // A flat ellipse in the body's first two axes.
 Mesh body_mesh(double half_width, double half_length, Buffer& buffer) {
@@ -183,33 +174,63 @@ Mesh body_mesh(double half_width, double half_length, Buffer& buffer) {
     if (k < 2) continue;
     for (const int corner : {0, k - 1, k}) indices.push_back(static_cast<std::uint16_t>(corner));
   }
-  Mesh mesh{.positions = buffer.add_vertices(positions, Shape::kVector3), .colour = {0.62, 0.28, 0.07, 1}};
-  mesh.normals = buffer.add_vertices(normals, Shape::kVector3);
+  Mesh mesh{.positions = buffer.add(positions, Shape::kVector3, kVertices), .colour = {0.342, 0.064, 0.006, 1}};
+  mesh.normals = buffer.add(normals, Shape::kVector3, kVertices);
   mesh.indices = buffer.add_indices(indices);
   return mesh;
 }
 
-// The keys of a body. Quaternions are unit, x first, with signs chosen for the shorter rotation between keys.
-Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
-  std::vector<float> places, turns;
-  for (std::size_t key = 0; key < key_count(take); ++key) {
-    const auto row = take.at(key % take.frames, instance);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double round = key < take.frames ? 0 : take.travel[instance][axis];
-      places.push_back(static_cast<float>(row[axis] + round));
-    }
-    if (take.outputs < 7) continue;
-    std::array<float, 4> q{row[4], row[5], row[6], row[3]};
-    double size = 0, along = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      size += static_cast<double>(q[k]) * q[k];
-      if (key > 0) along += static_cast<double>(q[k]) * turns[turns.size() - 4 + k];
-    }
-    const double unit = (along < 0 ? -1 : 1) / std::sqrt(size);
-    for (std::size_t k = 0; k < 4; ++k) q[k] = static_cast<float>(unit * q[k]);
-    turns.insert(turns.end(), q.begin(), q.end());
+// Where and when in its round an instance of a loop begins: apart from the others, so that one leaf at a time leaves
+// the scene below and comes again above, and the scene's last frame is its first.
+struct Start {
+  std::size_t frame = 0;
+  std::array<double, 2> place{};  // metres, level
+};
+
+Start start_of(const Take& take, std::size_t instance) {
+  if (!take.loop || take.instances == 1) return {};
+  constexpr double kGolden = 0.618033988749895, kApart = 0.25;
+  const double k = static_cast<double>(instance) + 0.5, angle = 2 * std::numbers::pi * kGolden * k;
+  const double share = kGolden * k - std::floor(kGolden * k), radius = kApart * std::sqrt(k);
+  const auto frame = static_cast<std::size_t>(share * static_cast<double>(take.frames));
+  return {std::max<std::size_t>(1, frame), {radius * std::cos(angle), radius * std::sin(angle)}};
+}
+
+// A unit quaternion, x first, of the sign that is nearer to the one before.
+std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> before) {
+  std::array<float, 4> q{row[4], row[5], row[6], row[3]};
+  double size = 0, along = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    size += static_cast<double>(q[k]) * q[k];
+    if (!before.empty()) along += static_cast<double>(q[k]) * before[before.size() - 4 + k];
   }
-  Track track{.translation = buffer.add(places, Shape::kVector3)};
+  const double unit = (along < 0 ? -1 : 1) / std::sqrt(size);
+  for (std::size_t k = 0; k < 4; ++k) q[k] = static_cast<float>(unit * q[k]);
+  return q;
+}
+
+// The keys of a body. Where its round ends before the take does, a key just before is where the round leads to.
+Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
+  constexpr double kJustBefore = 0.01;  // steps
+  const Start start = start_of(take, instance);
+  std::vector<float> places, turns, times;
+  const auto add = [&](double key, std::size_t frame, bool round) {
+    const auto row = take.at(frame % take.frames, instance);
+    times.push_back(static_cast<float>(key / take.rate_hz));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = row[axis] + (axis < 2 ? start.place[axis] : 0);
+      places.push_back(static_cast<float>(place + (round ? take.travel[instance][axis] : 0)));
+    }
+    if (take.outputs < 7) return;
+    const auto q = turn_of(row, turns);
+    turns.insert(turns.end(), q.begin(), q.end());
+  };
+  for (std::size_t key = 0; key < key_count(take); ++key) {
+    const std::size_t frame = key + start.frame;
+    if (take.loop && start.frame > 0 && frame == take.frames) add(static_cast<double>(key) - kJustBefore, frame, true);
+    add(static_cast<double>(key), frame, start.frame == 0 && frame == take.frames);
+  }
+  Track track{.times = buffer.add(times, Shape::kScalar), .translation = buffer.add(places, Shape::kVector3)};
   if (!turns.empty()) track.rotation = buffer.add(turns, Shape::kVector4);
   return track;
 }
@@ -219,7 +240,6 @@ Document body_document(const Take& take, double half_width, double half_length) 
   Document document;
   const double width = half_width > 0 ? half_width : kUnknown;
   document.mesh = body_mesh(width, half_length > 0 ? half_length : width, document.buffer);
-  document.times = document.buffer.add(times_of(take), Shape::kScalar);
   for (std::size_t k = 0; k < take.instances; ++k) document.tracks.push_back(body_track(take, k, document.buffer));
   document.turn = {-std::numbers::sqrt2 / 2, 0, 0, std::numbers::sqrt2 / 2};
   return document;
@@ -241,30 +261,107 @@ void set_ranges(const Model& model, Mesh& mesh) {
   }
 }
 
-// A strip between the two sides of the outline, with a morph target for each output.
-Mesh outline_mesh(const Model& model, const std::vector<double>& knots, Buffer& buffer) {
-  constexpr int kPoints = 32;
-  Mesh mesh{.colour = {1, 0.62, 0.2, 1}};
-  set_ranges(model, mesh);
-  std::vector<float> coordinates;
-  std::vector<std::uint16_t> indices;
-  for (int k = 0; k < kPoints; ++k) {
-    const bool left = k < kPoints / 2;
-    const int up = left ? k : kPoints - 1 - k;
-    coordinates.insert(coordinates.end(), {left ? 0.0F : 1.0F, 1 - static_cast<float>(up) / (kPoints / 2 - 1)});
-    if (k + 1 >= kPoints / 2) continue;
-    const int across = kPoints - 1 - k;
-    for (const int corner : {k, across, across - 1, k, across - 1, k + 1}) {
-      indices.push_back(static_cast<std::uint16_t>(corner));
+// The picture of a flame: from −kFlameAcross to kFlameAcross half widths, and in shares of the way from base to tip
+// from kFlameLow to kFlameHigh; the drop around the wick ends at −kFlameDrop.
+constexpr double kFlameAcross = 1.75, kFlameLow = -0.2, kFlameHigh = 1.2, kFlameDrop = 0.12;
+
+// Rows of vertices from below the base over the outline's chords to above its tip, linear in the outline. A row has its
+// chord's ends, points between them, and a halo's end on either side.
+constexpr int kPoints = 32, kChords = kPoints / 2;
+constexpr std::array kAcross{-kFlameAcross, -1.0, -0.6, 0.0, 0.6, 1.0, kFlameAcross};
+
+struct MeshRow {
+  int chord = 0;
+  double width = 1;  // share of the chord
+  double down = 0;   // below it, in half chords
+  double up = 0;     // above it, in distances to the chord two before
+};
+
+std::vector<MeshRow> mesh_rows() {
+  std::vector<MeshRow> rows{{0, 0, 1.9, 0}, {0, 0, 1, 0}, {0, 0.5, 0.87, 0}, {0, 0.87, 0.5, 0}};
+  for (int chord = 0; chord < kChords; ++chord) rows.push_back({chord});
+  rows.push_back({kChords - 1, 0, 0, 0.1});
+  rows.push_back({kChords - 1, 0, 0, 2.5});
+  return rows;
+}
+
+// Vertices of an outline of kPoints points, or of a change of it.
+std::vector<float> mesh_vertices(const std::vector<float>& outline) {
+  using Place = std::array<double, 2>;
+  const auto chord_of = [&](int chord, double sign) {
+    Place sum{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double left = outline[3 * static_cast<std::size_t>(chord) + axis];
+      const double right = outline[3 * static_cast<std::size_t>(kPoints - 1 - chord) + axis];
+      sum[axis] = (right + sign * left) / 2;
+    }
+    return sum;
+  };
+  const Place widest = chord_of(kChords / 2, -1), before = chord_of(kChords - 3, 1);
+  std::vector<float> vertices;
+  for (const MeshRow& row : mesh_rows()) {
+    const Place middle = chord_of(row.chord, 1), half = chord_of(row.chord, -1);
+    const Place below{half[1] * row.down, -half[0] * row.down};
+    for (const double across : kAcross) {
+      const double inside = std::clamp(across, -1.0, 1.0) * row.width, outside = across - std::clamp(across, -1.0, 1.0);
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        vertices.push_back(static_cast<float>(middle[axis] + below[axis] + row.up * (middle[axis] - before[axis]) +
+                                              inside * half[axis] + outside * widest[axis]));
+      }
+      vertices.push_back(0);
     }
   }
-  mesh.positions = buffer.add_vertices(outline_points(knots, mesh.lowest, kPoints), Shape::kVector3);
-  mesh.coordinates = buffer.add_vertices(coordinates, Shape::kVector2);
-  mesh.indices = buffer.add_indices(indices);
+  return vertices;
+}
+
+// Where each vertex lies in the flame's picture: rows at their height over the base in the outline at rest.
+std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
+  const auto vertices = mesh_vertices(rest);
+  const auto rows = mesh_rows();
+  const std::size_t columns = kAcross.size(), base = 4, tip = base + kChords - 1;
+  const auto height = [&](std::size_t row) -> double { return vertices[3 * (row * columns + columns / 2) + 1]; };
+  std::vector<float> coordinates;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    double along = (height(row) - height(base)) / std::max(1e-6, height(tip) - height(base));
+    if (row < base) along = row == 0 ? kFlameLow : -kFlameDrop * rows[row].down;
+    if (row > tip) along = row > tip + 1 ? kFlameHigh : 1;
+    for (const double across : kAcross) {
+      coordinates.push_back(static_cast<float>((across / kFlameAcross + 1) / 2));
+      coordinates.push_back(static_cast<float>(std::clamp((kFlameHigh - along) / (kFlameHigh - kFlameLow), 0.0, 1.0)));
+    }
+  }
+  return coordinates;
+}
+
+std::vector<std::uint16_t> mesh_indices() {
+  std::vector<std::uint16_t> indices;
+  const int columns = static_cast<int>(kAcross.size()), rows = static_cast<int>(mesh_rows().size());
+  for (int row = 0; row + 1 < rows; ++row) {
+    for (int column = 0; column + 1 < columns; ++column) {
+      const int at = row * columns + column;
+      for (const int corner : {at, at + 1, at + columns + 1, at, at + columns + 1, at + columns}) {
+        indices.push_back(static_cast<std::uint16_t>(corner));
+      }
+    }
+  }
+  return indices;
+}
+
+// The outline as rows of vertices, with a morph target for each output.
+Mesh outline_mesh(const Model& model, const std::vector<double>& knots, Buffer& buffer) {
+  Mesh mesh{.colour = {0, 0, 0, 1}};
+  set_ranges(model, mesh);
+  const auto vertices_of = [&](std::span<const double> control) {
+    return buffer.add(mesh_vertices(outline_points(knots, control, kPoints)), Shape::kVector3, kVertices);
+  };
+  mesh.positions = vertices_of(mesh.lowest);
+  const auto rest = outline_points(knots, operating_point(model), kPoints);
+  mesh.coordinates = buffer.add(mesh_coordinates(rest), Shape::kVector2, kVertices);
+  mesh.indices = buffer.add_indices(mesh_indices());
   for (std::size_t output = 0; output < mesh.lowest.size(); ++output) {
     std::vector<double> unit(mesh.lowest.size(), 0.0);
     unit[output] = mesh.highest[output] - mesh.lowest[output];
-    mesh.targets.push_back(buffer.add_vertices(outline_points(knots, unit, kPoints), Shape::kVector3));
+    mesh.targets.push_back(vertices_of(unit));
   }
   return mesh;
 }
@@ -273,7 +370,10 @@ Document outline_document(const Model& model, const OutlineView& view, const Tak
   constexpr double kApart = 1.2;
   Document document;
   document.mesh = outline_mesh(model, view.knots, document.buffer);
-  document.times = document.buffer.add(times_of(take), Shape::kScalar);
+  std::vector<float> seconds(key_count(take));
+  for (std::size_t k = 0; k < seconds.size(); ++k)
+    seconds[k] = static_cast<float>(static_cast<double>(k) / take.rate_hz);
+  const int times = document.buffer.add(seconds, Shape::kScalar);
   for (std::size_t k = 0; k < take.instances; ++k) {
     std::vector<float> weights;
     for (std::size_t key = 0; key < key_count(take); ++key) {
@@ -281,8 +381,9 @@ Document outline_document(const Model& model, const OutlineView& view, const Tak
       for (std::size_t i = 0; i < row.size(); ++i)
         weights.push_back(static_cast<float>(weight_of(document.mesh, i, row[i])));
     }
-    document.tracks.push_back({.weights = document.buffer.add(weights, Shape::kScalar)});
+    document.tracks.push_back({.times = times, .weights = document.buffer.add(weights, Shape::kScalar)});
   }
+  document.buffer.add_picture(std::as_bytes(std::span(flame_picture, flame_picture_size)));
   document.scale = view.metres_per_unit > 0 ? view.metres_per_unit : 1;
   document.apart = kApart;
   return document;
@@ -297,7 +398,7 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
   for (std::size_t k = 0; k < take.instances; ++k) {
     json.object().value("instance " + std::to_string(k), "name").value(0, "mesh");
     if (document.apart > 0) json.values(std::array{document.apart * static_cast<double>(k), 0.0, 0.0}, "translation");
-    if (!take.travel.empty()) {
+    if (take.travel.size() == 1) {
       // Rounded to the precision of the keys: further digits depend on the C library.
       const auto [x, y, z] = take.travel[k];
       const std::array travel{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
@@ -307,6 +408,8 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
   }
   json.end();
 }
+
+constexpr double kEmissiveStrength = 1.5;  // of a screen's white: what glows in an engine's bloom
 
 void write_mesh(const Mesh& mesh, const Model& model, JsonText& json) {
   json.list("meshes").object().value("shape", "name").list("primitives").object().object("attributes");
@@ -327,34 +430,38 @@ void write_mesh(const Mesh& mesh, const Model& model, JsonText& json) {
   }
   json.end().end();
   json.list("materials").object().value("shape", "name").object("pbrMetallicRoughness");
-  json.values(mesh.colour, "baseColorFactor").value(0, "metallicFactor").end().value(true, "doubleSided");
-  // A flame emits light and is drawn unlit.
-  if (mesh.normals < 0) json.object("extensions").object("KHR_materials_unlit").end().end();
-  json.end().end();
+  json.values(mesh.colour, "baseColorFactor").value(0, "metallicFactor").value(1, "roughnessFactor");
+  if (mesh.coordinates < 0) {
+    json.end().value(true, "doubleSided").end().end();
+    return;
+  }
+  // A flame emits its picture's light; the picture's opacity is the base colour's, which is black.
+  json.object("baseColorTexture").value(0, "index").end().end().value(true, "doubleSided");
+  json.value("BLEND", "alphaMode").object("emissiveTexture").value(0, "index").end();
+  json.values(std::array{1, 1, 1}, "emissiveFactor").object("extensions").object("KHR_materials_emissive_strength");
+  json.value(kEmissiveStrength, "emissiveStrength").end().end().end().end();
 }
 
 void write_animation(const Document& document, const Model& model, const Take& take, JsonText& json) {
-  struct Channel {
-    int output;
-    std::size_t node;
-    const char* path;
+  constexpr std::array kPaths{"translation", "rotation", "weights"};
+  const auto each = [&](auto write) {
+    for (std::size_t k = 0; k < document.tracks.size(); ++k) {
+      const Track& track = document.tracks[k];
+      const std::array outputs{track.translation, track.rotation, track.weights};
+      for (std::size_t path = 0; path < 3; ++path) {
+        if (outputs[path] >= 0) write(track.times, outputs[path], k + 1, kPaths[path]);
+      }
+    }
   };
-  std::vector<Channel> channels;
-  for (std::size_t k = 0; k < document.tracks.size(); ++k) {
-    const Track& track = document.tracks[k];
-    if (track.translation >= 0) channels.push_back({track.translation, k + 1, "translation"});
-    if (track.rotation >= 0) channels.push_back({track.rotation, k + 1, "rotation"});
-    if (track.weights >= 0) channels.push_back({track.weights, k + 1, "weights"});
-  }
   json.list("animations").object().value(model.name.empty() ? "wisp" : model.name, "name").list("samplers");
-  for (const Channel& channel : channels) {
-    json.object().value(document.times, "input").value("LINEAR", "interpolation").value(channel.output, "output").end();
-  }
+  each([&](int times, int output, std::size_t, const char*) {
+    json.object().value(times, "input").value("LINEAR", "interpolation").value(output, "output").end();
+  });
   json.end().list("channels");
-  for (std::size_t k = 0; k < channels.size(); ++k) {
-    json.object().value(k, "sampler").object("target").value(channels[k].node, "node");
-    json.value(channels[k].path, "path").end().end();
-  }
+  int sampler = 0;
+  each([&](int, int, std::size_t node, const char* path) {
+    json.object().value(sampler++, "sampler").object("target").value(node, "node").value(path, "path").end().end();
+  });
   json.end().object("extras").value(take.rate_hz, "rate_hz").value(take.loop, "loop").end().end().end();
 }
 
@@ -381,7 +488,7 @@ Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take) 
   }
   JsonText json;
   json.object().object("asset").value("2.0", "version").value("Wisp", "generator").end();
-  if (document->mesh.normals < 0) json.list("extensionsUsed").value("KHR_materials_unlit", {}).end();
+  if (document->buffer.has_picture()) json.list("extensionsUsed").value("KHR_materials_emissive_strength", {}).end();
   write_nodes(*document, take, json);
   write_mesh(document->mesh, model, json);
   write_animation(*document, model, take, json);

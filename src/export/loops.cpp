@@ -1,4 +1,4 @@
-#include "export/loops.hpp"
+#include "export/outline.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,16 @@
 #pragma once
-// Outlines of a take: points of the spline, Bézier curves, operating point.
+// Outlines of a take: points of the spline, Bézier curves, operating point. Seamless loops of a play: the periodic
+// orbit of a linear model, and a chain's walk that returns to its start.
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "wisp/base/result.hpp"
 #include "wisp/export/export.hpp"
-#include "wisp/model/model.hpp"
+#include "wisp/run/bank.hpp"
 
 namespace wisp::exporting {
 
@@ -23,5 +26,29 @@ std::vector<double> operating_point(const Model& model);
 
 /// Errors: the take has other outputs than the model, or no frames.
 Result<void> check_take(const Model& model, const Take& take);
+
+/// Replaces rows of an ARX or switched model's outputs by the periodic orbit under the shocks that they contain: adds
+/// to each row the model's free response to the difference of the two ends, summed over all rounds. `rows` begin lags −
+/// 1 rows before the loop's first frame and end with the frame that equals the first; `mode` is the mode of each row
+/// (switched models). Returns false where the sum does not converge.
+///
+/// Precondition: rows.size() == (lags + frames) × outputs, and lags == output_lags(model).
+bool close_orbit(const Model& model, std::span<const std::size_t> mode, std::size_t lags, std::vector<double>& rows);
+
+/// Returns the longest lag of an output in an ARX or switched model, at least 1.
+std::size_t output_lags(const Model& model);
+
+struct WalkLoop {
+  std::vector<float> rows;  ///< frames × outputs; its first row is at the origin
+  std::array<double, 3> travel{};
+};
+
+/// Plays banks of one chain until an instance returns to a row of a segment after exactly `frames` steps, and turns its
+/// walk evenly so that the frame after the last one has the attitude and the velocity of the first. Returns nothing
+/// where no walk returns.
+///
+/// Precondition: the model is a valid chain that is played as segments; inputs.size() == model.inputs.size().
+std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
+                                       const std::vector<float>& inputs);
 
 }  // namespace wisp::exporting

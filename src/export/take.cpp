@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/loops.hpp"
+#include "export/outline.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"

@@ -100,9 +100,11 @@ def flame(program, models, work, frames=120):
         # A clamped spline begins at its first control point and ends at its last.
         ends = [[row["p0.x"], row["p0.y"]], [row["p7.x"], row["p7.y"]]]
         points = found[0]["points"]
-        for end, point in zip(ends, (points[0], points[31])):
+        # Rows of seven vertices, four of them below the base; the second and the sixth are the outline's.
+        sides = [points[row * 7 + column] for row in range(4, 20) for column in (1, 5)]
+        for end, point in zip(ends, sides):
             worst = max(worst, abs(end[0] - point[0] / metres), abs(end[1] - point[2] / metres))
-        top = max(point[2] for point in points) / metres
+        top = max(point[2] for point in sides) / metres
         worst = max(worst, top - max(row[f"p{k}.y"] for k in range(8)))  # inside its control polygon
     print(f"flame: {frames} frames: ends of the outline within {worst:.1e} of its height")
     return worst < 1e-4

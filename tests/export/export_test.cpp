@@ -95,6 +95,40 @@ TEST(Gltf, ALoopEndsWithItsFirstFrameAgain) {
   EXPECT_NEAR(std::abs(along), 1, 1e-6);
 }
 
+// "Twenty leaves that fall for ever": they begin apart, and the last frame is the first one.
+TEST(Gltf, LeavesOfALoopBeginApartAndTheSceneReturns) {
+  const Model model = leaf();
+  const auto taken = take(model, {.seconds = 2, .loop = true, .instances = 6});
+  ASSERT_TRUE(taken) << taken.error().message;
+  const Opened file = opened(*gltf_bytes(model, *taken));
+  const Json& animation = file.json["animations"][0];
+  std::vector<std::array<double, 3>> begins;
+  for (std::size_t leaf = 0; leaf < 6; ++leaf) {
+    const auto places = keys(file, 2 * leaf), turns = keys(file, 2 * leaf + 1);
+    const auto times = file.numbers(animation["samplers"][2 * leaf]["input"].get<std::size_t>());
+    ASSERT_EQ(places.size(), 3 * times.size());
+    double along = 0;
+    for (std::size_t k = 0; k < 4; ++k) along += static_cast<double>(turns[k]) * turns[turns.size() - 4 + k];
+    EXPECT_NEAR(std::abs(along), 1, 1e-5);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(places[k], places[places.size() - 3 + k]);
+    int jumps = 0;
+    for (std::size_t t = 1; t < times.size(); ++t) {
+      EXPECT_GT(times[t], times[t - 1]);
+      double step = 0;
+      for (std::size_t k = 0; k < 3; ++k) step = std::hypot(step, places[3 * t + k] - places[3 * t - 3 + k]);
+      if (step < 0.1) continue;
+      ++jumps;
+      EXPECT_LT(times[t] - times[t - 1], 0.02 / model.rate_hz);
+      EXPECT_NEAR(places[3 * t + 2] - places[3 * t - 1], -taken->travel[leaf][2], 1e-5);
+    }
+    EXPECT_EQ(jumps, 1);
+    for (const auto& other : begins) {
+      EXPECT_GT(std::hypot(other[0] - places[0], other[1] - places[1], other[2] - places[2]), 0.1);
+    }
+    begins.push_back({places[0], places[1], places[2]});
+  }
+}
+
 TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheOutlineThatABankDraws) {
   const Model model = flame_model();
   auto bank = Bank::create(model, {.seed = 4, .polyline_points = 32});
@@ -111,15 +145,17 @@ TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheOutlineThatABankDraws) {
   std::vector<std::vector<float>> targets;
   for (const Json& target : primitive["targets"])
     targets.push_back(file.numbers(target["POSITION"].get<std::size_t>()));
+  // Rows of seven vertices: four below the base, then the chords, whose ends are the second and the sixth.
+  const auto vertex_of = [](std::size_t point) { return point < 16 ? (4 + point) * 7 + 1 : (4 + 31 - point) * 7 + 5; };
   for (std::size_t t = 0; t < taken->frames; ++t) {
     bank->step();
     bank->polylines(polyline);
     for (std::size_t p = 0; p < 32; ++p) {
       for (std::size_t axis = 0; axis < 2; ++axis) {
-        double sum = base[3 * p + axis];
+        double sum = base[3 * vertex_of(p) + axis];
         for (std::size_t k = 0; k < 16; ++k) {
           ASSERT_TRUE(weights[16 * t + k] >= 0 && weights[16 * t + k] <= 1);
-          sum += static_cast<double>(weights[16 * t + k]) * targets[k][3 * p + axis];
+          sum += static_cast<double>(weights[16 * t + k]) * targets[k][3 * vertex_of(p) + axis];
         }
         ASSERT_NEAR(sum, polyline[2 * p + axis], 1e-5) << t;
       }
@@ -131,8 +167,9 @@ TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheOutlineThatABankDraws) {
 std::array<double, 2> on_path(const Json& path, std::size_t curve, double s) {
   std::array<double, 2> point{};
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double from = path["v"][curve][axis], to = path["v"][curve + 1][axis];
-    const double out = from + path["o"][curve][axis].get<double>(), in = to + path["i"][curve + 1][axis].get<double>();
+    const std::size_t next = (curve + 1) % path["v"].size();
+    const double from = path["v"][curve][axis], to = path["v"][next][axis];
+    const double out = from + path["o"][curve][axis].get<double>(), in = to + path["i"][next][axis].get<double>();
     const double r = 1 - s;
     point[axis] = r * r * r * from + 3 * r * r * s * out + 3 * r * s * s * in + s * s * s * to;
   }
@@ -164,35 +201,71 @@ TEST(Lottie, PathsAreTheSplineItself) {
 }
 
 #ifdef WISP_HAS_RLOTTIE
+// Opaque pixels of a frame, and the picture.
+double filled_by_rlottie(const std::string& text, std::size_t frame, std::size_t& width, std::size_t& height,
+                         std::vector<std::uint32_t>& pixels) {
+  Lottie_Animation* animation =
+      lottie_animation_from_data(text.c_str(), std::to_string(std::hash<std::string>()(text)).c_str(), "");
+  EXPECT_TRUE(animation);
+  lottie_animation_get_size(animation, &width, &height);
+  pixels.assign(width * height, 0);
+  lottie_animation_render(animation, frame, pixels.data(), width, height, width * 4);
+  lottie_animation_destroy(animation);
+  double filled = 0;
+  for (const std::uint32_t pixel : pixels) filled += (pixel >> 24) / 255.0;
+  return filled;
+}
+
+// The body alone, opaque, fills the outline and the drop below its base.
 TEST(Lottie, RlottieFillsTheOutline) {
   const Model model = flame_model();
   const auto taken = take(model, {.seconds = 1});
   const auto text = lottie_text(model, *taken, 400);
-  const Json json = Json::parse(*text);
-  Lottie_Animation* animation = lottie_animation_from_data(text->c_str(), "outline", "");
-  ASSERT_TRUE(animation);
-  std::size_t width = 0, height = 0;
-  lottie_animation_get_size(animation, &width, &height);
-  EXPECT_EQ(height, 400u);
-  EXPECT_EQ(lottie_animation_get_totalframe(animation), taken->frames);
+  auto json = nlohmann::ordered_json::parse(*text);  // rlottie wants a shape's type first
+  auto& shapes = json["layers"][0]["shapes"];
+  ASSERT_EQ(shapes.size(), 4u);
+  while (shapes.size() > 1) shapes.erase(0);
+  auto& stops = shapes[0]["it"][1]["g"];
+  const auto colours = 4 * stops["p"].get<std::size_t>();
+  for (std::size_t k = colours + 1; k < stops["k"]["k"].size(); k += 2) stops["k"]["k"][k] = 1;
   for (const std::size_t frame : {0u, 7u, 28u}) {
-    std::vector<std::uint32_t> pixels(width * height);
-    lottie_animation_render(animation, frame, pixels.data(), width, height, width * 4);
-    double filled = 0, area = 0;
-    for (const std::uint32_t pixel : pixels) filled += (pixel >> 24) / 255.0;
     std::vector<std::array<double, 2>> polygon;
-    const Json& path = json["layers"][0]["shapes"][0]["it"][0]["ks"]["k"][frame]["s"][0];
-    for (std::size_t k = 0; k <= 100; ++k) {
-      const std::size_t curve = std::min<std::size_t>(4, k / 20);
-      polygon.push_back(on_path(path, curve, (static_cast<double>(k) - 20.0 * static_cast<double>(curve)) / 20));
-    }
+    const Json path = Json::parse(shapes[0]["it"][0]["ks"]["k"][frame]["s"][0].dump());
+    for (std::size_t k = 0; k < 120; ++k) polygon.push_back(on_path(path, k / 20, static_cast<double>(k % 20) / 20));
+    double area = 0;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const auto &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
       area += (a[0] * b[1] - a[1] * b[0]) / 2;
     }
+    std::size_t width = 0, height = 0;
+    std::vector<std::uint32_t> pixels;
+    const double filled = filled_by_rlottie(json.dump(), frame, width, height, pixels);
+    EXPECT_EQ(height, 400u);
     EXPECT_NEAR(filled, std::abs(area), 0.01 * std::abs(area)) << frame;
   }
-  lottie_animation_destroy(animation);
+}
+
+// Blue at the base, warm and bright in the middle, round below: no flat orange lollipop.
+TEST(Lottie, AFlameIsBlueAtItsBaseAndBrightInside) {
+  const Model model = *read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+  const auto taken = take(model, {.seconds = 1});
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint32_t> pixels;
+  filled_by_rlottie(*lottie_text(model, *taken, 400), 7, width, height, pixels);
+  // Premultiplied: the mean of all that a row has.
+  const auto mean_of = [&](double share, int shift) {
+    double sum = 0, weight = 1e-9;
+    const auto row = static_cast<std::size_t>(share * static_cast<double>(height));
+    for (std::size_t x = 0; x < width; ++x) {
+      sum += pixels[row * width + x] >> shift & 0xff;
+      weight += (pixels[row * width + x] >> 24) / 255.0;
+    }
+    return sum / weight;
+  };
+  constexpr int kRed = 16, kGreen = 8, kBlue = 0;
+  EXPECT_GT(mean_of(0.93, kBlue), mean_of(0.93, kRed));
+  EXPECT_GT(mean_of(0.55, kRed), 1.2 * mean_of(0.55, kBlue));
+  EXPECT_GT(mean_of(0.55, kGreen), 1.2 * mean_of(0.12, kGreen));
 }
 #endif
 

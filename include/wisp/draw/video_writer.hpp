@@ -1,5 +1,6 @@
 #pragma once
-// Pictures and sound into an MP4 file: H.264 video, AAC sound.
+// Pictures and sound into an MP4 file: H.264 video, AAC sound. And pictures with opacity into WebM (VP9) and APNG, by
+// the name.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +24,10 @@ struct VideoWriterOptions {
   std::string preset = "veryfast";
   int sound_rate_hz = 0;  ///< samples a second of a mono sound track, such as 44100; 0: no sound track
   int threads = 0;        ///< of the video encoder; 0: one a core. The bytes depend on it
+  bool loop = false;      ///< of an .apng: plays for ever
 };
 
-/// Writes an MP4 file under a temporary name; finish() renames it. Destroyed before that, no file is left.
+/// Writes a film under a temporary name; finish() renames it. Destroyed before that, no file is left.
 class VideoWriter {
  public:
   /// Opens the file. Errors: options out of range, the folder is missing or not writable, no H.264 or AAC encoder in
@@ -36,7 +38,7 @@ class VideoWriter {
   VideoWriter& operator=(VideoWriter&&) noexcept;
   ~VideoWriter();
 
-  /// Appends a frame; opacity is ignored. Errors: a frame of another size, the encoder or the disk fails.
+  /// Appends a frame; MP4 ignores opacity. Errors: a frame of another size, the encoder or the disk fails.
   Result<void> write(const Image& image);
 
   /// Appends sound, −1 … 1, any number of samples at any time; what is beyond is clipped, NaN is silence.

@@ -1,12 +1,7 @@
 #include "wisp/draw/film_strip.hpp"
 
-extern "C" {
-#include <libavutil/opt.h>
-}
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 
 #include "base/json_text.hpp"
@@ -14,6 +9,7 @@ extern "C" {
 #include "draw/film/libav_owners.hpp"
 #include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/draw/video_writer.hpp"
 
 namespace wisp {
 namespace {
@@ -39,114 +35,26 @@ Result<void> check(const std::filesystem::path& path, const Flipbook& book) {
   return {};
 }
 
-// A frame of FFmpeg in RGBA, of the picture's bytes: premultiplied as they are, or straight.
-Owned<AVFrame> frame_of(const Image& image, bool straight) {
-  Owned<AVFrame> frame(av_frame_alloc());
-  frame->format = AV_PIX_FMT_RGBA;
-  frame->width = image.width();
-  frame->height = image.height();
-  if (av_frame_get_buffer(frame.get(), 0) < 0) return nullptr;
-  for (int y = 0; y < image.height(); ++y) {
-    std::uint8_t* out = frame->data[0] + static_cast<std::ptrdiff_t>(y) * frame->linesize[0];
-    for (int x = 0; x < image.width(); ++x) {
-      const std::uint32_t pixel = image.row(y)[static_cast<std::size_t>(x)];
-      Colour colour{static_cast<std::uint8_t>(pixel >> 16), static_cast<std::uint8_t>(pixel >> 8),
-                    static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 24)};
-      if (straight) colour = image.at(x, y);
-      for (const std::uint8_t byte : {colour.red, colour.green, colour.blue, colour.opacity}) *out++ = byte;
-    }
-  }
-  return frame;
-}
-
-// An animated picture in the making.
-struct Clip {
-  const std::filesystem::path& path;
-  PendingFile pending;
-  Owned<AVFormatContext> format{};
-  Owned<AVCodecContext> codec{};
-  Owned<SwsContext> scaler{};
-  Owned<AVFrame> converted{};
-  AVStream* stream = nullptr;
-
-  Result<void> open(const Flipbook& book, bool webm);
-  Result<void> send(AVFrame* frame);
-};
-
-Result<void> Clip::open(const Flipbook& book, bool webm) {
-  const AVCodec* encoder = webm ? avcodec_find_encoder_by_name("libvpx-vp9") : avcodec_find_encoder(AV_CODEC_ID_APNG);
-  if (!encoder) return failed(path, std::string("this FFmpeg has no encoder for ") + (webm ? "VP9" : "APNG"));
-  AVFormatContext* made = nullptr;
-  avformat_alloc_output_context2(&made, nullptr, webm ? "webm" : "apng", nullptr);
-  if (!made) return failed(path, "this FFmpeg cannot write such files");
-  format.reset(made);
-  codec.reset(avcodec_alloc_context3(encoder));
-  codec->width = book.frames[0].width();
-  codec->height = book.frames[0].height();
-  codec->pix_fmt = webm ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_RGBA;
-  codec->framerate = av_d2q(book.rate_hz, 1001000);
-  codec->time_base = av_inv_q(codec->framerate);
-  codec->log_level_offset = AV_LOG_DEBUG - AV_LOG_INFO + 1;
-  if (webm) {
-    av_opt_set_int(codec->priv_data, "crf", 18, 0);
-    av_opt_set(codec->priv_data, "auto-alt-ref", "0", 0);  // VP9 has no hidden frames with opacity
-    codec->bit_rate = 0;
-  } else {
-    av_opt_set_int(format->priv_data, "plays", book.loop ? 0 : 1, 0);
-  }
-  if ((format->oformat->flags & AVFMT_GLOBALHEADER) != 0) codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  if (avcodec_open2(codec.get(), encoder, nullptr) < 0) return failed(path, "its encoder does not start");
-  stream = avformat_new_stream(format.get(), nullptr);
-  stream->time_base = codec->time_base;
-  stream->avg_frame_rate = codec->framerate;
-  avcodec_parameters_from_context(stream->codecpar, codec.get());
-  if (webm) av_dict_set(&stream->metadata, "alpha_mode", "1", 0);
-  scaler.reset(sws_getContext(codec->width, codec->height, AV_PIX_FMT_RGBA, codec->width, codec->height, codec->pix_fmt,
-                              SWS_BICUBIC, nullptr, nullptr, nullptr));
-  const std::string name = pending.path().string();
-  if (!scaler || avio_open(&format->pb, name.c_str(), AVIO_FLAG_WRITE) < 0 ||
-      avformat_write_header(format.get(), nullptr) < 0) {
-    return failed(path, "the file does not open");
-  }
-  return {};
-}
-
-Result<void> Clip::send(AVFrame* frame) {
-  const Owned<AVPacket> packet(av_packet_alloc());
-  if (avcodec_send_frame(codec.get(), frame) < 0) return failed(path, "a frame cannot be encoded");
-  while (avcodec_receive_packet(codec.get(), packet.get()) >= 0) {
-    if (packet->duration == 0) packet->duration = 1;
-    av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
-    packet->stream_index = stream->index;
-    if (av_interleaved_write_frame(format.get(), packet.get()) < 0 || format->pb->error < 0) {
-      return failed(path, "the disk is full or gone");
-    }
-  }
-  return {};
-}
-
-Owned<AVFrame> converted(const Clip& clip, const AVFrame& straight, std::size_t index) {
-  Owned<AVFrame> frame(av_frame_alloc());
-  frame->format = clip.codec->pix_fmt;
-  frame->width = straight.width;
-  frame->height = straight.height;
-  frame->pts = static_cast<std::int64_t>(index);
-  if (av_frame_get_buffer(frame.get(), 0) < 0) return nullptr;
-  sws_scale(clip.scaler.get(), straight.data, straight.linesize, 0, straight.height, frame->data, frame->linesize);
-  return frame;
-}
-
 // One picture as the bytes of a PNG file, with its numbers as they are.
 std::vector<std::byte> png_bytes(const Image& image) {
   const Owned<AVCodecContext> codec(avcodec_alloc_context3(avcodec_find_encoder(AV_CODEC_ID_PNG)));
-  const Owned<AVFrame> frame = frame_of(image, false);
+  const Owned<AVFrame> frame(av_frame_alloc());
   const Owned<AVPacket> packet(av_packet_alloc());
   codec->width = image.width();
   codec->height = image.height();
   codec->pix_fmt = AV_PIX_FMT_RGBA;
   codec->time_base = {1, 25};
+  frame->format = codec->pix_fmt;
+  frame->width = image.width();
+  frame->height = image.height();
   std::vector<std::byte> bytes;
-  if (!frame || avcodec_open2(codec.get(), nullptr, nullptr) < 0) return bytes;
+  if (av_frame_get_buffer(frame.get(), 0) < 0 || avcodec_open2(codec.get(), nullptr, nullptr) < 0) return bytes;
+  for (int y = 0; y < image.height(); ++y) {
+    std::uint8_t* out = frame->data[0] + static_cast<std::ptrdiff_t>(y) * frame->linesize[0];
+    for (const std::uint32_t pixel : image.row(y)) {
+      for (const int shift : {16, 8, 0, 24}) *out++ = static_cast<std::uint8_t>(pixel >> shift);
+    }
+  }
   avcodec_send_frame(codec.get(), frame.get());
   avcodec_send_frame(codec.get(), nullptr);
   while (avcodec_receive_packet(codec.get(), packet.get()) >= 0) {
@@ -225,22 +133,17 @@ Result<void> write_atlas(const std::filesystem::path& path, const Flipbook& book
 
 Result<void> write_animation(const std::filesystem::path& path, const Flipbook& book) {
   if (auto ok = check(path, book); !ok) return ok;
-  const bool webm = path.extension() == ".webm";
-  if (!webm && path.extension() != ".apng") return failed(path, "expected a name that ends in .apng or .webm");
-  auto pending = PendingFile::create(path);
-  if (!pending) return pending.error();
-  Clip clip{path, *std::move(pending)};
-  if (auto ok = clip.open(book, webm); !ok) return ok;
-  for (std::size_t k = 0; k < book.frames.size(); ++k) {
-    const auto straight = frame_of(book.frames[k], true);
-    const auto frame = straight ? converted(clip, *straight, k) : nullptr;
-    if (!frame) return failed(path, "there is no memory for a frame");
-    if (auto ok = clip.send(frame.get()); !ok) return ok;
+  if (path.extension() != ".webm" && path.extension() != ".apng") {
+    return failed(path, "expected a name that ends in .apng or .webm");
   }
-  if (auto ok = clip.send(nullptr); !ok) return ok;
-  const int trailer = av_write_trailer(clip.format.get()), closed = avio_closep(&clip.format->pb);
-  if (trailer < 0 || closed < 0) return failed(path, "the disk is full or gone");
-  return clip.pending.commit();
+  const Image& first = book.frames[0];
+  auto film = VideoWriter::create(
+      path, {.width = first.width(), .height = first.height(), .rate_hz = book.rate_hz, .crf = 18, .loop = book.loop});
+  if (!film) return film.error();
+  for (const Image& frame : book.frames) {
+    if (auto ok = film->write(frame); !ok) return ok;
+  }
+  return film->finish();
 }
 
 }  // namespace wisp

@@ -50,6 +50,22 @@ struct Track {
   std::int64_t next = 0;  // time of the next frame, in the encoder's time base
 };
 
+// By the end of a file's name; the first where it is another.
+struct Kind {
+  const char* ending;
+  const char* muxer;
+  const char* encoder;
+  AVPixelFormat pixels;
+};
+constexpr std::array kKinds{Kind{".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P},
+                            Kind{".webm", "webm", "libvpx-vp9", AV_PIX_FMT_YUVA420P},
+                            Kind{".apng", "apng", "apng", AV_PIX_FMT_RGBA}};
+
+const Kind& kind_of(const std::filesystem::path& path) {
+  const auto found = std::ranges::find_if(kKinds, [&](const Kind& kind) { return path.extension() == kind.ending; });
+  return found == kKinds.end() ? kKinds[0] : *found;
+}
+
 // Checked here, since x264 reports a wrong preset on the terminal.
 constexpr std::array<std::string_view, 9> kPresets{"ultrafast", "superfast", "veryfast", "faster",  "fast",
                                                    "medium",    "slow",      "slower",   "veryslow"};
@@ -85,9 +101,10 @@ Result<void> check_options(const std::filesystem::path& path, const VideoWriterO
 
 struct VideoWriter::Encoder {
   Encoder(std::filesystem::path name, PendingFile pending_file, const VideoWriterOptions& video_options)
-      : path(std::move(name)), pending(std::move(pending_file)), options(video_options) {}
+      : path(std::move(name)), kind(kind_of(path)), pending(std::move(pending_file)), options(video_options) {}
 
   std::filesystem::path path;
+  const Kind& kind;
   PendingFile pending;
   VideoWriterOptions options;
   Owned<AVFormatContext> format;
@@ -95,8 +112,8 @@ struct VideoWriter::Encoder {
   Owned<AVPacket> packet;
   Track video;
   Track sound;
-  std::vector<float> waiting;     // sound that does not fill an encoder frame yet
-  std::vector<std::uint8_t> odd;  // a frame padded to even sides
+  std::vector<float> waiting;         // sound that does not fill an encoder frame yet
+  std::vector<std::uint32_t> pixels;  // a frame padded to even sides, or with straight opacity
   bool finished = false;
 
   Error error(const std::string& what, int code) const {
@@ -111,14 +128,15 @@ struct VideoWriter::Encoder {
   Result<void> next_frame();
   Result<void> send(Track& track, const AVFrame* frame);
   Result<void> send_sound(std::size_t samples);
-  int padded_width() const { return options.width + options.width % 2; }
-  int padded_height() const { return options.height + options.height % 2; }
+  bool opacity() const { return kind.pixels != AV_PIX_FMT_YUV420P; }
+  int padded_width() const { return options.width + (opacity() ? 0 : options.width % 2); }
+  int padded_height() const { return options.height + (opacity() ? 0 : options.height % 2); }
 };
 
 Result<void> VideoWriter::Encoder::open() {
   AVFormatContext* made = nullptr;
-  const int code = avformat_alloc_output_context2(&made, nullptr, "mp4", pending.path().c_str());
-  if (code < 0) return error("this FFmpeg cannot write MP4", code);
+  const int code = avformat_alloc_output_context2(&made, nullptr, kind.muxer, pending.path().c_str());
+  if (code < 0) return error("this FFmpeg cannot write such files", code);
   format.reset(made);
   packet.reset(av_packet_alloc());
   if (auto opened = open_video(); !opened) return opened;
@@ -129,7 +147,8 @@ Result<void> VideoWriter::Encoder::open() {
   const int file = avio_open(&format->pb, pending.path().c_str(), AVIO_FLAG_WRITE);
   if (file < 0) return error("cannot be written", file);
   AVDictionary* settings = nullptr;
-  av_dict_set(&settings, "movflags", "+faststart", 0);
+  if (!opacity()) av_dict_set(&settings, "movflags", "+faststart", 0);
+  if (kind.pixels == AV_PIX_FMT_RGBA) av_dict_set_int(&settings, "plays", options.loop ? 0 : 1, 0);
   const int header = avformat_write_header(format.get(), &settings);
   av_dict_free(&settings);
   if (header < 0) return error("cannot be written", header);
@@ -137,32 +156,37 @@ Result<void> VideoWriter::Encoder::open() {
 }
 
 Result<void> VideoWriter::Encoder::open_video() {
-  const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
-  if (codec == nullptr) {
-    return Error{path.string() +
-                 ": cannot be encoded: this FFmpeg has no H.264 encoder (libx264); install one that has"};
-  }
+  const AVCodec* codec = avcodec_find_encoder_by_name(kind.encoder);
+  if (!codec) return option_error(path, std::string("this FFmpeg has no encoder ") + kind.encoder);
   video.codec.reset(avcodec_alloc_context3(codec));
   AVCodecContext& context = *video.codec;
   context.width = padded_width();
   context.height = padded_height();
-  context.pix_fmt = AV_PIX_FMT_YUV420P;
+  context.pix_fmt = kind.pixels;
   context.framerate = av_d2q(options.rate_hz, 1001000);
   context.time_base = av_inv_q(context.framerate);
-  context.color_range = AVCOL_RANGE_MPEG;
-  context.color_primaries = AVCOL_PRI_BT709;
-  context.color_trc = AVCOL_TRC_BT709;
-  context.colorspace = AVCOL_SPC_BT709;
+  if (kind.pixels != AV_PIX_FMT_RGBA) {
+    context.color_range = AVCOL_RANGE_MPEG;
+    context.color_primaries = AVCOL_PRI_BT709;
+    context.color_trc = AVCOL_TRC_BT709;
+    context.colorspace = AVCOL_SPC_BT709;
+  }
   context.thread_count = options.threads;
   AVDictionary* settings = nullptr;
-  av_dict_set(&settings, "preset", options.preset.c_str(), 0);
   av_dict_set_int(&settings, "crf", options.crf, 0);
-  // Spends more bits on dark, smooth areas, where a halo would otherwise break into steps.
-  av_dict_set(&settings, "x264-params", "aq-mode=3", 0);
+  if (opacity()) {
+    av_dict_set(&settings, "auto-alt-ref", "0", 0);  // VP9 has no hidden frames with opacity
+    context.bit_rate = 0;
+  } else {
+    av_dict_set(&settings, "preset", options.preset.c_str(), 0);
+    // Spends more bits on dark, smooth areas, where a halo would otherwise break into steps.
+    av_dict_set(&settings, "x264-params", "aq-mode=3", 0);
+  }
   auto started = start_track(video, codec, &settings);
   av_dict_free(&settings);
   if (!started) return started;
   video.stream->avg_frame_rate = context.framerate;
+  if (kind.pixels == AV_PIX_FMT_YUVA420P) av_dict_set(&video.stream->metadata, "alpha_mode", "1", 0);
   AVFrame& frame = *video.frame;
   frame.format = context.pix_fmt;
   frame.width = context.width;
@@ -208,8 +232,8 @@ Result<void> VideoWriter::Encoder::open_scaler() {
   const int height = padded_height();
   // Chroma is averaged where it is halved; rounding is done with care, since flames are mostly dark gradients.
   constexpr int kQuality = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP;
-  scaler.reset(sws_getContext(width, height, AV_PIX_FMT_BGRA, width, height, AV_PIX_FMT_YUV420P, kQuality, nullptr,
-                              nullptr, nullptr));
+  scaler.reset(
+      sws_getContext(width, height, AV_PIX_FMT_BGRA, width, height, kind.pixels, kQuality, nullptr, nullptr, nullptr));
   if (!scaler) return option_error(path, "no conversion from pictures to video");
   const int* coefficients = sws_getCoefficients(SWS_CS_ITU709);
   sws_setColorspaceDetails(scaler.get(), coefficients, 1, coefficients, 0, 0, 1 << 16, 1 << 16);
@@ -278,20 +302,22 @@ Result<void> VideoWriter::write(const Image& image) {
                  " x " + std::to_string(e.options.height)};
   }
   if (auto ready = e.next_frame(); !ready) return ready;
-  const std::uint8_t* rows[4] = {reinterpret_cast<const std::uint8_t*>(image.pixels().data())};
-  int strides[4] = {image.width() * 4};
-  if (image.width() % 2 != 0 || image.height() % 2 != 0) {
-    const int stride = e.padded_width() * 4;
-    e.odd.resize(static_cast<std::size_t>(stride) * e.padded_height());
-    for (int y = 0; y < e.padded_height(); ++y) {
-      const auto from = image.row(std::min(y, image.height() - 1));
-      auto* to = reinterpret_cast<std::uint32_t*>(e.odd.data() + static_cast<std::size_t>(y) * stride);
-      std::ranges::copy(from, to);
-      if (image.width() % 2 != 0) to[image.width()] = from.back();
+  const int width = e.padded_width(), height = e.padded_height();
+  const bool copied = e.opacity() || width != image.width() || height != image.height();
+  if (copied) e.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int y = 0; copied && y < height; ++y) {
+    const auto from = image.row(std::min(y, image.height() - 1));
+    for (int x = 0; x < width; ++x) {
+      std::uint32_t& to = e.pixels[static_cast<std::size_t>(y) * width + x];
+      to = from[std::min(x, image.width() - 1)];
+      if (!e.opacity()) continue;
+      const Colour straight = image.at(x, y);
+      to = (to & 0xff000000U) | static_cast<std::uint32_t>(straight.red << 16 | straight.green << 8 | straight.blue);
     }
-    rows[0] = e.odd.data();
-    strides[0] = stride;
   }
+  const std::uint32_t* pixels = copied ? e.pixels.data() : image.pixels().data();
+  const std::uint8_t* rows[4] = {reinterpret_cast<const std::uint8_t*>(pixels)};
+  const int strides[4] = {width * 4};
   sws_scale(e.scaler.get(), rows, strides, 0, e.padded_height(), e.video.frame->data, e.video.frame->linesize);
   return e.send(e.video, e.video.frame.get());
 }

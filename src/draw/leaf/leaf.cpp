@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/cairo.hpp"
-#include "draw/leaf/leaf_raster.hpp"
+#include "draw/leaf/leaf_view.hpp"
 
 namespace wisp {
 

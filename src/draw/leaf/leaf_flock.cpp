@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "draw/flame/light_field.hpp"
-#include "draw/leaf/leaf_raster.hpp"
+#include "draw/leaf/leaf_view.hpp"
 #include "draw/textured.hpp"
 
 namespace wisp {

@@ -1,4 +1,4 @@
-#include "draw/leaf/leaf_raster.hpp"
+#include "draw/leaf/leaf_view.hpp"
 
 #include <algorithm>
 #include <limits>
