@@ -150,9 +150,7 @@ describe('the candle', { skip }, () => {
     await until(page, 'the match goes from wick to wick', () => window.wisp.burning.lit >= 2);
   });
 
-  it('made no error and asked no other host', () => {
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
-  });
+  it('made no error and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });
 
 describe('the drawer', { skip }, () => {
@@ -243,9 +241,7 @@ describe('the drawer', { skip }, () => {
     assert.match(await page.textContent('#notices'), /Playing leaf.wisp/);
   });
 
-  it('made no error and asked no other host', () => {
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
-  });
+  it('made no error and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });
 
 describe('the leaves', { skip }, () => {
@@ -296,9 +292,7 @@ describe('the leaves', { skip }, () => {
     assert.equal(await page.locator('.matrix').count(), 0);
   });
 
-  it('made no error and asked no other host', () => {
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
-  });
+  it('made no error and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });
 
 describe('the page', { skip }, () => {
@@ -469,7 +463,5 @@ describe('the page', { skip }, () => {
     await calm.close();
   });
 
-  it('made no error and asked no other host', () => {
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
-  });
+  it('made no error and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });

@@ -48,7 +48,7 @@ export function recordedFalls(folder) {
 /** The same, to be shown turned by a quarter. */
 export function turnedFilm(film, folder) {
   const turned = join(folder, 'turned.mp4');
-  convert('-i', film, '-t', '3', '-c', 'copy', '-metadata:s:v:0', 'rotate=90', turned);
+  convert('-i', film, '-t', '5', '-c', 'copy', '-metadata:s:v:0', 'rotate=90', turned);
   return turned;
 }
 

@@ -113,14 +113,17 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
 
   it('is learned again in another way, and taken away', async () => {
     await page.click('.more summary');
-    await page.click('[data-knob="light light, for small machines"]');
+    await page.click('[data-knob="paper point by point, as in the paper"]');
     await step(page, 'blow');
-    await until(page, 'it is light', () => document.querySelector('[data-knob="light light, for small machines"]')?.getAttribute('aria-pressed') === 'true');
+    await until(page, 'it is learned point by point', () => document.querySelector('[data-knob="paper point by point, as in the paper"]')?.getAttribute('aria-pressed') === 'true');
     const [model] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=wisp]')]);
     assert.equal(model.suggestedFilename(), 'mine.wisp');
     assert.deepEqual([...readFileSync(await model.path()).subarray(1, 5)], [...Buffer.from('WISP')]);
     const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(film(), folder), 'utf8'));
+    await page.click('.more summary');
+    await page.click('[data-knob="paper as a shape"]');
+    await says(page, panel, 'It learned your flame');
   });
 
   it('becomes files for other tools, and what makes them comes only then', async () => {

@@ -113,9 +113,7 @@ describe('trouble', { skip }, () => {
     await until(page, 'frames', (many) => window.wisp.frames > many + 2, frames);
   });
 
-  it('made no error, and asked no other host', () => {
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
-  });
+  it('made no error, and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 
   it('says that there is no WebGL', async () => {
     const bare = await opened.page('#detail=0.5', {

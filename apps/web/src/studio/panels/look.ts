@@ -3,6 +3,7 @@
 import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { rateField } from './rate.js';
+import { button, verdictHead } from './verdict.js';
 import { shownIn, type Take } from '../session.js';
 import { adviceOf, foundIn, sentence, within } from '../words.js';
 
@@ -59,23 +60,13 @@ export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents
   const { report } = captured;
   const falls = shownIn(take) === 'fall';
   const { good, title, reason } = foundIn(captured, falls ? 'fall' : 'flame');
-  const act = (words: string, name: string, does: () => void, main = false): HTMLButtonElement => {
-    const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
-    made.addEventListener('click', does);
-    return made;
-  };
   const facts = element('dl', { class: 'found' });
   for (const [name, value] of factsOf(take)) facts.append(element('dt', {}, name), element('dd', {}, value));
   const panel = element(
     'div',
     { class: 'panel' },
-    element(
-      'div',
-      { class: good ? 'verdict good' : 'verdict bad' },
-      element('h2', { tabindex: '-1' }, title),
-      element('p', {}, reason),
-    ),
-    element('div', { class: 'actions' }, act(takes.length > 1 ? `Learn from ${takes.length} films` : 'Learn it', 'learn', events.learn, good), act('Film more', 'more', events.more, !good)),
+    verdictHead(good, title, reason),
+    element('div', { class: 'actions' }, button(takes.length > 1 ? `Learn from ${takes.length} films` : 'Learn it', 'learn', events.learn, good), button('Film more', 'more', events.more, !good)),
     facts,
   );
   const flames = within(report, 'flames');
@@ -90,8 +81,8 @@ export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents
     element(
       'div',
       { class: 'actions' },
-      ...(take.again === null ? [] : [act(falls ? 'It is a flame' : 'It is something that falls', 'other', events.other)]),
-      act('Leave this film out', 'leave-out', events.leaveOut),
+      ...(take.again === null ? [] : [button(falls ? 'It is a flame' : 'It is something that falls', 'other', events.other)]),
+      button('Leave this film out', 'leave-out', events.leaveOut),
     ),
   );
   return panel;

@@ -6,6 +6,7 @@ import { telling } from '../../panel/telling.js';
 import { plotsOf } from '../pictures/curves.js';
 import { outputsOf, thingOf, type Session } from '../session.js';
 import { takingOf, type TakingEvents } from './taking.js';
+import { button, verdictHead } from './verdict.js';
 import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
 
 export interface ResultEvents extends TakingEvents {
@@ -17,12 +18,6 @@ export interface ResultEvents extends TakingEvents {
   anew(): void;
   again(change: Partial<Recipe>): void;
 }
-
-const button = (words: string, name: string, act: () => void, main = false): HTMLButtonElement => {
-  const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
-  made.addEventListener('click', act);
-  return made;
-};
 
 function meter({ words, share, good, value }: Meter): HTMLElement {
   const bar = element('div', { class: share >= good ? 'bar good' : 'bar', 'aria-hidden': 'true' }, element('i'), element('b'));
@@ -54,16 +49,7 @@ export function resultPanel(session: Session, events: ResultEvents): HTMLElement
   const { report, curves, text } = learned;
   const { good, title, reason } = verdictOf(learned, thing);
   const meters = metersOf(learned, thing, outputsOf(session));
-  const panel = element(
-    'div',
-    { class: 'panel result' },
-    element(
-      'div',
-      { class: good ? 'verdict good' : 'verdict bad' },
-      element('h2', { tabindex: '-1' }, title),
-      element('p', {}, reason),
-    ),
-  );
+  const panel = element('div', { class: 'panel result' }, verdictHead(good, title, reason));
   if (thing !== 'table') {
     panel.append(
       element(
