@@ -16,8 +16,26 @@ struct ClipCaptureOptions {
 };
 
 /// Shows a capture all that a reader has; `progress` is told after each frame.
-/// Errors: as VideoReader and OutlineCapture, and kStopped where `progress` returned false.
-Result<void> read_into(VideoReader& reader, OutlineCapture& capture, const Progress& progress = {});
+/// Errors: as VideoReader and the capture, of an outline or of falls, and kStopped where `progress` returned false.
+template <class Capture>
+Result<void> read_into(VideoReader& reader, Capture& capture, const Progress& progress = {}) {
+  if constexpr (requires { capture.glimpse(Picture{}); }) {
+    for (const OwnedPicture& picture : reader.glimpses(4)) capture.glimpse(picture.picture());
+  }
+  std::int64_t done = 0, expected_index = -1;
+  while (true) {
+    auto frame = reader.next();
+    if (!frame) return frame.error();
+    if (!frame->has_value()) return {};
+    const VideoFrame& now = **frame;
+    if (expected_index >= 0) capture.lost(static_cast<int>(now.index - expected_index));
+    expected_index = now.index + 1;
+    if (auto fed = capture.feed(now.picture); !fed) return fed.error();
+    const std::int64_t expected = reader.info().frames;
+    const double share = expected > 0 ? static_cast<double>(++done) / static_cast<double>(expected) : -1;
+    if (!go_on(progress, "capturing", share)) return Error{std::string(kStopped)};
+  }
+}
 
 /// Captures an outline from a video file or a folder of numbered images; `progress` is told after each frame.
 /// Errors: as VideoReader and OutlineCapture, and kStopped where `progress` returned false.

@@ -3,11 +3,16 @@
 //
 //   wisp_verify_scenes [NAME]            the scenes that capture was tuned on, or those whose name begins so
 //   wisp_verify_scenes fresh SEED [NAME] as many scenes that are drawn at random, several difficulties at once
+//   wisp_verify_scenes none SEED              sixty films without a flame, which end the other two as well
+//   wisp_verify_scenes [fresh SEED] facts      prints what the verdict weighs in place of that, for
+//   tools/fit_verdict.py wisp_verify_scenes raw fresh SEED NAME     writes the frames of a scene, packed RGB
+//   wisp_verify_scenes raw none KIND SEED      … and of a film without a flame, 240 x 200 at 25 a second
 
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "studies/scenes/no_flame.hpp"
 #include "studies/scenes/scene_sets.hpp"
 #include "studies/verify_bounds.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
@@ -22,6 +27,7 @@ struct Outcome {
   bool usable = false;
   bool out_told = true;  // its end, in the right place, or that it has none
   std::string reason;
+  std::vector<WeighedFact> facts;
 };
 
 constexpr std::array<int, 2> kPoints{8, 16};
@@ -55,6 +61,7 @@ Outcome judge(const Scene& scene, const std::vector<SceneFrame>& frames, Outline
   out.tracked = static_cast<double>(seen) / burning;
   out.usable = captured->report.usable;
   out.reason = captured->report.reason;
+  out.facts = weighed_facts(captured->report);
   const auto told = static_cast<std::ptrdiff_t>(captured->report.out_at.value_or(0));
   out.out_told = std::abs(told - scene.out_from) <= kMaxEndOff;
   return out;
@@ -110,16 +117,77 @@ void count(const Scene& scene, const Outcome& outcome, Totals& totals) {
   totals.elsewhere += outcome.elsewhere;
 }
 
+// Writes a film's frames, packed RGB, for a coder: of "fresh SEED NAME" or of "none KIND SEED".
+int write_raw(char** argv) {
+  const auto put = [](const std::vector<std::uint8_t>& rgb) { std::fwrite(rgb.data(), 1, rgb.size(), stdout); };
+  if (std::string(argv[0]) == "none") {
+    const NoFlame scene{.kind = argv[1], .seed = static_cast<unsigned>(std::atoi(argv[2]))};
+    for (int k = 0; k < scene.frames; ++k) put(film(scene, k));
+    return 0;
+  }
+  for (const auto& [name, scene] : fresh_scenes(static_cast<unsigned>(std::atoi(argv[1])))) {
+    if (name != argv[2]) continue;
+    std::fprintf(stderr, "%d %d %g\n", scene.width, scene.height, scene.rate_hz);
+    for (int k = 0; k < scene.frames; ++k) put(film(scene, k).rgb);
+  }
+  return 0;
+}
+
+// A line of facts for tools/fit_verdict.py.
+void print_facts(const std::string& name, const Scene& scene, const Outcome& outcome) {
+  std::printf("%s;%d;%d", name.c_str(), !scene.lamp, right(outcome) && scene.fair);
+  for (const WeighedFact& fact : outcome.facts) std::printf(";%s=%.5g", fact.name.c_str(), fact.value);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+// Sixty films without a flame, and how many are called usable or are not said to have none.
+void try_films_without_a_flame(unsigned first_seed, verify::Bounds& bounds) {
+  int films = 0, usable = 0, said = 0;
+  for (const std::string& kind : no_flame_kinds()) {
+    for (unsigned seed = first_seed; seed < first_seed + 5; ++seed) {
+      const NoFlame scene{.kind = kind, .seed = seed};
+      OutlineCapture capture(OutlineCaptureOptions{.rate_hz = scene.rate_hz, .source = kind});
+      for (int k = 0; k < scene.frames; ++k) {
+        const std::vector<std::uint8_t> rgb = film(scene, k);
+        const ImageView view{rgb.data(), scene.width, scene.height, 3 * static_cast<std::ptrdiff_t>(scene.width)};
+        if (!capture.feed(rgb_picture(view, 3))) break;
+      }
+      const auto captured = capture.finish();
+      const std::string reason = captured ? captured->report.reason : captured.error().message;
+      ++films;
+      usable += captured && captured->report.usable;
+      said += reason.find("no flame") != std::string::npos;
+      std::printf("  no flame: %-10s %4u  %s%s\n", kind.c_str(), seed,
+                  captured && captured->report.usable ? "usable: " : "", reason.c_str());
+    }
+  }
+  bounds.at_most("films without a flame that are called usable, share", static_cast<double>(usable) / films, 0.02);
+  bounds.at_least("films without a flame of which that is said, share", static_cast<double>(said) / films, 0.9);
+}
+
 int run(int argc, char** argv) {
+  if (argc == 5 && std::string(argv[1]) == "raw") return write_raw(argv + 2);
+  const bool facts = std::string(argv[argc - 1]) == "facts";
+  argc -= facts;
   verify::Bounds bounds;
   std::array<Totals, 2> totals;
-  std::printf("  %-36s %15s %15s %11s  %s\n", "scene", "IoU 8, 16", "tracked", "elsewhere", "verdict with 8");
+  if (!facts)
+    std::printf("  %-36s %15s %15s %11s  %s\n", "scene", "IoU 8, 16", "tracked", "elsewhere", "verdict with 8");
+  if (argc == 3 && std::string(argv[1]) == "none") {
+    try_films_without_a_flame(static_cast<unsigned>(std::atoi(argv[2])), bounds);
+    return bounds.missed() == 0 ? 0 : 1;
+  }
   const bool fresh = argc > 2 && std::string(argv[1]) == "fresh";
   const char* wanted = argc > (fresh ? 3 : 1) ? argv[fresh ? 3 : 1] : nullptr;
   const std::vector<Named> scenes = fresh ? fresh_scenes(static_cast<unsigned>(std::atoi(argv[2]))) : tuning_scenes();
   for (const auto& [name, scene] : scenes) {
     if (wanted != nullptr && name.rfind(wanted, 0) != 0) continue;
     const auto [few, many] = try_out(scene);
+    if (facts) {
+      print_facts(name, scene, few);
+      continue;
+    }
     std::printf("  %-36s %7.3f %7.3f %7.0f%% %6.0f%% %5d %5d  %s%s\n", name.c_str(), few.overlap, many.overlap,
                 100 * few.tracked, 100 * many.tracked, few.elsewhere, many.elsewhere,
                 few.usable ? "usable: " : "not usable: ", few.reason.c_str());
@@ -127,6 +195,8 @@ int run(int argc, char** argv) {
     count(scene, few, totals[0]);
     count(scene, many, totals[1]);
   }
+  if (facts) return 0;
+  if (wanted == nullptr) try_films_without_a_flame(fresh ? 100 * static_cast<unsigned>(std::atoi(argv[2])) : 1, bounds);
   for (std::size_t k = 0; k < 2; ++k) {
     const Totals& t = totals[k];
     const int all = t.right_usable + t.right_refused + t.wrong_usable + t.wrong_refused;

@@ -65,8 +65,8 @@ inline std::vector<std::string> project_files(const std::filesystem::path& root)
   for (auto it = begin(walk); it != end(walk); ++it) {
     const std::string name = it->path().filename().string();
     if (it->is_directory() && not_ours.contains(name)) it.disable_recursion_pending();
-    // In a work tree of git's, .git is a file. The reader of model files is flatc's.
-    if (name == ".git" || name == "wisp_generated.h") continue;
+    // In a work tree of git's, .git is a file. The reader of model files is flatc's, weights are a fitting tool's.
+    if (name == ".git" || name == "wisp_generated.h" || name.ends_with("_weights.hpp")) continue;
     if (it->is_regular_file()) files.push_back(it->path().lexically_relative(root).generic_string());
   }
   std::sort(files.begin(), files.end());

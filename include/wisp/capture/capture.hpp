@@ -2,7 +2,6 @@
 // From a clip's file to a recording: the outline in its picture, joined with the wind in its sound.
 
 #include <filesystem>
-#include <vector>
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"

@@ -172,6 +172,18 @@ ReportSection outline_section(const CaptureReport& picture) {
   return section;
 }
 
+// What the verdict rests on, for programs and for whoever asks why.
+ReportSection facts_section(const CaptureReport& picture) {
+  ReportSection section{"Facts"};
+  section.entries = {{"likely.flame", picture.likely_flame, "", ""}, {"likely.right", picture.likely_right, "", ""}};
+  ReportTable facts{"facts", "", {{"fact", ""}, {"value", ""}, {"against_flame", ""}, {"against_right", ""}}, {}};
+  for (const WeighedFact& fact : weighed_facts(picture)) {
+    facts.rows.push_back({fact.name, fact.value, fact.against_flame, fact.against_right});
+  }
+  section.tables.push_back(std::move(facts));
+  return section;
+}
+
 ReportSection wind_section(const ClipWind& wind) {
   return {"Wind",
           {{"wind.heard", !wind.frames.empty(), "", ""},
@@ -261,7 +273,8 @@ Result<Captured> LiveCapture::finish(const ClipTimes& times) {
   join_wind(*wind, measure_, out.recording);
   out.report.warnings = std::move(picture->report.warnings);
   warn_of_sound(source_, *wind, out.report);
-  out.report.sections = {frames_section(picture->report), outline_section(picture->report), wind_section(*wind)};
+  out.report.sections = {frames_section(picture->report), outline_section(picture->report),
+                         facts_section(picture->report), wind_section(*wind)};
   return out;
 }
 

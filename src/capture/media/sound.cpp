@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "capture/media/libav.hpp"
-#include "capture/media/with_memory.hpp"
 
 namespace wisp {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "capture/media/with_memory.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/statistics.hpp"
+
 namespace wisp {
 namespace {
 
@@ -156,7 +158,7 @@ double change_of(const std::vector<Shape>& shapes) {
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     changes.push_back(1 - overlap(shapes[k], shapes[(k + shapes.size() / 2) % shapes.size()]));
   }
-  return middle(std::move(changes));
+  return median(std::move(changes));
 }
 
 double taper_of(const std::vector<Shape>& shapes) {
@@ -167,7 +169,7 @@ double taper_of(const std::vector<Shape>& shapes) {
     const double body = mean_width(shape.profile, 2 * rows / 5, std::max(2 * rows / 5 + 1, 4 * rows / 5));
     tapers.push_back(std::max(0.0, 1 - tip / body));
   }
-  return middle(std::move(tapers));
+  return median(std::move(tapers));
 }
 
 // The area of a shape as wide and straight over its convex hull's: a flame that leans or bends has no notches. The hull
@@ -195,14 +197,7 @@ double solidity_of(const std::vector<Shape>& shapes) {
   std::vector<double> values;
   values.reserve(shapes.size());
   for (const Shape& shape : shapes) values.push_back(solidity_of(shape.profile));
-  return middle(std::move(values));
-}
-
-double spread(const std::vector<double>& values) {
-  double mean = 0, squares = 0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  for (const double value : values) squares += (value - mean) * (value - mean) / static_cast<double>(values.size());
-  return std::sqrt(squares);
+  return median(std::move(values));
 }
 
 double steadiness_of(const std::vector<Shape>& shapes) {
@@ -214,8 +209,8 @@ double steadiness_of(const std::vector<Shape>& shapes) {
     tip_depth.push_back(shape.profile.first);
     base_depth.push_back(shape.profile.first + static_cast<double>(shape.profile.rows.size()));
   }
-  const double tip = std::hypot(spread(tip_across), spread(tip_depth)) + kGridNoise;
-  const double base = std::hypot(spread(base_across), spread(base_depth)) + kGridNoise;
+  const double tip = std::hypot(deviation(tip_across), deviation(tip_depth)) + kGridNoise;
+  const double base = std::hypot(deviation(base_across), deviation(base_depth)) + kGridNoise;
   return tip / (tip + base);
 }
 
@@ -274,12 +269,6 @@ double shared_share(const Region& a, const Region& b) {
   return shared == 0 ? 0 : shared / (a.area() + b.area() - shared);
 }
 
-double middle(std::vector<double> values) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 Region PictureGrid::to_pixels(const Region& box) const {
   return intersection({area.x + box.x * step, area.y + box.y * step, box.width * step, box.height * step}, area);
 }
@@ -327,8 +316,8 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
       if (evidence.brightest.empty()) continue;
       light.push_back(light_of(grid, luma, level, shape, evidence.base) / evidence.brightest[shape.picture]);
     }
-    c.area = middle(areas);
-    if (!light.empty()) c.light = std::min(1.0, middle(light));
+    c.area = median(areas);
+    if (!light.empty()) c.light = std::min(1.0, median(light));
     c.change = change_of(shapes);
     c.taper = taper_of(shapes);
     c.solidity = solidity_of(shapes);

@@ -77,7 +77,4 @@ void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* bel
 /// The area that two rectangles share over the area of both.
 double shared_share(const Region& a, const Region& b);
 
-/// The middle value of a list that is not empty.
-double middle(std::vector<double> values);
-
 }  // namespace wisp

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "capture/vision/plane_length.hpp"
+#include "capture/vision/region.hpp"
 
 namespace wisp {
 namespace {

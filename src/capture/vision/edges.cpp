@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "capture/vision/plane_length.hpp"
+#include "capture/vision/region.hpp"
 
 namespace wisp {
 namespace {

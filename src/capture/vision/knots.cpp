@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "capture/vision/crossing.hpp"
 #include "capture/vision/outline_tracker.hpp"
-#include "capture/vision/plane_length.hpp"
+#include "capture/vision/region.hpp"
 
 namespace wisp {
 namespace {

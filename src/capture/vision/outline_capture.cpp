@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/statistics.hpp"
 #include "capture/vision/candidates.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
@@ -28,6 +29,10 @@ constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
 // a hand, the rim of a round lamp falls on other pixels from picture to picture: 0.05 where it is 24 pixels wide.
 constexpr double kMinChange = 0.02;
 constexpr double kMinRoundChange = 0.1;
+constexpr double kMinNarrowing = 0.25;
+constexpr double kMinLight = 0.85;
+constexpr double kMinContrast = 20;
+constexpr double kMaxWidth = 0.8;
 constexpr double kSamePlace = 0.5;  // of both places, shared by what is the same thing
 
 // Following the underside takes control points away from the sides and makes them move more: it has to pay, and always,
@@ -43,7 +48,7 @@ bool worth_following(const CurveShape& around, const CurveShape& above) {
 bool is_round(const Survey& survey) {
   std::vector<double> widths;
   for (const Region& box : survey.seen) widths.push_back(static_cast<double>(box.width) / box.height);
-  return middle(std::move(widths)) > kMaxWidth;
+  return median(std::move(widths)) > kMaxWidth;
 }
 
 // A flame that has not been lit yet is waited for. What stands still, is lit by something else, or is hardly brighter
@@ -89,6 +94,7 @@ class OutlineCapture::Stage {
   void look(const Picture& picture);
   void note(FrameFinding::Kind kind);
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
+  std::string no_flame() const { return options_.flame > 0 && !options_.dark ? "there is no flame in the film: " : ""; }
   void describe(CapturedOutline& out) const;
 
   OutlineCaptureOptions options_;
@@ -193,7 +199,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
     wait_on(survey);
     return {};
   }
-  if (!survey) return complaint(survey.error().message);
+  if (!survey) return complaint(no_flame() + survey.error().message);
   if (flame && survey->flames < options_.flame) return complaint(too_few(*survey));
   survey_ = std::move(*survey);
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
@@ -315,9 +321,9 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.flames = survey_->flames;
   report.facts.light = survey_->light;
   report.facts.narrowing = survey_->taper;
-  report.facts.solidity = survey_->solidity;
   report.facts.clipped = survey_->clipped;
   report.facts.contrast = survey_->contrast;
+  report.facts.steadiness = survey_->steadiness;
   for (const Waited& waited : stood_still_) {
     if (shared_share(waited.place, survey_->home) > kSamePlace) report.facts.still += waited.rows;
   }
@@ -359,11 +365,11 @@ Result<CapturedOutline> OutlineCapture::Stage::finish() {
   describe(out);
   assemble_rows(findings_, options_.points, out.recording, out.report);
   if (out.report.tracked < kMinTracked) {
-    return complaint("an outline was found in " + std::to_string(out.report.tracked) + " of " +
+    return complaint(no_flame() + "an outline was found in " + std::to_string(out.report.tracked) + " of " +
                      std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kMinTracked) +
                      "; try another channel, or a region around the thing");
   }
-  judge_outline(out.recording, tracker_->table(), out.report);
+  if (gather_facts(out.recording, tracker_->table(), out.report)) judge_outline(out.report);
   return out;
 }
 

@@ -1,9 +1,12 @@
 #include "capture/vision/outline_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include "base/statistics.hpp"
 
 namespace wisp {
 namespace {
@@ -21,13 +24,6 @@ constexpr std::size_t kGlint = 6;       // frames at most
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
-
-double median(std::vector<float> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // A camera's frames that a screen or a converter showed twice. What counts is the change against that of the frames
 // around: near its turning points a thing really stands still for a moment, but then its neighbours are slow too.
@@ -58,9 +54,41 @@ double usual_brightness_of(const FrameFindings& findings) {
   return median(std::move(brightness));
 }
 
-std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness) {
+// How many rows show each frame of a slower film, at most four, and the first row of such a group: then the picture
+// changes far more at every group's first row than inside it, where only its grain is new.
+struct Stands {
+  std::size_t times = 1;
+  std::size_t first = 0;
+};
+
+Stands find_stands(const FrameFindings& findings) {
+  constexpr double kQuieter = 0.6;  // sixty changes of one film, parted by chance, have medians within 0.8
+  constexpr std::size_t kMinGroups = 20;
+  for (std::size_t times = 4; times > 1; --times) {
+    std::array<std::vector<float>, 4> phases;
+    for (std::size_t row = 1; row < findings.size(); ++row) {
+      const FrameFinding& frame = findings.frames[row];
+      if (frame.kind == FrameFinding::Kind::kTracked) phases[row % times].push_back(frame.change);
+    }
+    std::array<float, 4> usual{};
+    for (std::size_t k = 0; k < times; ++k) usual[k] = phases[k].size() < kMinGroups ? 0 : median(phases[k]);
+    const auto first = std::max_element(usual.begin(), usual.end());
+    const float most = *first;
+    *first = 0;
+    const auto next = *std::max_element(usual.begin(), usual.end());
+    if (static_cast<double>(next) < kQuieter * static_cast<double>(most))
+      return {times, static_cast<std::size_t>(first - usual.begin())};
+  }
+  return {};
+}
+
+std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness, const Stands& stands) {
   std::vector<Fate> fate;
-  for (std::size_t row = 0; row < findings.size(); ++row) fate.push_back(judge(findings, row, usual_brightness));
+  for (std::size_t row = 0; row < findings.size(); ++row) {
+    fate.push_back(judge(findings, row, usual_brightness));
+    const bool again = stands.times > 1 && (row + stands.times - stands.first) % stands.times != 0;
+    if (again && fate.back() == Fate::kKept) fate.back() = Fate::kDuplicate;
+  }
   return fate;
 }
 
@@ -210,7 +238,9 @@ void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
 
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report) {
   const double usual_brightness = usual_brightness_of(findings);
-  std::vector<Fate> fate = judge(findings, usual_brightness);
+  const Stands stands = find_stands(findings);
+  report.facts.stands = static_cast<int>(stands.times);
+  std::vector<Fate> fate = judge(findings, usual_brightness, stands);
   const auto times = [&](Fate one) { return static_cast<std::size_t>(std::count(fate.begin(), fate.end(), one)); };
   report.duplicates = times(Fate::kDuplicate);
   report.facts.repeated = static_cast<double>(report.duplicates) / static_cast<double>(fate.size());

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "capture/vision/cholesky.hpp"
-#include "capture/vision/plane_length.hpp"
+#include "capture/vision/region.hpp"
 
 namespace wisp {
 namespace {

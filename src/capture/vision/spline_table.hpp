@@ -92,4 +92,7 @@ class SplineTable {
 /// Precondition: count >= 2.
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count);
 
+/// Whether two pieces of an open polyline that are not neighbours cross, as no outline's do.
+bool crosses_itself(std::span<const CurvePoint> polyline);
+
 }  // namespace wisp

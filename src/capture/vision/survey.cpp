@@ -5,19 +5,20 @@
 #include <cmath>
 #include <optional>
 
+#include "base/statistics.hpp"
 #include "capture/vision/candidates.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr int kGrid = 320;           // points of the coarse grid, wide and high: enough to tell regions apart
-constexpr int kFineGrid = 160;       // … and of the one around a flame
-constexpr int kLevelStep = 18;       // levels that are tried, 255ths
-constexpr int kHighestLevel = 225;   // above it, where a camera clips, a level cuts through the flame
-constexpr double kLitShare = 0.7;    // a picture counts when its brightest is this share of the upper quartile's
-constexpr double kOtherScene = 64;   // … and differs from the usual picture by less than this, mean over its points
-constexpr double kMinContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
-constexpr double kAsLikely = 0.35;   // another flame is at least this share as likely as the first
+constexpr int kGrid = 320;             // points of the coarse grid, wide and high: enough to tell regions apart
+constexpr int kFineGrid = 160;         // … and of the one around a flame
+constexpr int kLevelStep = 18;         // levels that are tried, 255ths
+constexpr int kHighestLevel = 225;     // above it, where a camera clips, a level cuts through the flame
+constexpr double kLitShare = 0.7;      // a picture counts when its brightest is this share of the upper quartile's
+constexpr double kOtherScene = 64;     // … and differs from the usual picture by less than this, mean over its points
+constexpr double kOneBrightness = 12;  // levels between the clusters, of 255: less is noise of one brightness
+constexpr double kAsLikely = 0.35;     // another flame is at least this share as likely as the first
 constexpr double kAsBrightAsBest = 0.9;  // … and as bright
 constexpr double kMoves = 0.05;          // … and changes by this share, as flames do, or by half as much as the first
 constexpr double kAsGood = 0.5;          // at another level it is still the same thing when it is this share as likely
@@ -77,9 +78,8 @@ std::vector<double> distances_from_usual(const PictureGrid& luma) {
   std::vector<std::uint8_t> values(luma.pictures.size());
   for (std::size_t at = 0; at < luma.size(); ++at) {
     std::transform(luma.pictures.begin(), luma.pictures.end(), values.begin(), [at](const auto& p) { return p[at]; });
-    const auto usual = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), usual, values.end());
-    for (std::size_t k = 0; k < distances.size(); ++k) distances[k] += std::abs(luma.pictures[k][at] - *usual);
+    const int usual = median(values);
+    for (std::size_t k = 0; k < distances.size(); ++k) distances[k] += std::abs(luma.pictures[k][at] - usual);
   }
   for (double& distance : distances) distance /= static_cast<double>(luma.size());
   return distances;
@@ -160,8 +160,8 @@ Region usual_place(const Candidate& candidate) {
     right.push_back(box.right());
     bottom.push_back(box.bottom());
   }
-  const int left = static_cast<int>(middle(x)), top = static_cast<int>(middle(y));
-  return {left, top, static_cast<int>(middle(right)) - left, static_cast<int>(middle(bottom)) - top};
+  const int left = static_cast<int>(median(x)), top = static_cast<int>(median(y));
+  return {left, top, static_cast<int>(median(right)) - left, static_cast<int>(median(bottom)) - top};
 }
 
 bool same_place(const Candidate& a, const Candidate& b) {
@@ -203,7 +203,7 @@ std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const 
   if (inside.empty() || outside.empty()) return std::nullopt;
   const auto quarter = outside.begin() + static_cast<std::ptrdiff_t>(3 * outside.size() / 4);
   std::nth_element(outside.begin(), quarter, outside.end());
-  return Brightness{middle(std::move(inside)), *quarter};
+  return Brightness{median(std::move(inside)), *quarter};
 }
 
 // A little more than half-way from what is around a thing to the thing itself: there its area depends little on how a
@@ -322,10 +322,10 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   out.seen = thing.seen;
   out.stands = thing.stands;
   out.change = thing.change;
+  out.steadiness = thing.steadiness;
   out.taper = thing.taper;
   out.area = thing.area;
   out.light = thing.light;
-  out.solidity = thing.solidity;
   out.contrast = thing.contrast;
   out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid& grid = *grids.of(thing.channel);
@@ -341,7 +341,7 @@ bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions
     Histogram histogram{};
     for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(histogram, grid.view(k), 1);
     const TwoClusters clusters = split_histogram(histogram);
-    if (clusters.bright_mean - clusters.dark_mean >= kMinContrast) return true;
+    if (clusters.bright_mean - clusters.dark_mean >= kOneBrightness) return true;
   }
   return false;
 }
@@ -383,14 +383,6 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
 
 namespace {
 
-// Mean distance of values from their mean.
-double mean_distance(std::span<const double> values) {
-  double mean = 0, away = 0;
-  for (const double value : values) mean += value / static_cast<double>(values.size());
-  for (const double value : values) away += std::abs(value - mean) / static_cast<double>(values.size());
-  return away;
-}
-
 // Of a thing that is mostly wider than high, the end that moves less is where it is held.
 BaseSide steady_end(const Survey& survey) {
   constexpr double kLying = 1.5;
@@ -402,8 +394,8 @@ BaseSide steady_end(const Survey& survey) {
     width += box.width;
     height += box.height;
   }
-  if (width < kLying * height || mean_distance(left) == mean_distance(right)) return BaseSide::kBottom;
-  return mean_distance(left) < mean_distance(right) ? BaseSide::kLeft : BaseSide::kRight;
+  if (width < kLying * height || deviation(left) == deviation(right)) return BaseSide::kBottom;
+  return deviation(left) < deviation(right) ? BaseSide::kLeft : BaseSide::kRight;
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ struct Survey {
   bool stands = false;         ///< at that level it has mostly run together with what it stands on
   double area = 0;             ///< median, pixels
   double change = 0;           ///< share of its shape that changes from picture to picture: 0 nothing moves
+  double steadiness = 0;       ///< how much less its base moves than its tip: 1 only the tip
   double taper = 0;            ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
-  double solidity = 1;         ///< its area over its convex hull's, notches from below apart
   double light = 1;            ///< its luma over the brightest there is
   double contrast = 255;       ///< its brightness less that of what is around it, levels
   double clipped = 0;          ///< share of it that is flat: as bright in every channel as it gets

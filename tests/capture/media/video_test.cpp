@@ -11,7 +11,7 @@
 #include <iterator>
 #include <new>
 
-#include "capture/media/with_memory.hpp"
+#include "capture/media/libav.hpp"
 #include "capture/support/clip_files.hpp"
 
 namespace wisp::video_test {

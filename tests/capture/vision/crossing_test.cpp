@@ -1,6 +1,6 @@
 // Whether a curve runs over itself.
 
-#include "capture/vision/crossing.hpp"
+#include "capture/vision/spline_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -236,7 +236,7 @@ TEST(OutlineCapture, AFlameInAnotherPlaceIsAnotherFlame) {
     add_noise(plane, static_cast<unsigned>(k));
     return plane;
   });
-  ASSERT_TRUE(captured);
+  ASSERT_TRUE(captured) << captured.error().message;
   EXPECT_EQ(captured->report.tracked, 30u);
   EXPECT_EQ(captured->report.out_at, 30u);
   EXPECT_FALSE(captured->report.usable);

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "capture/vision/outline_verdict_weights.hpp"
 #include "model/bspline.hpp"
 
 namespace wisp::outline_verdict_test {
@@ -39,9 +41,11 @@ CaptureReport judged(const Outline& outline, double residual = 0.5) {
   report.flames = 1;
   report.points = static_cast<int>(outline.size());
   report.residual = residual;
-  report.facts.light = report.facts.solidity = 1;
+  report.facts.light = 1;
   report.facts.narrowing = 0.6;
-  judge_outline(recording, SplineTable(uniform_knots(static_cast<int>(outline.size()))), report);
+  report.facts.steadiness = 0.9;
+  EXPECT_TRUE(gather_facts(recording, SplineTable(uniform_knots(static_cast<int>(outline.size()))), report));
+  judge_outline(report);
   return report;
 }
 
@@ -79,7 +83,9 @@ TEST(OutlineVerdict, AFlameThatLiesOnItsSideIsInAFilmThatIsTurned) {
   for (const int side : {-1, 1}) {
     Outline outline = kFlame;
     for (CurvePoint& p : outline) p = {side * p.y, 20 - side * p.x};
-    const CaptureReport report = judged(outline);
+    CaptureReport report = judged(outline);
+    report.facts.movement = 0.1;  // it flickers as one that stands
+    judge_outline(report);
     EXPECT_FALSE(report.usable);
     EXPECT_NEAR(report.facts.lean, 90, 1);
     EXPECT_THAT(report.reason, HasSubstr("it lies on its side, 90 degrees from upright"));
@@ -95,10 +101,63 @@ TEST(OutlineVerdict, AFlameThatLeansIsNotOneThatLies) {
 }
 
 TEST(OutlineVerdict, AnEdgeThatTheCurveDoesNotFollowIsNoFlames) {
-  EXPECT_TRUE(judged(kFlame, 1.5).usable);
-  const CaptureReport report = judged(kFlame, 2);  // 0.018 of its height; eight points may miss 0.0125, and noise
+  EXPECT_TRUE(judged(kFlame, 1).usable);
+  EXPECT_FALSE(judged(kFlame, 2).usable);
+}
+
+CaptureReport with(void (*change)(CaptureReport&)) {
+  CaptureReport report = judged(kFlame);
+  change(report);
+  judge_outline(report);
+  return report;
+}
+
+TEST(OutlineVerdict, EveryFaultOfAFilmIsItsOwnReason) {
+  struct Case {
+    const char* name;
+    void (*change)(CaptureReport&);
+    const char* said;
+  };
+  const Case cases[] = {
+      {"lost", [](CaptureReport& r) { r.facts.lost = 0.35; }, "its frames come irregularly, 35 %"},
+      {"repeated", [](CaptureReport& r) { r.facts.repeated = 0.5, r.facts.stands = 2; }, "every frame stands 2 times"},
+      {"cut", [](CaptureReport& r) { r.frames = 120, r.facts.other_after = 60; }, "in 50 % of the frames it is gone"},
+      {"missing", [](CaptureReport& r) { r.facts.absent = 15; }, "it is missing in 25 %"},
+      {"jumps", [](CaptureReport& r) { r.facts.jumps = 0.3; }, "it jumps in 30 %"},
+      {"border",
+       [](CaptureReport& r) {
+         r.facts.border = {0, 0, 1, 0};
+       },
+       "it reaches the right border"},
+  };
+  for (const Case& one : cases) {
+    const CaptureReport report = with(one.change);
+    EXPECT_FALSE(report.usable) << one.name;
+    EXPECT_GT(report.likely_flame, 0.5) << one.name;
+    EXPECT_THAT(report.reason, HasSubstr(one.said)) << one.name;
+  }
+}
+
+TEST(OutlineVerdict, AStillLampUnderACodersNoiseIsNoFlame) {
+  const CaptureReport report = with([](CaptureReport& r) {  // of a bulb, coded as MPEG-4
+    r.facts.movement = 0.0095, r.facts.edge_noise = 0.9, r.facts.wander = 1.2;
+    r.facts.steadiness = 0.42, r.facts.light = 0.93;
+  });
   EXPECT_FALSE(report.usable);
-  EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
+  EXPECT_LT(report.likely_flame, 0.5);
+  EXPECT_THAT(report.reason, HasSubstr("there is no flame"));
+}
+
+// A worse fact never makes the verdict better: every curve is monotone, and none gives anything.
+TEST(OutlineVerdict, IsMonotoneInEveryFact) {
+  for (const VerdictCurve& curve : kVerdictCurves) {
+    for (const auto& against : {curve.against_flame, curve.against_right}) {
+      const bool rising = std::is_sorted(against.begin(), against.end());
+      EXPECT_TRUE(rising || std::is_sorted(against.rbegin(), against.rend()));
+      EXPECT_EQ(rising ? against.front() : against.back(), 0);
+    }
+    EXPECT_TRUE(std::is_sorted(curve.knots.begin(), curve.knots.end()));
+  }
 }
 
 }  // namespace

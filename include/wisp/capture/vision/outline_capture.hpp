@@ -56,10 +56,13 @@ struct OutlineFacts {
   double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
   std::array<double, 4> border{};  ///< share that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< how far the shape moves on its base: root mean square over the median height
+  double edge_noise = 0;           ///< what the film's stillest edges move by at random, pixels
+  double wander = 0;               ///< how far the base moves over how far the shape moves on it
+  double steadiness = 0;           ///< how much less its base moves than its tip, of the survey: 1 only the tip moves
+  int stands = 1;                  ///< how many times every frame stands in the clip
   double misfit = 0;               ///< distance of edge points from the curve over the median height, mean
   double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
   double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
-  double solidity = 0;             ///< its area over its convex hull's, notches from below apart
   double ragged = 0;               ///< share of outlines with deep notches: they fill little of their convex hulls
   double lean = 0;                 ///< from upright, degrees, median: 90 lies on its side
   double width = 0;                ///< across its axis, over its height, median
@@ -91,10 +94,24 @@ struct CaptureReport {
   int flames = 0;                     ///< how many there are; 0 where no flame was looked for
   std::optional<std::size_t> out_at;  ///< row from which on the flame is out for good
   OutlineFacts facts;                 ///< what the verdict rests on
+  double likely_flame = 1;            ///< how likely a person would call the thing a flame, 0 to 1
+  double likely_right = 0;            ///< … and its outline right and fit to be learned from
   bool usable = false;                ///< whether the outline can be learned from
   std::string reason;                 ///< why, or why not and what to film instead: one sentence
   std::vector<std::string> warnings;  ///< what the maker should know, one sentence each
 };
+
+/// One of the facts that the verdict weighs, and what it takes from the log odds of a flame and of a right outline: 0
+/// where it could not be better.
+struct WeighedFact {
+  std::string name;
+  double value = 0;
+  double against_flame = 0;
+  double against_right = 0;
+};
+
+/// The facts of a capture; those of a flame are left out where none was looked for.
+std::vector<WeighedFact> weighed_facts(const CaptureReport& report);
 
 /// Judges anew where it is known why `rows` of the rows have no outline: the flame had been blown out, `times` times,
 /// and was lit again. A picture alone cannot tell that from a flame that was not found.

@@ -1,4 +1,4 @@
-#include "capture/clip/fall/fall_track.hpp"
+#include "capture/clip/fall/fall_tracks.hpp"
 
 #include <algorithm>
 #include <cmath>

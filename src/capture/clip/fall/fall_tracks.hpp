@@ -1,5 +1,5 @@
 #pragma once
-// Things that are seen in frame after frame, as falls.
+// Things that are seen in frame after frame, alone and as falls.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,9 +7,29 @@
 #include <vector>
 
 #include "capture/clip/fall/fall_scene.hpp"
-#include "capture/clip/fall/fall_track.hpp"
 
 namespace wisp::fall {
+
+/// What it is measured against.
+struct Scale {
+  double rate_hz = 0;
+  double width = 0;   ///< of the picture, small pixels
+  double height = 0;  ///<
+};
+
+struct Track {
+  std::vector<std::size_t> frames{};
+  std::vector<Thing> things{};
+
+  /// Small pixels a frame, over its last steps; 0 for a single one.
+  double speed(double Thing::*axis, std::size_t steps) const;
+  /// The same over its first.
+  double first_speed(double Thing::*axis, std::size_t steps) const;
+};
+
+/// Tracks by nearest prediction, with constant velocity. What is out of sight for a moment, or falls into two for one,
+/// goes on as one track.
+std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale);
 
 /// Why a fall was not followed from its release to its end.
 enum class Cut {

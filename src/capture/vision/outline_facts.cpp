@@ -1,0 +1,227 @@
+#include "capture/vision/outline_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/statistics.hpp"
+#include "capture/vision/region.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kMoveShare = 0.35;  // of the height: a base that moves farther in a frame is another one
+constexpr double kJumpRatio = 2.2;   // … and a height that changes so many times
+constexpr double kHullFilled = 0.8;  // of its convex hull: a flame that leans or bends fills more
+constexpr double kOutSeconds = 0.3;  // without a flame until the end: it went out; gaps in films last 0.13 at most
+constexpr int kCurvePoints = 64;
+
+// One row's outline.
+struct OutlineRow {
+  std::size_t row = 0;
+  std::vector<CurvePoint> curve;
+  CurvePoint base;
+  CurvePoint tip;
+  double height = 0;
+};
+
+OutlineRow shape_of(const Recording& recording, const SplineTable& table, std::size_t row) {
+  std::vector<double> controls(2 * static_cast<std::size_t>(table.points()));
+  for (std::size_t i = 0; i < controls.size(); ++i) controls[i] = recording.channels[i].samples[row];
+  OutlineRow shape{.row = row, .curve = curve_polyline(table, controls, kCurvePoints), .base = {}, .tip = {}};
+  const CurvePoint first = shape.curve.front(), last = shape.curve.back();
+  shape.base = {0.5 * (first.x + last.x), 0.5 * (first.y + last.y)};
+  for (const CurvePoint& p : shape.curve) {
+    const double reach = length(p.x - shape.base.x, p.y - shape.base.y);
+    if (reach <= shape.height) continue;
+    shape.height = reach;
+    shape.tip = p;
+  }
+  return shape;
+}
+
+// Twice the area of the triangle a, b, c; above 0 where they turn left.
+double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// How wide a shape is across its axis at a share of its height above the base.
+double width_at(const OutlineRow& shape, double share) {
+  const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
+  double low = 1e30, high = -1e30;
+  for (std::size_t k = 0; k < shape.curve.size(); ++k) {
+    const CurvePoint &a = shape.curve[k], &b = shape.curve[(k + 1) % shape.curve.size()];
+    const auto along = [&](const CurvePoint& p) { return (p.x - shape.base.x) * ax + (p.y - shape.base.y) * ay; };
+    const double at = share * shape.height, from = along(a), to = along(b);
+    if ((from > at) == (to > at)) continue;
+    const double part = (at - from) / (to - from);
+    const double x = a.x + part * (b.x - a.x) - shape.base.x, y = a.y + part * (b.y - a.y) - shape.base.y;
+    low = std::min(low, ay * x - ax * y);
+    high = std::max(high, ay * x - ax * y);
+  }
+  return std::max(0.0, high - low);
+}
+
+// How wide a shape is across its axis where it is widest, in heights.
+double full_width(const OutlineRow& shape) {
+  double low = 1e30, high = -1e30;
+  for (const CurvePoint& p : shape.curve) {
+    const double across = turn(shape.base, shape.tip, p) / (shape.height * shape.height);
+    low = std::min(low, across);
+    high = std::max(high, across);
+  }
+  return high - low;
+}
+
+// How far it leans to either side, degrees: 0 where its tip lies above its base, 90 beside it, 180 below.
+double lean_of(const OutlineRow& shape) {
+  return std::atan2(std::abs(shape.tip.x - shape.base.x), shape.base.y - shape.tip.y) * 180 / std::numbers::pi;
+}
+
+double taper_of(const OutlineRow& shape) {
+  const double body = width_at(shape, 0.4);
+  return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
+}
+
+double area_of(const std::vector<CurvePoint>& corners) {
+  double twice = 0;
+  for (std::size_t k = 2; k < corners.size(); ++k) twice += turn(corners[0], corners[k - 1], corners[k]);
+  return 0.5 * std::abs(twice);
+}
+
+// A. M. Andrew, Information Processing Letters 9 (1979).
+std::vector<CurvePoint> convex_hull(std::vector<CurvePoint> points) {
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<CurvePoint> hull;
+  for (const bool back : {false, true}) {
+    const std::size_t begin = hull.size();
+    for (const CurvePoint& p : points) {
+      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    if (!back) std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+double ragged_share(const std::vector<OutlineRow>& shapes) {
+  const auto ragged = std::count_if(shapes.begin(), shapes.end(), [](const OutlineRow& shape) {
+    return area_of(shape.curve) < kHullFilled * area_of(convex_hull(shape.curve));
+  });
+  return static_cast<double>(ragged) / static_cast<double>(shapes.size());
+}
+
+// How much a curve's points move on its base, pixels squared: all of it, and what changes at random from frame to
+// frame.
+struct Motion {
+  std::array<double, kCurvePoints> variance{};
+  std::array<double, kCurvePoints> noise{};
+};
+
+Motion motion_of(const std::vector<OutlineRow>& shapes) {
+  Motion out;
+  std::vector<double> values(shapes.size());
+  for (std::size_t k = 0; k < kCurvePoints; ++k) {
+    for (const bool x : {true, false}) {
+      const auto at = [&](const OutlineRow& s) { return x ? s.curve[k].x - s.base.x : s.curve[k].y - s.base.y; };
+      std::transform(shapes.begin(), shapes.end(), values.begin(), at);
+      const double spread = deviation(values);
+      out.variance[k] += spread * spread;
+      double squares = 0;
+      for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+        const double bend = values[i - 1] - 2 * values[i] + values[i + 1];
+        squares += bend * bend / 6;  // of noise alone its variance
+      }
+      out.noise[k] += squares / static_cast<double>(std::max<std::size_t>(shapes.size(), 3) - 2);
+    }
+  }
+  return out;
+}
+
+void gather_motion(const std::vector<OutlineRow>& shapes, OutlineFacts& facts) {
+  const Motion motion = motion_of(shapes);
+  const double moved = std::sqrt(mean(motion.variance));
+  std::vector<double> noise(motion.noise.begin(), motion.noise.end()), x, y;
+  facts.movement = moved / facts.height;
+  facts.edge_noise = std::sqrt(quantile(noise, 0.25));
+  for (const OutlineRow& shape : shapes) {
+    x.push_back(shape.base.x);
+    y.push_back(shape.base.y);
+  }
+  facts.wander = std::hypot(deviation(x), deviation(y)) / std::max(moved, 0.02);
+}
+
+double jumps_of(const std::vector<OutlineRow>& shapes, double height) {
+  std::size_t steps = 0, jumps = 0;
+  for (std::size_t k = 1; k < shapes.size(); ++k) {
+    const OutlineRow &a = shapes[k - 1], &b = shapes[k];
+    if (b.row != a.row + 1) continue;
+    ++steps;
+    const double ratio = std::max(a.height, b.height) / std::min(a.height, b.height);
+    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kMoveShare * height || ratio > kJumpRatio;
+  }
+  return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
+}
+
+// Shares of rows in which the curve reaches a border, but for the border on which both of its ends lie: there the
+// picture cuts off what holds it, as a flag's mast.
+std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width, int height) {
+  constexpr double kNear = 1.5;  // pixels
+  std::array<double, 4> out{};
+  for (const OutlineRow& shape : shapes) {
+    const auto at = [&](const CurvePoint& p) -> std::array<bool, 4> {
+      return {p.x<kNear, p.y<kNear, p.x> width - 1 - kNear, p.y> height - 1 - kNear};
+    };
+    const auto first = at(shape.curve.front()), last = at(shape.curve.back());
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool attached = first[k] && last[k];
+      const bool reached = std::any_of(shape.curve.begin(), shape.curve.end(), [&](const auto& p) { return at(p)[k]; });
+      if (reached && !attached) out[k] += 1 / static_cast<double>(shapes.size());
+    }
+  }
+  return out;
+}
+
+// The row after the last outline, where nothing comes for long enough and the film does not fade out.
+std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
+  const std::size_t dark = report.frames - 1 - last;
+  if (report.facts.fades_out || static_cast<double>(dark) < kOutSeconds * report.rate_hz) return std::nullopt;
+  return last + 1;
+}
+
+}  // namespace
+
+bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report) {
+  std::vector<OutlineRow> shapes;
+  std::vector<double> heights, tapers, widths, leans;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    if (std::isnan(recording.channels.front().samples[row])) continue;
+    shapes.push_back(shape_of(recording, table, row));
+    const OutlineRow& shape = shapes.back();
+    heights.push_back(shape.height);
+    tapers.push_back(taper_of(shape));
+    widths.push_back(full_width(shape));
+    leans.push_back(lean_of(shape));
+  }
+  if (shapes.empty()) return false;
+  OutlineFacts& facts = report.facts;
+  facts.height = std::max(median(heights), 1e-9);
+  facts.taper = median(tapers);
+  facts.width = median(widths);
+  facts.lean = median(leans);
+  facts.ragged = ragged_share(shapes);
+  gather_motion(shapes, facts);
+  facts.misfit = report.residual / facts.height;
+  facts.jumps = jumps_of(shapes, facts.height);
+  facts.border = border_of(shapes, report.width, report.height);
+  const std::size_t first = shapes.front().row, last = shapes.back().row;
+  facts.seen_from = first;
+  facts.rows = last - first + 1;
+  facts.absent = facts.rows - shapes.size();
+  report.out_at = out_at(report, last);
+  return true;
+}
+
+}  // namespace wisp
