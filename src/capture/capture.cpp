@@ -155,19 +155,4 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
   return captured;
 }
 
-Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const ClipCaptureOptions& options,
-                                        const Progress& progress) {
-  auto reader = VideoReader::open(path, options.video);
-  if (!reader) return reader.error();
-  OutlineCaptureOptions outline = options.outline;
-  outline.rate_hz = reader->info().rate_hz;
-  outline.source = path.string();
-  OutlineCapture capture(std::move(outline));
-  if (auto read = read_into(*reader, capture, progress); !read) return read.error();
-  auto captured = capture.finish();
-  if (!captured) return captured;
-  for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));
-  return captured;
-}
-
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "capture/capture_clip.hpp"
+#include "capture/support/capture_outline.hpp"
 #include "learn/fidelity/fidelity.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_shape.hpp"
@@ -37,10 +37,10 @@ class FlameClips : public testing::TestWithParam<Clip> {
   void SetUp() override {
     const auto path = data_folder() / "flame" / GetParam().path;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there: set WISP_DATA to the recordings";
-    ClipCaptureOptions options;
+    support::ClipCaptureOptions options;
     options.outline.points = GetParam().points;
     options.video.rate_hz = GetParam().rate_hz;
-    auto captured = capture_outline(path, options);
+    auto captured = support::capture_outline(path, options);
     ASSERT_TRUE(captured) << captured.error().message;
     recording = captured->recording;
     auto learned = fit_outline({&recording, 1});

@@ -1,9 +1,9 @@
 #include "capture/vision/outline_rows.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "base/statistics.hpp"
@@ -55,29 +55,29 @@ double usual_brightness_of(const FrameFindings& findings) {
 }
 
 // How many rows show each frame of a slower film, at most four, and the first row of such a group: then the picture
-// changes far more at every group's first row than inside it, where only its grain is new.
+// changes most at a group's first row, and inside it only its grain is new.
 struct Stands {
   std::size_t times = 1;
   std::size_t first = 0;
 };
 
 Stands find_stands(const FrameFindings& findings) {
-  constexpr double kQuieter = 0.6;  // sixty changes of one film, parted by chance, have medians within 0.8
-  constexpr std::size_t kMinGroups = 20;
-  for (std::size_t times = 4; times > 1; --times) {
-    std::array<std::vector<float>, 4> phases;
-    for (std::size_t row = 1; row < findings.size(); ++row) {
-      const FrameFinding& frame = findings.frames[row];
-      if (frame.kind == FrameFinding::Kind::kTracked) phases[row % times].push_back(frame.change);
+  constexpr double kMinGroups = 20, kOfGroups = 0.6,
+                   kErrors = 4;  // by chance one in `times` is such, four errors more never
+  for (Stands found{.times = 4}; found.times > 1; --found.times) {
+    for (found.first = 0; found.first < found.times; ++found.first) {
+      double groups = 0, such = 0;
+      for (std::size_t row = found.first; row + found.times <= findings.size(); row += found.times) {
+        const std::span frames(findings.frames.data() + row, found.times);
+        const auto tracked = [](const FrameFinding& one) { return one.kind == FrameFinding::Kind::kTracked; };
+        if (row == 0 || !std::all_of(frames.begin(), frames.end(), tracked)) continue;
+        ++groups;
+        such += std::all_of(frames.begin() + 1, frames.end(),
+                            [&](const FrameFinding& one) { return one.change < frames.front().change; });
+      }
+      const double chance = 1 / static_cast<double>(found.times), error = std::sqrt(chance * (1 - chance) / groups);
+      if (groups >= kMinGroups && such >= std::max(kOfGroups, chance + kErrors * error) * groups) return found;
     }
-    std::array<float, 4> usual{};
-    for (std::size_t k = 0; k < times; ++k) usual[k] = phases[k].size() < kMinGroups ? 0 : median(phases[k]);
-    const auto first = std::max_element(usual.begin(), usual.end());
-    const float most = *first;
-    *first = 0;
-    const auto next = *std::max_element(usual.begin(), usual.end());
-    if (static_cast<double>(next) < kQuieter * static_cast<double>(most))
-      return {times, static_cast<std::size_t>(first - usual.begin())};
   }
   return {};
 }

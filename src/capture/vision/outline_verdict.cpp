@@ -146,7 +146,8 @@ double against(const std::array<double, kVerdictKnots>& knots, const std::array<
   return penalties.back();
 }
 
-// The heaviest fact whose cure makes the verdict yes; where one is not enough, the heaviest.
+// The heaviest fact whose cure makes the verdict yes; where one is not enough, the heaviest. What an overexposed thing
+// is cannot be told: its shape says nothing of a flame.
 std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact::*weight, double odds, R r) {
   const auto heavier = [&](const WeighedFact& a, const WeighedFact& b) {
     return std::pair(odds + a.*weight > 0, a.*weight) < std::pair(odds + b.*weight > 0, b.*weight);
@@ -154,7 +155,9 @@ std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact:
   const WeighedFact& found = *std::max_element(facts.begin(), facts.end(), heavier);
   const auto row =
       std::find_if(kFacts.begin(), kFacts.end(), [&](const FactRow& one) { return one.name == found.name; });
-  return sentence_of(static_cast<std::size_t>(row - kFacts.begin()), r);
+  const bool none = weight == &WeighedFact::against_flame && row->sentence != kShape;
+  return (none ? "there is no flame in the film: " : "") +
+         sentence_of(static_cast<std::size_t>(row - kFacts.begin()), r);
 }
 
 std::string verdict_sentence(CaptureReport& report) {
@@ -171,7 +174,7 @@ std::string verdict_sentence(CaptureReport& report) {
     return "an outline was found in " + percent(1 - missing_share(report)) + " of the frames and moves steadily";
   }
   if (report.likely_flame > 0.5) return reason_of(facts, &WeighedFact::against_right, right, report);
-  return "there is no flame in the film: " + reason_of(facts, &WeighedFact::against_flame, flame, report);
+  return reason_of(facts, &WeighedFact::against_flame, flame, report);
 }
 
 }  // namespace

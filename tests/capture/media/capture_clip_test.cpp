@@ -5,12 +5,15 @@
 
 #include <cmath>
 
+#include "capture/support/capture_outline.hpp"
 #include "capture/support/clip_files.hpp"
 #include "capture/support/overlap.hpp"
 
 namespace wisp::capture_clip_test {
 namespace {
 
+using support::capture_outline;
+using support::ClipCaptureOptions;
 using support::ScratchFolder;
 using testing::HasSubstr;
 
