@@ -23,24 +23,26 @@ def likely(chances, word):  # a step of a Markov chain; without a word the likel
 
 
 class Life:
-    """Whether a flame burns: wind harms it, and one that is out shrinks in the shape of its last step."""
+    """Whether a flame burns: wind harms it; one that is out has the sizes of a recorded event and its last step's shape."""
 
-    def __init__(self, rule, model):
+    def __init__(self, rule, model, seed):
         step, self.input = 1 / model["rate_hz"], [i["name"] for i in model["inputs"]].index(rule["input"])
         harm, haste, self.level = min(step / rule["seconds"], 0.5), rule["haste"], F(rule["level"])
         self.most = F((min(3, 1 + (0.5 / harm - 1) / haste) if haste > 0 else 3) * rule["level"])
         self.base, self.slope = kept(harm * (1 - haste)), kept(harm * haste / rule["level"])
-        self.recovery, self.dying = kept(step / rule["recovery"]), F(min(1, step / max(rule["dying"], step)))
-        self.harm, self.size, self.shape = F(0), F(1), None
+        self.recovery, ends, sizes = kept(step / rule["recovery"]), rule["dying"]["ends"], rule["dying"]["sizes"]
+        self.events = [sizes[begin:end] for begin, end in zip([0] + ends, ends)]
+        self.seed, self.harm, self.event, self.shape = seed, F(0), None, None
 
-    def seen(self, shown, inputs):
+    def seen(self, shown, inputs, step):
         wind = min(abs(F(inputs[self.input])), self.most)
         self.harm = clamp(self.harm + (-self.recovery if wind < self.level else self.base + self.slope * wind), F(0), F(1))
         if self.shape is None and self.harm >= 1:
-            self.shape = shown
+            self.shape, drawn = shown, words(self.seed, step + 1, 0xFFFF)[0]
+            self.event = iter(self.events[drawn % len(self.events)])
         if self.shape is not None:
-            self.size = max(self.size - self.dying, F(0))
-            return [self.size * value if self.size > 0 else F(0) for value in self.shape]
+            size = F(next(self.event, 0)) / F(255)
+            return [size * value if size > 0 else F(0) for value in self.shape]
         return shown
 
 
@@ -97,7 +99,7 @@ def play(model, winds, seed=1, noise=True):
     groups = 1 + max(k for mode in rows for _, _, shocks in mode for _, k in shocks) // 8
     past = [[settle(clamp(F(0), *h)) for h in clamped] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
     mode, resampled = None, Resampled(model, unit) if (d.get("noise") or {}).get("resampled") else None
-    life = Life(model["extinction"], model) if model.get("extinction") else None
+    life = Life(model["extinction"], model, seed) if model.get("extinction") else None
     for step, wind in enumerate(winds):
         now = [F(0)] * ny + [regress(*form, mean, wind[model["inputs"].index(form[0])]) for form, mean in zip(forms, d["input_mean"])]
         past = [now] + past[:-1]
@@ -119,7 +121,7 @@ def play(model, winds, seed=1, noise=True):
             now[i] = settle(clamp(total, *clamped[i]))
         shown = [clamp(F(mean) + F(u) * z, *map(F, edges(o))) for o, mean, u, z in zip(outputs, d["output_mean"], unit, now)]
         shown = points_of(shape, shown) if shape else shown
-        yield life.seen(shown, wind) if life else shown
+        yield life.seen(shown, wind, step) if life else shown
 
 
 if __name__ == "__main__":

@@ -115,11 +115,10 @@ const char* word_of(Origin origin) {
   return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
 }
 
-void add_ramp(const std::string& id, const RampTraining& ramp, ReportSection& section) {
-  add(section, id + ".origin", word_of(ramp.origin));
-  add(section, id + ".events", ramp.events);
-  add(section, id + ".seconds_ci95", list(ramp.seconds_ci95));
-  add(section, id + ".error", ramp.error);
+void add_events(const std::string& id, const SizeEvents& own, const SizeEvents& played, ReportSection& section) {
+  add(section, id + ".borrowed", own.empty());
+  add(section, id + ".sizes", list(played.sizes));
+  add(section, id + ".ends", list(played.ends));
 }
 
 void add_extinction(const std::string& id, const ExtinctionTraining& made, ReportSection& section) {
@@ -128,8 +127,7 @@ void add_extinction(const std::string& id, const ExtinctionTraining& made, Repor
   add(section, id + ".died", made.died);
   add(section, id + ".gusts", made.gusts);
   add(section, id + ".spared", made.spared);
-  add_ramp(id + ".dying", made.decay, section);
-  add_ramp(id + ".catching", made.re_ignition, section);
+  add(section, id + ".vanishing_seconds", made.vanishing_seconds);
 }
 
 void add_training(const Training& made, ReportSection& section) {
@@ -172,8 +170,9 @@ Report model_contents(const Model& model) {
   }
   std::visit([&](const auto& dynamics) { add_contents(dynamics, section); }, model.dynamics);
   if (model.extinction) {
-    add(section, "extinction.dying", model.extinction->decay);
-    add(section, "extinction.catching", model.extinction->re_ignition);
+    const Extinction& rule = *model.extinction;
+    add_events("extinction.dying", rule.dying, dying_of(rule, model.rate_hz), section);
+    add_events("extinction.catching", rule.catching, catching_of(rule, model.rate_hz), section);
   }
   add_training(model.training, section);
   add(section, "random.generator", "Philox4x32-7");

@@ -93,18 +93,11 @@ fb::Offset<file::SwitchedArx> write_switched(Builder& builder, const SwitchedArx
   return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, initial, transitions);
 }
 
-fb::Offset<file::RampTraining> write_ramp(Builder& builder, const RampTraining& ramp) {
-  return file::CreateRampTraining(builder, static_cast<file::Origin>(ramp.origin), ramp.events, ramp.seconds_ci95[0],
-                                  ramp.seconds_ci95[1], ramp.error);
-}
-
 fb::Offset<file::ExtinctionTraining> write_extinction_training(Builder& builder,
                                                                const std::optional<ExtinctionTraining>& made) {
   if (!made) return 0;
-  const auto decay = write_ramp(builder, made->decay);
-  const auto re_ignition = write_ramp(builder, made->re_ignition);
   return file::CreateExtinctionTraining(builder, static_cast<file::Origin>(made->origin), made->deaths, made->died,
-                                        made->gusts, made->spared, decay, re_ignition);
+                                        made->gusts, made->spared, made->vanishing_seconds);
 }
 
 fb::Offset<file::MotionTraining> write_motion(Builder& builder, const std::optional<MotionTraining>& motion) {
@@ -142,10 +135,16 @@ fb::Offset<file::Training> write_training(Builder& builder, const Training& made
                               made.multiply_adds_per_frame, made.operations_per_frame);
 }
 
+fb::Offset<file::SizeEvents> write_events(Builder& builder, const SizeEvents& events) {
+  if (events.empty()) return 0;
+  return file::CreateSizeEventsDirect(builder, &events.sizes, &events.ends);
+}
+
 fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optional<Extinction>& rule) {
   if (!rule) return 0;
+  const auto dying = write_events(builder, rule->dying), catching = write_events(builder, rule->catching);
   return file::CreateExtinction(builder, static_cast<std::uint32_t>(rule->input), rule->level, rule->seconds,
-                                rule->haste, rule->recovery, rule->decay, rule->re_ignition);
+                                rule->haste, rule->recovery, dying, catching);
 }
 
 std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
@@ -293,20 +292,11 @@ Origin read_origin(file::Origin origin) {
                                          : Origin::kDefault;
 }
 
-RampTraining read_ramp(const file::RampTraining* stored) {
-  if (!stored) return {};
-  return {read_origin(stored->origin()), stored->events(), {stored->shortest(), stored->longest()}, stored->error()};
-}
-
 std::optional<ExtinctionTraining> read_extinction_training(const file::ExtinctionTraining* stored) {
   if (!stored) return std::nullopt;
-  return ExtinctionTraining{read_origin(stored->origin()),
-                            stored->deaths(),
-                            stored->died(),
-                            stored->gusts(),
-                            stored->spared(),
-                            read_ramp(stored->decay()),
-                            read_ramp(stored->re_ignition())};
+  return ExtinctionTraining{
+      read_origin(stored->origin()), stored->deaths(), stored->died(), stored->gusts(), stored->spared(),
+      stored->vanishing_seconds()};
 }
 
 std::optional<MotionTraining> read_motion(const file::MotionTraining* stored) {
@@ -434,11 +424,21 @@ Result<void> read_view(const file::Model& stored, Model& model) {
   return {};
 }
 
+SizeEvents read_events(const file::SizeEvents* stored) {
+  if (!stored) return {};
+  return {{stored->sizes()->begin(), stored->sizes()->end()}, {stored->ends()->begin(), stored->ends()->end()}};
+}
+
 std::optional<Extinction> read_extinction(const file::Model& stored) {
   const auto* rule = stored.extinction();
   if (!rule) return {};
-  return Extinction{rule->input(),    rule->level(), rule->seconds(),    rule->haste(),
-                    rule->recovery(), rule->decay(), rule->re_ignition()};
+  return Extinction{rule->input(),
+                    rule->level(),
+                    rule->seconds(),
+                    rule->haste(),
+                    rule->recovery(),
+                    read_events(rule->dying()),
+                    read_events(rule->catching())};
 }
 
 fb::Offset<file::Input> write_input(Builder& builder, const Input& input) {

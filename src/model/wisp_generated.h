@@ -64,9 +64,6 @@ struct FigureBuilder;
 struct InputTraining;
 struct InputTrainingBuilder;
 
-struct RampTraining;
-struct RampTrainingBuilder;
-
 struct ExtinctionTraining;
 struct ExtinctionTrainingBuilder;
 
@@ -75,6 +72,9 @@ struct MotionTrainingBuilder;
 
 struct Training;
 struct TrainingBuilder;
+
+struct SizeEvents;
+struct SizeEventsBuilder;
 
 struct Extinction;
 struct ExtinctionBuilder;
@@ -2245,93 +2245,6 @@ struct InputTraining::Traits {
   static auto constexpr Create = CreateInputTraining;
 };
 
-struct RampTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
-  typedef RampTrainingBuilder Builder;
-  struct Traits;
-  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
-    VT_ORIGIN = 4,
-    VT_EVENTS = 6,
-    VT_SHORTEST = 8,
-    VT_LONGEST = 10,
-    VT_ERROR = 12
-  };
-  wisp::file::Origin origin() const {
-    return static_cast<wisp::file::Origin>(GetField<uint8_t>(VT_ORIGIN, 0));
-  }
-  uint32_t events() const {
-    return GetField<uint32_t>(VT_EVENTS, 0);
-  }
-  double shortest() const {
-    return GetField<double>(VT_SHORTEST, 0.0);
-  }
-  double longest() const {
-    return GetField<double>(VT_LONGEST, 0.0);
-  }
-  double error() const {
-    return GetField<double>(VT_ERROR, 0.0);
-  }
-  bool Verify(flatbuffers::Verifier &verifier) const {
-    return VerifyTableStart(verifier) &&
-           VerifyField<uint8_t>(verifier, VT_ORIGIN, 1) &&
-           VerifyField<uint32_t>(verifier, VT_EVENTS, 4) &&
-           VerifyField<double>(verifier, VT_SHORTEST, 8) &&
-           VerifyField<double>(verifier, VT_LONGEST, 8) &&
-           VerifyField<double>(verifier, VT_ERROR, 8) &&
-           verifier.EndTable();
-  }
-};
-
-struct RampTrainingBuilder {
-  typedef RampTraining Table;
-  flatbuffers::FlatBufferBuilder &fbb_;
-  flatbuffers::uoffset_t start_;
-  void add_origin(wisp::file::Origin origin) {
-    fbb_.AddElement<uint8_t>(RampTraining::VT_ORIGIN, static_cast<uint8_t>(origin), 0);
-  }
-  void add_events(uint32_t events) {
-    fbb_.AddElement<uint32_t>(RampTraining::VT_EVENTS, events, 0);
-  }
-  void add_shortest(double shortest) {
-    fbb_.AddElement<double>(RampTraining::VT_SHORTEST, shortest, 0.0);
-  }
-  void add_longest(double longest) {
-    fbb_.AddElement<double>(RampTraining::VT_LONGEST, longest, 0.0);
-  }
-  void add_error(double error) {
-    fbb_.AddElement<double>(RampTraining::VT_ERROR, error, 0.0);
-  }
-  explicit RampTrainingBuilder(flatbuffers::FlatBufferBuilder &_fbb)
-        : fbb_(_fbb) {
-    start_ = fbb_.StartTable();
-  }
-  flatbuffers::Offset<RampTraining> Finish() {
-    const auto end = fbb_.EndTable(start_);
-    auto o = flatbuffers::Offset<RampTraining>(end);
-    return o;
-  }
-};
-
-inline flatbuffers::Offset<RampTraining> CreateRampTraining(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    wisp::file::Origin origin = wisp::file::Origin::Default,
-    uint32_t events = 0,
-    double shortest = 0.0,
-    double longest = 0.0,
-    double error = 0.0) {
-  RampTrainingBuilder builder_(_fbb);
-  builder_.add_error(error);
-  builder_.add_longest(longest);
-  builder_.add_shortest(shortest);
-  builder_.add_events(events);
-  builder_.add_origin(origin);
-  return builder_.Finish();
-}
-
-struct RampTraining::Traits {
-  using type = RampTraining;
-  static auto constexpr Create = CreateRampTraining;
-};
-
 struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef ExtinctionTrainingBuilder Builder;
   struct Traits;
@@ -2341,8 +2254,7 @@ struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_DIED = 8,
     VT_GUSTS = 10,
     VT_SPARED = 12,
-    VT_DECAY = 14,
-    VT_RE_IGNITION = 16
+    VT_VANISHING_SECONDS = 14
   };
   wisp::file::Origin origin() const {
     return static_cast<wisp::file::Origin>(GetField<uint8_t>(VT_ORIGIN, 0));
@@ -2359,11 +2271,8 @@ struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   uint32_t spared() const {
     return GetField<uint32_t>(VT_SPARED, 0);
   }
-  const wisp::file::RampTraining *decay() const {
-    return GetPointer<const wisp::file::RampTraining *>(VT_DECAY);
-  }
-  const wisp::file::RampTraining *re_ignition() const {
-    return GetPointer<const wisp::file::RampTraining *>(VT_RE_IGNITION);
+  double vanishing_seconds() const {
+    return GetField<double>(VT_VANISHING_SECONDS, 0.0);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -2372,10 +2281,7 @@ struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<uint32_t>(verifier, VT_DIED, 4) &&
            VerifyField<uint32_t>(verifier, VT_GUSTS, 4) &&
            VerifyField<uint32_t>(verifier, VT_SPARED, 4) &&
-           VerifyOffset(verifier, VT_DECAY) &&
-           verifier.VerifyTable(decay()) &&
-           VerifyOffset(verifier, VT_RE_IGNITION) &&
-           verifier.VerifyTable(re_ignition()) &&
+           VerifyField<double>(verifier, VT_VANISHING_SECONDS, 8) &&
            verifier.EndTable();
   }
 };
@@ -2399,11 +2305,8 @@ struct ExtinctionTrainingBuilder {
   void add_spared(uint32_t spared) {
     fbb_.AddElement<uint32_t>(ExtinctionTraining::VT_SPARED, spared, 0);
   }
-  void add_decay(flatbuffers::Offset<wisp::file::RampTraining> decay) {
-    fbb_.AddOffset(ExtinctionTraining::VT_DECAY, decay);
-  }
-  void add_re_ignition(flatbuffers::Offset<wisp::file::RampTraining> re_ignition) {
-    fbb_.AddOffset(ExtinctionTraining::VT_RE_IGNITION, re_ignition);
+  void add_vanishing_seconds(double vanishing_seconds) {
+    fbb_.AddElement<double>(ExtinctionTraining::VT_VANISHING_SECONDS, vanishing_seconds, 0.0);
   }
   explicit ExtinctionTrainingBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -2423,11 +2326,9 @@ inline flatbuffers::Offset<ExtinctionTraining> CreateExtinctionTraining(
     uint32_t died = 0,
     uint32_t gusts = 0,
     uint32_t spared = 0,
-    flatbuffers::Offset<wisp::file::RampTraining> decay = 0,
-    flatbuffers::Offset<wisp::file::RampTraining> re_ignition = 0) {
+    double vanishing_seconds = 0.0) {
   ExtinctionTrainingBuilder builder_(_fbb);
-  builder_.add_re_ignition(re_ignition);
-  builder_.add_decay(decay);
+  builder_.add_vanishing_seconds(vanishing_seconds);
   builder_.add_spared(spared);
   builder_.add_gusts(gusts);
   builder_.add_died(died);
@@ -2754,6 +2655,79 @@ inline flatbuffers::Offset<Training> CreateTrainingDirect(
       operations_per_frame);
 }
 
+struct SizeEvents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
+  typedef SizeEventsBuilder Builder;
+  struct Traits;
+  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
+    VT_SIZES = 4,
+    VT_ENDS = 6
+  };
+  const flatbuffers::Vector<uint8_t> *sizes() const {
+    return GetPointer<const flatbuffers::Vector<uint8_t> *>(VT_SIZES);
+  }
+  const flatbuffers::Vector<uint32_t> *ends() const {
+    return GetPointer<const flatbuffers::Vector<uint32_t> *>(VT_ENDS);
+  }
+  bool Verify(flatbuffers::Verifier &verifier) const {
+    return VerifyTableStart(verifier) &&
+           VerifyOffsetRequired(verifier, VT_SIZES) &&
+           verifier.VerifyVector(sizes()) &&
+           VerifyOffsetRequired(verifier, VT_ENDS) &&
+           verifier.VerifyVector(ends()) &&
+           verifier.EndTable();
+  }
+};
+
+struct SizeEventsBuilder {
+  typedef SizeEvents Table;
+  flatbuffers::FlatBufferBuilder &fbb_;
+  flatbuffers::uoffset_t start_;
+  void add_sizes(flatbuffers::Offset<flatbuffers::Vector<uint8_t>> sizes) {
+    fbb_.AddOffset(SizeEvents::VT_SIZES, sizes);
+  }
+  void add_ends(flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends) {
+    fbb_.AddOffset(SizeEvents::VT_ENDS, ends);
+  }
+  explicit SizeEventsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
+        : fbb_(_fbb) {
+    start_ = fbb_.StartTable();
+  }
+  flatbuffers::Offset<SizeEvents> Finish() {
+    const auto end = fbb_.EndTable(start_);
+    auto o = flatbuffers::Offset<SizeEvents>(end);
+    fbb_.Required(o, SizeEvents::VT_SIZES);
+    fbb_.Required(o, SizeEvents::VT_ENDS);
+    return o;
+  }
+};
+
+inline flatbuffers::Offset<SizeEvents> CreateSizeEvents(
+    flatbuffers::FlatBufferBuilder &_fbb,
+    flatbuffers::Offset<flatbuffers::Vector<uint8_t>> sizes = 0,
+    flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends = 0) {
+  SizeEventsBuilder builder_(_fbb);
+  builder_.add_ends(ends);
+  builder_.add_sizes(sizes);
+  return builder_.Finish();
+}
+
+struct SizeEvents::Traits {
+  using type = SizeEvents;
+  static auto constexpr Create = CreateSizeEvents;
+};
+
+inline flatbuffers::Offset<SizeEvents> CreateSizeEventsDirect(
+    flatbuffers::FlatBufferBuilder &_fbb,
+    const std::vector<uint8_t> *sizes = nullptr,
+    const std::vector<uint32_t> *ends = nullptr) {
+  auto sizes__ = sizes ? _fbb.CreateVector<uint8_t>(*sizes) : 0;
+  auto ends__ = ends ? _fbb.CreateVector<uint32_t>(*ends) : 0;
+  return wisp::file::CreateSizeEvents(
+      _fbb,
+      sizes__,
+      ends__);
+}
+
 struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef ExtinctionBuilder Builder;
   struct Traits;
@@ -2763,8 +2737,8 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_SECONDS = 8,
     VT_HASTE = 10,
     VT_RECOVERY = 12,
-    VT_DECAY = 14,
-    VT_RE_IGNITION = 16
+    VT_DYING = 14,
+    VT_CATCHING = 16
   };
   uint32_t input() const {
     return GetField<uint32_t>(VT_INPUT, 0);
@@ -2781,11 +2755,11 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   double recovery() const {
     return GetField<double>(VT_RECOVERY, 0.0);
   }
-  double decay() const {
-    return GetField<double>(VT_DECAY, 0.0);
+  const wisp::file::SizeEvents *dying() const {
+    return GetPointer<const wisp::file::SizeEvents *>(VT_DYING);
   }
-  double re_ignition() const {
-    return GetField<double>(VT_RE_IGNITION, 0.0);
+  const wisp::file::SizeEvents *catching() const {
+    return GetPointer<const wisp::file::SizeEvents *>(VT_CATCHING);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -2794,8 +2768,10 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<double>(verifier, VT_SECONDS, 8) &&
            VerifyField<double>(verifier, VT_HASTE, 8) &&
            VerifyField<double>(verifier, VT_RECOVERY, 8) &&
-           VerifyField<double>(verifier, VT_DECAY, 8) &&
-           VerifyField<double>(verifier, VT_RE_IGNITION, 8) &&
+           VerifyOffset(verifier, VT_DYING) &&
+           verifier.VerifyTable(dying()) &&
+           VerifyOffset(verifier, VT_CATCHING) &&
+           verifier.VerifyTable(catching()) &&
            verifier.EndTable();
   }
 };
@@ -2819,11 +2795,11 @@ struct ExtinctionBuilder {
   void add_recovery(double recovery) {
     fbb_.AddElement<double>(Extinction::VT_RECOVERY, recovery, 0.0);
   }
-  void add_decay(double decay) {
-    fbb_.AddElement<double>(Extinction::VT_DECAY, decay, 0.0);
+  void add_dying(flatbuffers::Offset<wisp::file::SizeEvents> dying) {
+    fbb_.AddOffset(Extinction::VT_DYING, dying);
   }
-  void add_re_ignition(double re_ignition) {
-    fbb_.AddElement<double>(Extinction::VT_RE_IGNITION, re_ignition, 0.0);
+  void add_catching(flatbuffers::Offset<wisp::file::SizeEvents> catching) {
+    fbb_.AddOffset(Extinction::VT_CATCHING, catching);
   }
   explicit ExtinctionBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -2843,15 +2819,15 @@ inline flatbuffers::Offset<Extinction> CreateExtinction(
     double seconds = 0.0,
     double haste = 0.0,
     double recovery = 0.0,
-    double decay = 0.0,
-    double re_ignition = 0.0) {
+    flatbuffers::Offset<wisp::file::SizeEvents> dying = 0,
+    flatbuffers::Offset<wisp::file::SizeEvents> catching = 0) {
   ExtinctionBuilder builder_(_fbb);
-  builder_.add_re_ignition(re_ignition);
-  builder_.add_decay(decay);
   builder_.add_recovery(recovery);
   builder_.add_haste(haste);
   builder_.add_seconds(seconds);
   builder_.add_level(level);
+  builder_.add_catching(catching);
+  builder_.add_dying(dying);
   builder_.add_input(input);
   return builder_.Finish();
 }

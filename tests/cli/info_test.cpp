@@ -178,10 +178,6 @@ Origin origin_of(const Json& word) {
   return word == "learned" ? Origin::kLearned : word == "given" ? Origin::kGiven : Origin::kDefault;
 }
 
-RampTraining ramp_of(const Json& json) {
-  return {origin_of(json["origin"]), json["events"], json["seconds_ci95"], json["error"]};
-}
-
 Training training_of(const Json& json, const Json& usable) {
   Training made{.program = json["program"], .sources = json["sources"]};
   for (const Json& note : json["recipe"]) made.recipe.push_back({note["name"], note["value"]});
@@ -194,8 +190,8 @@ Training training_of(const Json& json, const Json& usable) {
     made.motion = {motion["event"], motion["min_seconds"], motion["debounce"], motion["smooth_rows"]};
   }
   if (const Json& rule = json["extinction"]; !rule.is_null()) {
-    made.extinction = {origin_of(rule["origin"]), rule["deaths"],           rule["died"], rule["gusts"], rule["spared"],
-                       ramp_of(rule["dying"]),    ramp_of(rule["catching"])};
+    made.extinction = {origin_of(rule["origin"]), rule["deaths"], rule["died"], rule["gusts"], rule["spared"],
+                       rule["vanishing_seconds"]};
   }
   put(json["multiply_adds_per_frame"], made.multiply_adds_per_frame);
   put(json["operations_per_frame"], made.operations_per_frame);
@@ -216,8 +212,10 @@ Model model_of(const Json& json) {
   model.extinction = Extinction{.level = rule["level"], .seconds = rule["seconds"], .haste = rule["haste"]};
   while (model.inputs.at(model.extinction->input).name != rule["input"]) ++model.extinction->input;
   put(rule["recovery"], model.extinction->recovery);
-  put(rule["dying"], model.extinction->decay);
-  put(rule["catching"], model.extinction->re_ignition);
+  for (const auto& [name, events] : std::initializer_list<std::pair<const char*, SizeEvents*>>{
+           {"dying", &model.extinction->dying}, {"catching", &model.extinction->catching}}) {
+    if (rule[name]["borrowed"] == false) *events = {rule[name]["sizes"], rule[name]["ends"]};
+  }
   return model;
 }
 

@@ -25,7 +25,7 @@ const std::string kGoldenExtinction = WISP_SOURCE_DIR "/tests/model/golden/v1-ex
 // The sample with a rule of extinction of which no number is a default.
 Model mortal_model() {
   Model model = sample_model();
-  model.extinction = Extinction{0, 1.75, 0.25, 1.5, 0.375, 0.125, 0.5};
+  model.extinction = Extinction{0, 1.75, 0.25, 1.5, 0.375, {{240, 120, 200}, {2, 3}}, {{150, 255}, {2}}};
   return model;
 }
 
@@ -340,8 +340,11 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
       {"seconds", [](Model& m) { m.extinction->seconds = -1; }},
       {"haste", [](Model& m) { m.extinction->haste = INFINITY; }},
       {"recovery", [](Model& m) { m.extinction->recovery = 0; }},
-      {"dying", [](Model& m) { m.extinction->decay = -0.1; }},
-      {"catching", [](Model& m) { m.extinction->re_ignition = 1e9; }},
+      {"dying",
+       [](Model& m) {
+         m.extinction->dying.ends = {2, 2, 3};
+       }},
+      {"catching", [](Model& m) { m.extinction->catching.sizes.pop_back(); }},
   };
   for (const auto& [word, harm] : broken) {
     Model model = mortal_model();
@@ -368,8 +371,8 @@ TEST(ModelFile, NumbersOnTheBoundsAreTaken) {
       {"no least length", [](Model& m) { m.training.motion->min_seconds = 0; }},
       {"no debounce", [](Model& m) { m.training.motion->debounce = 0; }},
       {"no cost", [](Model& m) { m.training.multiply_adds_per_frame = m.training.operations_per_frame = 0; }},
-      {"smallest rule", [](Model& m) { m.extinction = Extinction{0, 1e-6, 1e-3, 0, 1e-3, 0, 0}; }},
-      {"largest rule", [](Model& m) { m.extinction = Extinction{0, 1e6, 3600, 100, 3600, 60, 60}; }},
+      {"smallest rule", [](Model& m) { m.extinction = Extinction{0, 1e-6, 1e-3, 0, 1e-3}; }},
+      {"largest rule", [](Model& m) { m.extinction = Extinction{0, 1e6, 3600, 100, 3600}; }},
   };
   for (const auto& [what, change] : bounds) {
     Model model = mortal_model();

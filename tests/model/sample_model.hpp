@@ -39,8 +39,7 @@ inline Model sample_model() {
   model.training.residual_sd.assign(kOutputs, 0.25);
   model.training.underside = false;
   model.training.motion = MotionTraining{"zero:speed", 0.04, 0.1, 9};
-  model.training.extinction =
-      ExtinctionTraining{Origin::kLearned, 9, 8, 70, 69, {Origin::kGiven, 2, {0.1, 0.2}, 0.05}, {}};
+  model.training.extinction = ExtinctionTraining{Origin::kLearned, 9, 8, 70, 69, 0.05};
   model.training.multiply_adds_per_frame = 192;
   model.training.operations_per_frame = 575;
   return model;

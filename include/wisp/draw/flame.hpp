@@ -45,7 +45,7 @@ inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 
 /// Where a candle stands in the picture and what happens to it.
 ///
-/// It burns unless it went out more recently than it was lit. Decay and re-ignition are drawn over a few tenths of a
+/// It burns unless it went out more recently than it was lit. Dying and catching are drawn over a few tenths of a
 /// second (keep giving the outline for that long), or by `size`. Smoke rises from the wick until it is lit again, and
 /// drifts on afterwards.
 struct FlameScene {

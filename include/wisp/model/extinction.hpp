@@ -11,10 +11,25 @@
 // it alight, and gusts that follow each other closely add up.
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "wisp/base/result.hpp"
 
 namespace wisp {
+
+/// The sizes of what is seen through recorded events, step after step: a stored 255 is the full size.
+struct SizeEvents {
+  static constexpr std::size_t kMost = 64;          ///< events
+  static constexpr std::size_t kMostSizes = 65536;  ///< of all together
+
+  std::vector<std::uint8_t> sizes;
+  std::vector<std::uint32_t> ends;  ///< one past the last size of each event, ascending
+
+  bool empty() const { return ends.empty(); }
+
+  friend bool operator==(const SizeEvents&, const SizeEvents&) = default;
+};
 
 /// A rule of extinction.
 struct Extinction {
@@ -29,11 +44,15 @@ struct Extinction {
                      ///< 2 at twice the level: a third of the time
   double recovery = 0.3;  ///< seconds below the level in which a flame on the verge of death recovers, 1e-3 … 3600: the
                           ///< wick stays hot that long
-  double decay = 0.15;       ///< seconds in which what is seen shrinks away, 0 … 60
-  double re_ignition = 0.4;  ///< seconds in which it grows when it is lit again, 0 … 60
+  SizeEvents dying{};     ///< from going out on, of what was seen then; empty: those of a simulated candle
+  SizeEvents catching{};  ///< from being lit on; empty: those of a simulated candle
 
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
+
+/// The events that are played at a rate: the rule's own, or where it has none those of a simulated candle.
+SizeEvents dying_of(const Extinction& rule, double rate_hz);
+SizeEvents catching_of(const Extinction& rule, double rate_hz);
 
 /// Checks that every number is finite and in its range, and that there is an input of that index among `inputs` of
 /// them. Errors say which, what was found and what was expected.

@@ -60,25 +60,14 @@ enum class Origin : std::uint8_t {
   kLearned,  ///< from the recordings
 };
 
-/// How long a flame takes to shrink or to grow, as learned; counts are 0 where it is a default.
-struct RampTraining {
-  Origin origin = Origin::kDefault;
-  std::uint32_t events = 0;              ///< that it was learned from
-  std::array<double, 2> seconds_ci95{};  ///< confidence interval of the duration
-  double error = 0;                      ///< mean absolute error of the size, 0 to 1
-
-  bool operator==(const RampTraining&) const = default;
-};
-
 /// What the rule of extinction was learned from, and how often it is right there.
 struct ExtinctionTraining {
   Origin origin = Origin::kDefault;
-  std::uint32_t deaths = 0;  ///< recorded extinctions,
-  std::uint32_t died = 0;    ///< and those of them that the rule reproduces
-  std::uint32_t gusts = 0;   ///< recorded gusts that were survived,
-  std::uint32_t spared = 0;  ///< and those of them that the rule survives too
-  RampTraining decay;
-  RampTraining re_ignition;
+  std::uint32_t deaths = 0;      ///< recorded extinctions,
+  std::uint32_t died = 0;        ///< and those of them that the rule reproduces
+  std::uint32_t gusts = 0;       ///< recorded gusts that were survived,
+  std::uint32_t spared = 0;      ///< and those of them that the rule survives too
+  double vanishing_seconds = 0;  ///< for which a camera sees a flame that has gone out
 
   bool operator==(const ExtinctionTraining&) const = default;
 };

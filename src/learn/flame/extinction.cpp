@@ -58,12 +58,6 @@ constexpr double kAveraged = 0.15;      // seconds
 constexpr double kGustShare = 0.5;      // a gust has at least this share of the weakest wind that killed
 constexpr double kOneGust = 0.15;       // seconds of calmer wind within a gust
 
-// Rows in which a flame that has gone out is still seen, as a bank shows it: its first step of decay is a row.
-std::size_t vanishing_rows(double seconds, double rate_hz) {
-  constexpr double kRounding = 1e-9;
-  return static_cast<std::size_t>(std::max(0.0, std::ceil(seconds * rate_hz - kRounding) - 1));
-}
-
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   std::vector<double> out;
   for (double value : evidence.recording->channels[*find_channel(*evidence.recording, evidence.input)].samples) {
@@ -107,7 +101,7 @@ void FlameLives::add_lives(const ExtinctionEvidence& evidence, const std::vector
     const std::size_t watched = died ? std::max(begin, end - std::min(end, before)) : end;
     lives_.push_back({{wind.data(), begin, end}, rate_hz, died, watched, until});
   };
-  const std::size_t vanishing = vanishing_rows(evidence.decay, rate_hz);
+  const auto vanishing = static_cast<std::size_t>(std::lround(evidence.vanishing * rate_hz));
   for (const BlowOut& blow_out : evidence.blow_outs) {
     const std::size_t went_out = std::max(begin, blow_out.gone - std::min(blow_out.gone, vanishing));
     const std::size_t after = std::min(blow_out.back, blow_out.gone + rows_of(kWatchedAfter, rate_hz));

@@ -24,7 +24,7 @@ struct ExtinctionEvidence {
   std::string input;               ///< the channel of the wind
   double scale = 1;                ///< the channel's value that is 1 in the model, > 0
   std::vector<BlowOut> blow_outs;  ///< of find_blow_outs()
-  double decay = 0;                ///< seconds that a flame takes to vanish; it went out that long before it was gone
+  double vanishing = 0;            ///< seconds for which a flame that has gone out is still seen
 };
 
 /// The agreement of a rule with recordings. A gust is wind of at least half of the strength that killed, between calmer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/statistics.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "record/number_text.hpp"
 
@@ -18,16 +19,20 @@ std::string sentence_of(const Extinction& rule) {
          (rule.haste > 0 ? ", of twice that in " + number_text(twice, 2) + " s" : "");
 }
 
-// The fields of a mode whose size is a ramp: seconds, events, seconds_ci95, error.
-std::vector<ReportValue> ramp_cells(double seconds, const RampTraining& made) {
-  if (made.origin != Origin::kLearned) return {seconds, {}, {}, {}};
-  return {seconds, made.events, ReportList{made.seconds_ci95[0], made.seconds_ci95[1]}, made.error};
+// The fields of a mode whose size is that of recorded events: source, seconds, events.
+std::vector<ReportValue> event_cells(const SizeEvents& events, const SizeEvents& played, double rate_hz) {
+  std::vector<double> seconds;
+  for (std::size_t k = 0; k < played.ends.size(); ++k) {
+    seconds.push_back((played.ends[k] - (k > 0 ? played.ends[k - 1] : 0)) / rate_hz);
+  }
+  if (events.empty()) return {"borrowed from a simulated candle", median(seconds), {}};
+  return {"recorded", median(seconds), events.ends.size()};
 }
 
-std::vector<ReportValue> mode_row(const char* name, const char* moves, ReportValue source,
-                                  const std::vector<ReportValue>& ramp, const char* starts, std::string ends) {
-  std::vector<ReportValue> row{name, moves, std::move(source)};
-  row.insert(row.end(), ramp.begin(), ramp.end());
+std::vector<ReportValue> mode_row(const char* name, const char* moves, const std::vector<ReportValue>& event,
+                                  const char* starts, std::string ends) {
+  std::vector<ReportValue> row{name, moves};
+  row.insert(row.end(), event.begin(), event.end());
   row.insert(row.end(), {starts, std::move(ends)});
   return row;
 }
@@ -35,7 +40,6 @@ std::vector<ReportValue> mode_row(const char* name, const char* moves, ReportVal
 ReportTable modes_of(const Model& model) {
   const Extinction& rule = *model.extinction;
   const ExtinctionTraining made = model.training.extinction.value_or(ExtinctionTraining{});
-  const std::vector<ReportValue> none(4);
   ReportTable table{"extinction.modes",
                     "modes",
                     {{"name", "mode"},
@@ -43,18 +47,17 @@ ReportTable modes_of(const Model& model) {
                      {"source", "source"},
                      {"seconds", "takes", "s"},
                      {"events", "events"},
-                     {"seconds_ci95", "95 %", "s"},
-                     {"error", ""},
                      {"starts", "starts"},
                      {"ends", "ends"}},
                     {}};
-  table.rows = {
-      mode_row("burning", "the dynamics", word_of(made.origin), none, "in full size", sentence_of(rule)),
-      mode_row("dying", "its size, in a straight line to nothing", word_of(made.decay.origin),
-               ramp_cells(rule.decay, made.decay), "in the shape of its last step", "with nothing left"),
-      mode_row("out", "nothing", {}, none, "with nothing left", "when it is lit"),
-      mode_row("catching", "the dynamics, its size in a straight line to all of it", word_of(made.re_ignition.origin),
-               ramp_cells(rule.re_ignition, made.re_ignition), "from rest and unharmed", "in full size")};
+  table.rows = {mode_row("burning", "the dynamics", {word_of(made.origin), {}, {}}, "in full size", sentence_of(rule)),
+                mode_row("dying", "its size, as in one of the events",
+                         event_cells(rule.dying, dying_of(rule, model.rate_hz), model.rate_hz),
+                         "in the shape of its last step", "with nothing left"),
+                mode_row("out", "nothing", {{}, {}, {}}, "with nothing left", "when it is lit"),
+                mode_row("catching", "the dynamics, and its size as in one of the events",
+                         event_cells(rule.catching, catching_of(rule, model.rate_hz), model.rate_hz),
+                         "from rest and unharmed", "in full size")};
   return table;
 }
 
@@ -76,31 +79,6 @@ std::size_t unexplained(std::span<const ExtinctionEvidence> evidence) {
                                                     [](const BlowOut& blow_out) { return !blow_out.blown; }));
   }
   return count;
-}
-
-Result<std::vector<SizeCurve>> curves_of(std::span<const ExtinctionEvidence> evidence, SizeChange change) {
-  std::vector<SizeCurve> all;
-  for (const ExtinctionEvidence& each : evidence) {
-    const auto sizes = flame_sizes(*each.recording, each.blow_outs);
-    if (!sizes) return sizes.error();
-    for (SizeCurve& curve : size_curves(*each.recording, *sizes, each.blow_outs, change)) {
-      all.push_back(std::move(curve));
-    }
-  }
-  return all;
-}
-
-// How long a change takes, where the recordings show it.
-Result<std::optional<RampFit>> ramp_of(std::span<const ExtinctionEvidence> evidence, SizeChange change) {
-  const auto curves = curves_of(evidence, change);
-  if (!curves) return curves.error();
-  return learn_ramp(change, *curves);
-}
-
-RampTraining set_ramp(const std::optional<RampFit>& fit, double& seconds) {
-  if (!fit) return {};
-  seconds = fit->seconds;
-  return {Origin::kLearned, static_cast<std::uint32_t>(fit->events), fit->seconds_ci95, fit->error};
 }
 
 // A rule that the recipe gives is used as it is, without haste.
@@ -206,10 +184,10 @@ Result<ExtinguishedRecordings> ExtinguishedRecordings::find(std::vector<Recordin
   return out;
 }
 
-std::vector<ExtinctionEvidence> ExtinguishedRecordings::evidence(double scale, double decay) const {
+std::vector<ExtinctionEvidence> ExtinguishedRecordings::evidence(double scale, double vanishing) const {
   std::vector<ExtinctionEvidence> out;
   for (std::size_t k = 0; k < recordings_.size(); ++k) {
-    out.push_back({&recordings_[k], input_, scale, found_[k], decay});
+    out.push_back({&recordings_[k], input_, scale, found_[k], vanishing});
   }
   return out;
 }
@@ -225,20 +203,19 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
     return std::optional<LearnedExtinction>();
   }
   const double scale = model.training.inputs[index].scale;
-  const auto decay = ramp_of(evidence(scale, 0), SizeChange::kDecay);
-  if (!decay) return decay.error();
-  const auto re_ignition = ramp_of(evidence(scale, 0), SizeChange::kReIgnition);
-  if (!re_ignition) return re_ignition.error();
-  const auto seen = evidence(scale, *decay ? (*decay)->seconds : 0);
+  auto events = recorded_events(evidence(scale, 0));
+  if (!events) return events.error();
+  const auto seen = evidence(scale, events->vanishing_seconds);
   LearnedExtinction out{.input = input_};
   Extinction rule = choose_rule(recipe, seen, out);
   rule.input = index;
   out.agreement = agreement(rule, seen);
   out.unexplained = unexplained(seen);
-  model.extinction = rule;
+  rule.dying = std::move(events->dying);
+  rule.catching = std::move(events->catching);
+  model.extinction = std::move(rule);
   model.training.extinction = training_of(out);
-  model.training.extinction->decay = set_ramp(*decay, model.extinction->decay);
-  model.training.extinction->re_ignition = set_ramp(*re_ignition, model.extinction->re_ignition);
+  model.training.extinction->vanishing_seconds = events->vanishing_seconds;
   return std::optional(std::move(out));
 }
 
@@ -251,7 +228,8 @@ Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, con
   if (!blow_outs) return blow_outs.error();
   const auto scale = scale_for(model, recording, *blow_outs, own_scale);
   if (!scale) return scale.error();
-  const ExtinctionEvidence evidence{&recording, input, *scale, *std::move(blow_outs), rule.decay};
+  const ExtinctionEvidence evidence{&recording, input, *scale, *std::move(blow_outs),
+                                    model.training.extinction ? model.training.extinction->vanishing_seconds : 0};
   return std::optional(JudgedExtinction{agreement(rule, {&evidence, 1}), unexplained({&evidence, 1})});
 }
 

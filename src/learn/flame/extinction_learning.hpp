@@ -44,7 +44,7 @@ class ExtinguishedRecordings {
   Result<std::optional<LearnedExtinction>> complete(Model& model, const ExtinctionRecipe& recipe) const;
 
  private:
-  std::vector<ExtinctionEvidence> evidence(double scale, double decay) const;
+  std::vector<ExtinctionEvidence> evidence(double scale, double vanishing) const;
 
   std::string input_;  // empty: there is none
   std::vector<Recording> recordings_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
@@ -11,9 +10,14 @@
 namespace wisp {
 namespace {
 
-constexpr double kDecaySeen = 0.6;     // seconds before it is gone; earlier changes belong to the gust
-constexpr double kReIgnitionSeen = 2;  // seconds after it is seen again
-constexpr double kGridStep = 1.02;     // of durations: finer than a row tells
+constexpr double kDyingSeen = 0.3;                      // seconds before it is gone; earlier changes belong to the gust
+constexpr double kShrinks = 0.97;                       // of what it was; less has begun to go out
+constexpr double kDim = 0.05;                           // seconds in which it glows without an outline
+constexpr double kCatching = 1, kLeastCatching = 0.25;  // seconds after it is seen again
+constexpr double kFading = 0.3;                         // share of catching, its end
+constexpr std::size_t kMostEvents = 8;
+
+using Sizes = std::vector<double>;
 
 double size_of(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
   const auto at = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };
@@ -26,79 +30,52 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
   return std::sqrt(std::abs(twice) / 2);
 }
 
-// A ramp to be fitted. In a bank a flame dies in whole steps from full size; a recorded one begins half a row after the
-// first on average, and the size in a bank's last step jumps where a duration passes a row.
-double fitted_size(SizeChange change, double seconds, double rate_hz, std::size_t row) {
-  if (change == SizeChange::kReIgnition) return ramp_size(change, seconds, rate_hz, row);
-  return std::min(1.0, (static_cast<double>(row) + 0.5) / (seconds * rate_hz));
-}
-
-using Ramp = double (*)(SizeChange change, double seconds, double rate_hz, std::size_t row);
-
-double squared_error(Ramp ramp, SizeChange change, double seconds, const SizeCurve& curve, std::size_t& rows) {
-  double sum = 0;
-  for (std::size_t row = 0; row < curve.size.size(); ++row) {
-    if (std::isnan(curve.size[row])) continue;
-    const double off = curve.size[row] - ramp(change, seconds, curve.rate_hz, row);
-    sum += off * off;
-    ++rows;
+// What is seen of a death in the rows from `lit` on, in shares of what the flame was before it.
+Sizes seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
+  const std::size_t rows = rows_of(kDyingSeen, rate_hz), first = std::max(lit + rows, gone) - rows;
+  Sizes before;
+  for (std::size_t row = std::max(lit + rows, first) - rows; row < first; ++row) {
+    if (!std::isnan(sizes[row])) before.push_back(sizes[row]);
   }
-  return sum;
+  const double whole = before.empty() ? 1 : median(std::move(before));
+  std::size_t begin = gone;
+  while (begin > first && sizes[begin - 1] < kShrinks * whole) --begin;
+  Sizes out;
+  for (std::size_t row = begin; row < gone; ++row) out.push_back(sizes[row] / whole);
+  return out;
 }
 
-double longest_seconds(std::span<const SizeCurve> curves) {
-  double longest = 0;
-  for (const SizeCurve& curve : curves) {
-    longest = std::max(longest, static_cast<double>(curve.size.size()) / curve.rate_hz);
+void glow_on(Sizes& dying, double rate_hz) {
+  const std::size_t rows = rows_of(kDim, rate_hz);
+  const double last = dying.empty() ? 1 : dying.back();
+  for (std::size_t k = rows; k > 0; --k) {
+    dying.push_back(last * static_cast<double>(k) / static_cast<double>(rows + 1));
   }
-  return longest;
 }
 
-// Squared errors [duration][curve], from which the best of all curves and of all but one are found alike.
-class Trials {
- public:
-  Trials(SizeChange change, std::span<const SizeCurve> curves) {
-    const double shortest = 1 / curves.front().rate_hz, longest = longest_seconds(curves);
-    for (double seconds = shortest; seconds <= longest; seconds *= kGridStep) {
-      seconds_.push_back(seconds);
-      std::vector<double>& errors = errors_.emplace_back();
-      for (const SizeCurve& curve : curves) {
-        std::size_t rows = 0;
-        errors.push_back(squared_error(fitted_size, change, seconds, curve, rows));
-      }
+Sizes seen_catching(const Sizes& sizes, std::size_t back, std::size_t next, double rate_hz) {
+  const std::size_t end = std::min(next, back + rows_of(kCatching, rate_hz));
+  if (end < back + rows_of(kLeastCatching, rate_hz)) return {};
+  Sizes out;
+  const auto rows = static_cast<double>(end - back);
+  for (std::size_t row = back; row < end; ++row) {
+    const double size = std::isnan(sizes[row]) ? out.empty() ? 0 : out.back() : sizes[row];
+    const double fading = std::max(0.0, 1 - (1 - static_cast<double>(row - back) / rows) / kFading);
+    out.push_back(size + fading * (1 - size));
+  }
+  return out;
+}
+
+SizeEvents stored(const std::vector<Sizes>& events) {
+  SizeEvents out;
+  const std::size_t count = std::min(events.size(), kMostEvents);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (const double size : events[k * events.size() / count]) {
+      out.sizes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(size, 0.0, 1.0))));
     }
+    out.ends.push_back(static_cast<std::uint32_t>(out.sizes.size()));
   }
-
-  /// The duration of least error over all curves but `left_out`.
-  double best(std::size_t left_out) const {
-    double least = std::numeric_limits<double>::infinity(), best = 0;
-    for (std::size_t k = 0; k < seconds_.size(); ++k) {
-      double sum = 0;
-      for (std::size_t c = 0; c < errors_[k].size(); ++c) sum += c == left_out ? 0 : errors_[k][c];
-      if (sum >= least) continue;
-      least = sum;
-      best = seconds_[k];
-    }
-    return best;
-  }
-
- private:
-  std::vector<double> seconds_;
-  std::vector<std::vector<double>> errors_;
-};
-
-// The jackknife's standard error.
-double std_error(const Trials& trials, std::size_t curves) {
-  if (curves < 2) return 0;
-  std::vector<double> without;
-  double mean = 0;
-  for (std::size_t c = 0; c < curves; ++c) {
-    without.push_back(trials.best(c));
-    mean += without.back() / static_cast<double>(curves);
-  }
-  double square = 0;
-  for (double one : without) square += (one - mean) * (one - mean);
-  return std::sqrt(square * static_cast<double>(curves - 1) / static_cast<double>(curves));
+  return out;
 }
 
 }  // namespace
@@ -118,51 +95,28 @@ Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<co
   return sizes;
 }
 
-std::vector<SizeCurve> size_curves(const Recording& recording, std::span<const double> sizes,
-                                   std::span<const BlowOut> blow_outs, SizeChange change) {
-  std::vector<SizeCurve> curves;
-  const bool decay = change == SizeChange::kDecay;
-  const auto most = static_cast<std::size_t>(std::lround((decay ? kDecaySeen : kReIgnitionSeen) * recording.rate_hz));
-  for (std::size_t k = 0; k < blow_outs.size(); ++k) {
-    const BlowOut& blow_out = blow_outs[k];
-    if (!blow_out.blown) continue;
-    const std::size_t lit = k > 0 ? blow_outs[k - 1].back : 0;
-    const std::size_t next = k + 1 < blow_outs.size() ? blow_outs[k + 1].gone : recording.rows();
-    const std::size_t rows = std::min(most, decay ? blow_out.gone - lit : next - blow_out.back);
-    SizeCurve curve{recording.rate_hz, {}};
-    for (std::size_t row = 0; row < rows; ++row) {
-      curve.size.push_back(sizes[decay ? blow_out.gone - 1 - row : blow_out.back + row]);
+Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence) {
+  std::vector<Sizes> dying, catching;
+  std::vector<double> vanishing;
+  for (const ExtinctionEvidence& each : evidence) {
+    const double rate_hz = each.recording->rate_hz;
+    const auto sizes = flame_sizes(*each.recording, each.blow_outs);
+    if (!sizes) return sizes.error();
+    std::size_t lit = 0;
+    for (std::size_t k = 0; k < each.blow_outs.size(); ++k) {
+      const BlowOut& one = each.blow_outs[k];
+      const std::size_t next = k + 1 < each.blow_outs.size() ? each.blow_outs[k + 1].gone : sizes->size();
+      if (one.blown) {
+        dying.push_back(seen_dying(*sizes, lit, one.gone, rate_hz));
+        vanishing.push_back(static_cast<double>(dying.back().size()) / rate_hz);
+        glow_on(dying.back(), rate_hz);
+        Sizes caught = seen_catching(*sizes, one.back, next, rate_hz);
+        if (!caught.empty()) catching.push_back(std::move(caught));
+      }
+      lit = one.back;
     }
-    const bool seen = std::any_of(curve.size.begin(), curve.size.end(), [](double size) { return !std::isnan(size); });
-    if (seen) curves.push_back(std::move(curve));
   }
-  return curves;
-}
-
-double ramp_size(SizeChange change, double seconds, double rate_hz, std::size_t row) {
-  const double steps = std::max(1.0, seconds * rate_hz);
-  constexpr double kRounding = 1e-9;
-  const double last = change == SizeChange::kDecay ? 1 + steps - std::ceil(steps - kRounding) : 1;  // of a step
-  return std::min(1.0, (static_cast<double>(row) + last) / steps);
-}
-
-double ramp_error(SizeChange change, double seconds, std::span<const SizeCurve> curves) {
-  double sum = 0;
-  std::size_t rows = 0;
-  for (const SizeCurve& curve : curves) sum += squared_error(ramp_size, change, seconds, curve, rows);
-  return rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : 0;
-}
-
-std::optional<RampFit> learn_ramp(SizeChange change, std::span<const SizeCurve> curves) {
-  if (curves.empty()) return std::nullopt;
-  const Trials trials(change, curves);
-  RampFit fit;
-  fit.seconds = trials.best(curves.size());
-  fit.events = curves.size();
-  fit.error = ramp_error(change, fit.seconds, curves);
-  const double off = kNormal95 * std_error(trials, curves.size()) + 0.5 / curves.front().rate_hz;
-  fit.seconds_ci95 = {std::max(0.0, fit.seconds - off), fit.seconds + off};
-  return fit;
+  return RecordedEvents{stored(dying), stored(catching), vanishing.empty() ? 0 : median(std::move(vanishing))};
 }
 
 }  // namespace wisp

@@ -66,6 +66,17 @@ Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const 
   return flicker;
 }
 
+// What no recording shows is played as a simulated candle does it, which the verdict says.
+void note_what_is_borrowed(OutlineFit& fit) {
+  if (!fit.model.extinction || !fit.summary.usable.verdict) return;
+  const bool dying = fit.model.extinction->dying.empty(), catching = fit.model.extinction->catching.empty();
+  if (!dying && !catching) return;
+  fit.summary.usable.reason += std::string("; how it ") + (dying ? "goes out" : "") +
+                               (dying && catching ? " and " : "") + (catching ? "catches" : "") +
+                               " is borrowed from a simulated candle";
+  fit.model.training.usable = fit.summary.usable;
+}
+
 // A model is no better than the outline that it was learned from.
 void refuse_what_capture_refused(std::span<const Recording> recordings, OutlineFit& fit) {
   for (const Recording& recording : recordings) {
@@ -92,6 +103,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   if (!fit) return fit.error();
   const auto extinction = seen->complete(fit->model, recipe.extinction);
   if (!extinction) return extinction.error();
+  note_what_is_borrowed(*fit);
   refuse_what_capture_refused(recordings, *fit);
   Report report;
   report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason};

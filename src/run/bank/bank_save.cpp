@@ -15,7 +15,7 @@ namespace wisp {
 namespace {
 
 constexpr std::array<char, 8> kSaveMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 2, kChainVersion = 5;  // of chains' banks
+constexpr std::uint32_t kVersion = 3, kChainVersion = 5;  // of chains' banks
 constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
@@ -25,7 +25,7 @@ std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVers
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
-  const std::size_t life = s.extinction.present ? 5 * 4 + 2 * 8 + 4 * s.visible : 0;
+  const std::size_t life = s.extinction.present ? 7 * 4 + 2 * 8 + 4 * s.visible : 0;
   return 3 * 8 + 4 * (s.channels.regressors.size() + values) + life;
 }
 
@@ -36,17 +36,19 @@ std::uint64_t moment_of(std::uint64_t age, std::uint64_t now) {
   return age == kNeverInSteps ? kNeverInSteps : now - age;
 }
 
-// What is saved of an instance of a model that goes out: the wind, its harm, whether it is lit, its sizes, for how
-// long, and its last shape.
+// What is saved of an instance of a model that goes out: the wind, its harm, whether it is lit, its sizes, its
+// event, for how long, and its last shape.
 void save_life(Bank::State& s, int slot, ByteWriter& out) {
-  for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) out.put((*values)[slot]);
+  for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size, &s.event, &s.carried})
+    out.put((*values)[slot]);
   for (const auto* moments : {&s.lit_at, &s.out_at}) out.put(age_of((*moments)[slot], s.steps));
   const float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
   for (std::size_t i = 0; i < s.visible; ++i) out.put(shape[i * s.kLanes]);
 }
 
 void restore_life(Bank::State& s, int slot, ByteReader& in) {
-  for (auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) (*values)[slot] = in.get_float();
+  for (auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size, &s.event, &s.carried})
+    (*values)[slot] = in.get_float();
   for (auto* moments : {&s.lit_at, &s.out_at}) (*moments)[slot] = moment_of(in.get64(), s.steps);
   float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
   for (std::size_t i = 0; i < s.visible; ++i) shape[i * s.kLanes] = in.get_float();
@@ -76,6 +78,9 @@ bool life_is_sound(const Bank::State& s, ByteReader& in) {
   const float lit = in.get_float();
   sound &= lit == 0 || lit == 1;
   for (int k = 0; k < 2; ++k) sound &= within(in.get_float(), 0, 1);
+  const float event = in.get_float();
+  sound &= within(event, kNoEvent, static_cast<float>(s.extinction.sizes.size()) - 1) && on_grid(event, kNoEvent, 1);
+  sound &= within(in.get_float(), -1, 1);
   for (int k = 0; k < 2; ++k) {
     const std::uint64_t age = in.get64();
     sound &= age == kNeverInSteps || age < kMaxAge;

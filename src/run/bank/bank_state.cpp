@@ -47,7 +47,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
       shape(make_shape_program(model, arena)),
       visible(model.outputs.size()),
       polyline(make_view(model, options.polyline_points, arena)),
-      extinction(make_extinction_program(model)) {
+      extinction(make_extinction_program(model, arena)) {
   const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
   model_hash = std::visit([&](const auto& dynamics) { return dynamics.hash(hash_of(channels, step_time)); }, stepper);
   model_hash = hash_of(extinction, hash_of(shape, model_hash));
@@ -60,7 +60,8 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
   shown = arena.take<float>(lanes * visible);
   components = arena.take<float>(lanes * shape.components());
   if (extinction.present) {
-    for (auto* values : {&wind, &harm, &lit, &size, &previous_size}) *values = arena.take<float>(lanes);
+    for (auto* values : {&wind, &harm, &lit, &size, &previous_size, &event, &carried})
+      *values = arena.take<float>(lanes);
     last_shape = arena.take<float>(lanes * visible);
     lit_at = arena.take<std::uint64_t>(lanes);
     out_at = arena.take<std::uint64_t>(lanes);
@@ -77,6 +78,8 @@ void Bank::State::start(int slot) {
   if (extinction.present) {
     harm[slot] = 0.0f;
     lit[slot] = size[slot] = previous_size[slot] = 1.0f;
+    event[slot] = kNoEvent;
+    carried[slot] = 0.0f;
     lit_at[slot] = out_at[slot] = kNeverInSteps;
     for (std::size_t i = 0; i < visible; ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
   }
@@ -93,6 +96,8 @@ void Bank::State::relight(int slot) {
   harm[slot] = 0.0f;
   lit[slot] = 1.0f;
   lit_at[slot] = steps;
+  begin_event(slot, extinction.catching, steps);
+  if (size[slot] > 0.0f) carried[slot] = size[slot] - extinction.sizes[static_cast<std::size_t>(event[slot])];
   show_block(block);
 }
 

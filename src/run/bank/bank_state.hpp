@@ -42,7 +42,7 @@ struct Bank::State {
   const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
   LifeLanes<float> life_of(int block) {
     const int first = block * kLanes;
-    return {wind.data() + first, harm.data() + first, lit.data() + first, size.data() + first};
+    return {wind.data() + first, harm.data() + first, lit.data() + first};
   }
   bool burns(int slot) const { return !extinction.present || lit[slot] != 0.0f; }
 
@@ -68,6 +68,8 @@ struct Bank::State {
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
   void live_block(int block, const float* newest, std::uint64_t moment);
   void go_out(int slot, const float* newest, std::uint64_t moment);
+  void begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at);
+  void grow(int slot);
   float* last_shape_of(int block) { return last_shape.data() + block * visible * kLanes; }
   float* components_of(int block) { return components.data() + block * shape.components() * kLanes; }
   void show();
@@ -118,6 +120,8 @@ struct Bank::State {
   std::span<float> lit;  // 1 or 0
   std::span<float> size;
   std::span<float> previous_size;   // before the last step
+  std::span<float> event;           // where in the extinction's sizes the next step's is, or kNoEvent
+  std::span<float> carried;         // the size that it went out with, or what is left of that which it was lit with
   std::span<float> last_shape;      // [block][output][lane]: outputs at the moment at which an instance went out
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
   std::span<std::uint64_t> out_at;  // and when it last went out

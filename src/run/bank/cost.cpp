@@ -119,15 +119,17 @@ struct ExtinctionCount {
 };
 
 ExtinctionCount count_extinction(const Model& model) {
-  const ExtinctionProgram rule = make_extinction_program(model);
+  Arena unused;
+  const ExtinctionProgram rule = make_extinction_program(model, unused);
   if (!rule.present) return {};
-  CountingReal wind, harm, lit(1.0f), size(1.0f);
+  CountingReal wind, harm, lit(1.0f), size(1.0f), carried;
   std::vector<CountingReal> shown(model.outputs.size());
   const OperationCount burning = count([&] {
     blowing<CountingNumbers>(rule, {});
-    live<CountingNumbers>(rule, {&wind, &harm, &lit, &size});
+    live<CountingNumbers>(rule, {&wind, &harm, &lit});
   });
   const OperationCount shrinking = count([&] {
+    size = size_of_step(rule, true, 0.5f, carried);
     const auto now = load<Reals<CountingNumbers>>(&size);
     shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());
   });

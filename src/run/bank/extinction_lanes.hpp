@@ -1,12 +1,14 @@
 #pragma once
 // Whether instances burn: the rule of extinction (wisp/model/extinction.hpp), block by block.
 //
-// An instance has a harm, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes four
-// operations, and one to read the wind; while the size changes, three more and one for each output that is shown.
+// An instance has a harm, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes three
+// operations, and one to read the wind; through a recorded event, five more and one for each output that is shown.
 
 #include <cstdint>
+#include <span>
 
 #include "run/lanes/lanes.hpp"
+#include "run/state/arena.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
@@ -19,12 +21,21 @@ struct ExtinctionProgram {
   float most = 0;  ///< stronger wind counts as this
   float base = 0;  ///< harm of a step at or above the level is base + slope · wind
   float slope = 0;
-  float recovery = 0;  ///< by how much a step below the level reduces harm
-  float decay = 0;     ///< by how much the size falls in a step
-  float re_ignition = 0;
+  float recovery = 0;      ///< by how much a step below the level reduces harm
+  float fade = 0;          ///< what a step leaves of the size that an instance caught with beyond the recorded one
+  std::span<float> sizes;  ///< event after event, each with kEventEnds behind it
+  std::span<std::uint32_t> dying;     ///< where each event begins
+  std::span<std::uint32_t> catching;  ///< likewise
 };
 
-ExtinctionProgram make_extinction_program(const Model& model);
+/// In the place of a size: the event is over.
+inline constexpr float kEventEnds = -1;
+
+/// In the place of an event: there is none.
+inline constexpr float kNoEvent = -1;
+
+/// Lays the program out and, unless the arena measures, fills it.
+ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
 
 /// Combines the program with the hash `before`. Returns `before` where there is no rule.
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
@@ -43,8 +54,17 @@ struct LifeLanes {
   Real* wind;  ///< strength in this step
   Real* harm;
   Real* lit;
-  Real* size;
 };
+
+/// A step through an event: the recorded size, times what an instance had when it went out, or with what it had when it
+/// was lit.
+template <class Real>
+inline Real size_of_step(const ExtinctionProgram& rule, bool lit, float recorded, Real& carried) {
+  if (!lit) return Real(recorded) * carried;
+  const Real size = Real(recorded) + carried;
+  carried = carried * Real(rule.fade);
+  return size < Real(0.0f) ? Real(0.0f) : Real(1.0f) < size ? Real(1.0f) : size;
+}
 
 /// One step of a block.
 template <class N>
@@ -56,10 +76,8 @@ inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real
   const auto done = each(pick, wind, all<Reals<N>>(rule.level), all<Reals<N>>(-rule.recovery), blown);
   const auto next = hold(harm + done, zero, one);
   const auto lit = each(pick, next, one, load<Reals<N>>(life.lit), zero);
-  const auto grown = each(pick, zero, lit, all<Reals<N>>(rule.re_ignition), all<Reals<N>>(-rule.decay));
   store(next, life.harm);
   store(lit, life.lit);
-  store(hold(load<Reals<N>>(life.size) + grown, zero, one), life.size);
 }
 
 /// Scales shown outputs, [output][lane], by the sizes of their instances. Size 0 gives 0.

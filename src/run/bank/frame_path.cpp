@@ -1,6 +1,6 @@
-// This file is compiled once for every width of vectors, each time in a namespace of its own (-Dwisp=wisp_avx2): templates
-// and inline functions that use wide vectors must not be linked where a narrow machine would run them. tests/house lists
-// the symbols of the wide objects.
+// This file is compiled once for every width of vectors, each time in a namespace of its own (-Dwisp=wisp_avx2):
+// templates and inline functions that use wide vectors must not be linked where a narrow machine would run them.
+// tests/house lists the symbols of the wide objects.
 
 #include <algorithm>
 
@@ -196,10 +196,38 @@ void Bank::State::live_block(int block, const float* newest, std::uint64_t momen
   float before[kLanes];
   const LifeLanes<float> life = life_of(block);
   std::copy_n(life.lit, kLanes, before);
-  std::copy_n(life.size, kLanes, previous_size.data() + block * kLanes);
+  std::copy_n(size.data() + block * kLanes, kLanes, previous_size.data() + block * kLanes);
   live<LiveNumbers>(extinction, life);
   for (int lane = 0; lane < kLanes; ++lane) {
-    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, newest, moment);
+    const int slot = block * kLanes + lane;
+    if (before[lane] != life.lit[lane]) go_out(slot, newest, moment);
+    if (event[slot] != kNoEvent) grow(slot);
+  }
+}
+
+// One of the recorded events, by chance.
+void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at) {
+  constexpr std::uint32_t kGroup = 0xffff;  // of random words, beyond what dynamics draw
+  Words<LiveNumbers> counters[4], words[4];
+  random_counters<LiveNumbers>(moment(slot / kLanes, nullptr, static_cast<int>(at - steps)).counters, counters);
+  random_group<LiveNumbers>(keys, counters, kGroup, words);
+  std::uint32_t drawn[kLanes];
+  store(words[0], drawn);
+  event[slot] = static_cast<float>(events[drawn[slot % kLanes] % events.size()]);
+  carried[slot] = 0.0f;
+}
+
+// The size of a step of an event.
+void Bank::State::grow(int slot) {
+  const float recorded = extinction.sizes[static_cast<std::size_t>(event[slot])];
+  const bool burning = lit[slot] != 0.0f;
+  if (recorded == kEventEnds) {
+    size[slot] = burning ? 1.0f : 0.0f;
+    event[slot] = kNoEvent;
+    carried[slot] = 0.0f;
+  } else {
+    size[slot] = size_of_step(extinction, burning, recorded, carried[slot]);
+    event[slot] += 1.0f;
   }
 }
 
@@ -207,6 +235,8 @@ void Bank::State::live_block(int block, const float* newest, std::uint64_t momen
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   const int block = slot / kLanes, lane = slot % kLanes;
   out_at[slot] = moment;
+  begin_event(slot, extinction.dying, moment);
+  carried[slot] = size[slot];
   using Values = Reals<LiveNumbers>;
   const auto take = [&](std::size_t i, const Values& shown_values) {
     float values[kLanes];

@@ -28,7 +28,7 @@ double seconds_to_death(const Extinction& rule, double wind) {
 }
 
 TEST(LearnedExtinction, IsTheRuleThatTheRecordingWasMadeBy) {
-  for (const Extinction rule : {Extinction{.level = 1.8, .seconds = 0.3, .haste = 2, .recovery = 0.4},
+  for (const Extinction& rule : {Extinction{.level = 1.8, .seconds = 0.3, .haste = 2, .recovery = 0.4},
                                 Extinction{.level = 1.5, .seconds = 0.4, .haste = 3, .recovery = 0.4},
                                 Extinction{.level = 2.2, .seconds = 0.15, .haste = 0, .recovery = 0.3}}) {
     const auto first = blow_out_recording({.rule = rule, .rows = 7200, .seed = 1});
@@ -100,7 +100,7 @@ TEST(LearnedExtinction, AFlameThatVanishesSlowlyWentOutThatMuchBefore) {
   }
   ExtinctionEvidence seen = evidence_of(made.recording);
   for (double late : agreement(recipe.rule, std::span(&seen, 1)).late_seconds) EXPECT_NEAR(late, -11.0 / 60, 1e-9);
-  seen.decay = 0.2;  // the first of its twelve steps is the row in which it went out
+  seen.vanishing = 11.0 / 60;
   const ExtinctionAgreement found = agreement(recipe.rule, std::span(&seen, 1));
   EXPECT_EQ(found.died, found.deaths);
   for (double late : found.late_seconds) EXPECT_NEAR(late, 0, 1e-9);

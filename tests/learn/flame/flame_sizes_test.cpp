@@ -46,70 +46,78 @@ Recording decay_and_re_ignition(double decay, double re_ignition, std::uint64_t 
   return recording;
 }
 
-std::vector<SizeCurve> curves_of(const Recording& recording, SizeChange change) {
-  const auto blow_outs = *find_blow_outs(recording, "wind");
-  const auto sizes = flame_sizes(recording, blow_outs);
-  EXPECT_TRUE(sizes) << sizes.error().message;
-  return size_curves(recording, *sizes, blow_outs, change);
+ExtinctionEvidence evidence_of(const Recording& recording) {
+  return {&recording, "wind", 1, *find_blow_outs(recording, "wind"), 0};
 }
 
-// That nobody sees when between two rows a change begins moves the mean start of re-ignition by half a row, since a
-// bank's begins with a whole step, and a ramp through nothing answers with 1.5 times that: 0.75 rows. The starts'
-// spread adds 3 · 1.5 · 0.29 / sqrt(8) = 0.46 for eight deaths, flicker of 3 % on twelve rows 3 · 144 · 0.03 / 25 /
-// sqrt(8) = 0.2: together less than 1.5 rows.
-TEST(FlameSizes, KnownDurationsAreFoundAgain) {
-  constexpr double kRow = 1.0 / 60;
-  for (const auto& [decay, re_ignition] : {std::pair{0.1, 0.2}, {0.2, 0.5}, {0.05, 1.0}}) {
+double size_at(const SizeEvents& events, std::size_t event, std::size_t step) {
+  return events.sizes[(event > 0 ? events.ends[event - 1] : 0) + step] / 255.0;
+}
+
+TEST(FlameSizes, EventsAreTheRecordedOnes) {
+  for (const auto& [decay, re_ignition] : {std::pair{0.1, 0.2}, {0.2, 0.5}}) {
     const Recording recording = decay_and_re_ignition(decay, re_ignition, 2);
-    const auto out = learn_ramp(SizeChange::kDecay, curves_of(recording, SizeChange::kDecay));
-    const auto in = learn_ramp(SizeChange::kReIgnition, curves_of(recording, SizeChange::kReIgnition));
-    ASSERT_TRUE(out && in);
-    ASSERT_GE(out->events, 8U);
-    EXPECT_NEAR(out->seconds, decay, 1.5 * kRow);
-    EXPECT_NEAR(in->seconds, re_ignition, 1.5 * kRow);
-    for (const RampFit& fit : {*out, *in}) {
-      EXPECT_LT(fit.seconds_ci95[0], fit.seconds);
-      EXPECT_GT(fit.seconds_ci95[1], fit.seconds);
-      EXPECT_LT(fit.seconds_ci95[1] - fit.seconds_ci95[0], 4 * kRow);
-      EXPECT_LT(fit.error, 0.1);
+    const ExtinctionEvidence seen = evidence_of(recording);
+    const auto found = recorded_events({&seen, 1});
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->vanishing_seconds, decay, 1.5 / 60);
+    ASSERT_EQ(found->dying.ends.size(), 8U);
+    ASSERT_EQ(found->catching.ends.size(), 8U);
+    const auto sizes = *flame_sizes(recording, seen.blow_outs);
+    const std::size_t back = seen.blow_outs[0].back;
+    for (std::size_t k = 0; k < 40; ++k) {
+      EXPECT_NEAR(size_at(found->catching, 0, k), std::min(1.0, sizes[back + k]), 1.0 / 255) << k;
+    }
+    // It ends with three dim rows that no outline was found in.
+    for (std::size_t event = 0; event < 8; ++event) {
+      const std::size_t end = found->dying.ends[event] - (event > 0 ? found->dying.ends[event - 1] : 0);
+      for (std::size_t k = 1; k <= 3; ++k) {
+        EXPECT_NEAR(size_at(found->dying, event, end - k),
+                    static_cast<double>(k) / 4 * size_at(found->dying, event, end - 4), 2.0 / 255);
+      }
     }
   }
 }
 
-TEST(FlameSizes, WhatGoesFromOneRowToTheNextTakesARow) {
+TEST(FlameSizes, WhatVanishesFromOneRowToTheNextIsSeenNoLonger) {
   const Recording recording = made::blow_out_recording({.shortest = 0.2, .seed = 3}).recording;
-  for (SizeChange change : {SizeChange::kDecay, SizeChange::kReIgnition}) {
-    EXPECT_DOUBLE_EQ(learn_ramp(change, curves_of(recording, change))->seconds, 1.0 / 60);
-  }
+  const ExtinctionEvidence seen = evidence_of(recording);
+  EXPECT_LE(recorded_events({&seen, 1})->vanishing_seconds, 2.0 / 60);
 }
 
-TEST(FlameSizes, ARampIsWhatABankShows) {
-  for (double seconds : {0.01, 0.1, 0.137, 0.4}) {
-    Model model = flame_model();
-    model.rate_hz = 100;
-    model.extinction = Extinction{.decay = seconds, .re_ignition = seconds};
-    Bank bank = *Bank::create(model, {});
-    const InstanceId id = bank.spawn();
-    bank.extinction()->extinguish(id);
-    std::vector<double> decay;
-    for (bank.step(); bank.extinction()->state_of(id)->size > 1e-6; bank.step())
-      decay.push_back(bank.extinction()->state_of(id)->size);
-    for (std::size_t row = 0; row < decay.size(); ++row) {
-      EXPECT_NEAR(ramp_size(SizeChange::kDecay, seconds, 100, row), decay[decay.size() - 1 - row], 1e-5) << seconds;
-    }
-    EXPECT_DOUBLE_EQ(ramp_size(SizeChange::kDecay, seconds, 100, decay.size()), 1);
-    bank.extinction()->relight(id);
-    for (std::size_t row = 0; row < 50; ++row) {
-      bank.step();
-      EXPECT_NEAR(ramp_size(SizeChange::kReIgnition, seconds, 100, row), bank.extinction()->state_of(id)->size, 1e-5)
-          << seconds;
-    }
+// What is learned is played: the sizes of a bank's flame are those of one of the recorded events.
+TEST(FlameSizes, ABankPlaysARecordedEvent) {
+  const Recording recording = decay_and_re_ignition(0.15, 0.3, 5);
+  const ExtinctionEvidence seen = evidence_of(recording);
+  const auto events = recorded_events({&seen, 1});
+  Model model = flame_model();
+  model.rate_hz = 60;
+  model.extinction = Extinction{.dying = events->dying, .catching = events->catching};
+  Bank bank = *Bank::create(model, {});
+  const InstanceId id = bank.spawn();
+  bank.extinction()->extinguish(id);
+  for (int k = 0; k < 60; ++k) bank.step();
+  EXPECT_EQ(bank.extinction()->state_of(id)->size, 0);
+  bank.extinction()->relight(id);
+  std::vector<double> played;
+  for (int k = 0; k < 60; ++k) {
+    bank.step();
+    played.push_back(bank.extinction()->state_of(id)->size);
   }
+  std::size_t same = 0;
+  for (std::size_t event = 0; event < 8; ++event) {
+    double most = 0;
+    for (std::size_t k = 0; k < 60; ++k)
+      most = std::max(most, std::abs(played[k] - size_at(events->catching, event, k)));
+    same += most < 1e-5;
+  }
+  EXPECT_GE(same, 1U);
 }
 
-TEST(FlameSizes, WithoutADeathOrALightingThereIsNothingToLearn) {
+TEST(FlameSizes, WithoutADeathOrALightingThereIsNothingToPlay) {
   const Recording alight = made::blow_out_recording({.every = 0}).recording;
-  EXPECT_FALSE(learn_ramp(SizeChange::kDecay, curves_of(alight, SizeChange::kDecay)));
+  const ExtinctionEvidence none = evidence_of(alight);
+  EXPECT_TRUE(recorded_events({&none, 1})->dying.empty());
   Recording once =
       made::blow_out_recording({.rows = 700, .every = 8, .weakest = 3.5, .shortest = 0.4, .seed = 4}).recording;
   const std::size_t gone = find_blow_outs(once, "wind")->front().gone;
@@ -118,17 +126,18 @@ TEST(FlameSizes, WithoutADeathOrALightingThereIsNothingToLearn) {
     std::fill(channel.samples.begin() + static_cast<std::ptrdiff_t>(gone), channel.samples.end(),
               std::numeric_limits<double>::quiet_NaN());
   }
-  EXPECT_EQ(learn_ramp(SizeChange::kDecay, curves_of(once, SizeChange::kDecay))->events, 1U);
-  EXPECT_FALSE(learn_ramp(SizeChange::kReIgnition, curves_of(once, SizeChange::kReIgnition)));
+  const ExtinctionEvidence seen = evidence_of(once);
+  const auto found = recorded_events({&seen, 1});
+  EXPECT_EQ(found->dying.ends.size(), 1U);
+  EXPECT_TRUE(found->catching.empty());
 }
 
 TEST(FlameSizes, AStretchThatNobodyBlewIsNoDeath) {
-  const Recording recording = made::blow_out_recording({.shortest = 0.2}).recording;
-  auto blow_outs = *find_blow_outs(recording, "wind");
-  const auto sizes = *flame_sizes(recording, blow_outs);
-  const std::size_t all = size_curves(recording, sizes, blow_outs, SizeChange::kDecay).size();
-  blow_outs[1].blown = false;
-  EXPECT_EQ(size_curves(recording, sizes, blow_outs, SizeChange::kDecay).size(), all - 1);
+  const Recording recording = made::blow_out_recording({.rows = 1500, .shortest = 0.2}).recording;
+  ExtinctionEvidence seen = evidence_of(recording);
+  const std::size_t all = recorded_events({&seen, 1})->dying.ends.size();
+  seen.blow_outs[1].blown = false;
+  EXPECT_EQ(recorded_events({&seen, 1})->dying.ends.size(), all - 1);
   EXPECT_THAT(flame_sizes({.source = "numbers"}, {}).error().message, HasSubstr("numbers"));
 }
 

@@ -69,8 +69,14 @@ TEST(ModelHash, TellsFlamesApart) {
                            {"seconds", [](Model& m) { m.extinction->seconds *= 1.01; }},
                            {"haste", [](Model& m) { m.extinction->haste *= 1.01; }},
                            {"recovery", [](Model& m) { m.extinction->recovery *= 1.01; }},
-                           {"decay", [](Model& m) { m.extinction->decay *= 1.01; }},
-                           {"re-ignition", [](Model& m) { m.extinction->re_ignition *= 1.01; }},
+                           {"dying",
+                            [](Model& m) {
+                              m.extinction->dying = {{9, 8}, {2}};
+                            }},
+                           {"catching",
+                            [](Model& m) {
+                              m.extinction->catching = {{9, 8}, {1, 2}};
+                            }},
                            {"no extinction", [](Model& m) { m.extinction.reset(); }},
                        });
 }

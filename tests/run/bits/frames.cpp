@@ -75,7 +75,8 @@ void time_frames(std::uint64_t& hash, const Model& model, int capacity, int fram
 
 // Flames that go out now and then, and are lit again.
 void mortal_frames(std::uint64_t& hash, Model model, int capacity, int frames) {
-  model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 1.7, .recovery = 0.35, .re_ignition = 0.3};
+  model.extinction =
+      Extinction{.level = 1.3, .seconds = 0.15, .haste = 1.7, .recovery = 0.35, .dying = {{200, 90}, {2}}};
   Bank bank = full_bank(model, capacity, 8);
   std::vector<float> wind(capacity);
   std::vector<float> points(static_cast<std::size_t>(capacity) * bank.polyline_points() * 2), sizes(capacity);
