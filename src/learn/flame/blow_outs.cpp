@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/statistics.hpp"
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_units.hpp"
 
 namespace wisp {
@@ -16,6 +18,8 @@ constexpr double kLookedBack = 0.6;    // seconds before that in which wind may 
 constexpr double kMinBlown = 0.15;     // seconds over which that wind is averaged: hiss has peaks, wind lasts
 constexpr double kSettling = 0.5;      // seconds after it is back in which it is not yet itself
 constexpr double kMinPresence = 0.15;  // seconds: a shorter sight of something between two absences is an ember's
+
+constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;
 
 struct Run {
   std::size_t begin = 0;
@@ -78,7 +82,50 @@ std::size_t onset(const Recording& recording, const BlowOut& blow_out) {
   return first;
 }
 
+// How far control points moved since the row before, root mean square; and the median height of outlines.
+std::vector<double> steps_of(const Recording& recording, const OutlineLayout& layout, double& height) {
+  std::vector<double> steps(recording.rows(), kMissing), heights;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const auto at = [&](std::size_t c, std::size_t r) { return recording.channels[layout.outputs[c]].samples[r]; };
+    double square = 0, low = at(1, row), high = low;
+    for (std::size_t c = 0; c < layout.outputs.size(); ++c) {
+      square += row > 0 ? std::pow(at(c, row) - at(c, row - 1), 2) : kMissing;
+      if (c % 2 == 1) low = std::min(low, at(c, row)), high = std::max(high, at(c, row));
+    }
+    steps[row] = std::sqrt(square / static_cast<double>(layout.points));
+    if (!std::isnan(high)) heights.push_back(high - low);
+  }
+  height = heights.empty() ? 0 : median(std::move(heights));
+  return steps;
+}
+
 }  // namespace
+
+std::size_t remove_jumps(Recording& recording) {
+  const auto layout = outline_layout(recording);
+  if (!layout) return 0;
+  double height = 0;
+  const auto steps = steps_of(recording, *layout, height);
+  std::vector<double> known;
+  std::copy_if(steps.begin(), steps.end(), std::back_inserter(known), [](double x) { return !std::isnan(x); });
+  if (known.empty()) return 0;
+  const double longest = std::max(kJump * quantile(known, kUsualStep), kJumpHeights * height);
+  std::vector<std::size_t> jumps{0};
+  for (std::size_t row = 1; row < steps.size(); ++row) {
+    if (steps[row] > longest) jumps.push_back(row);
+  }
+  jumps.push_back(steps.size());
+  std::vector<std::size_t> removed;
+  for (std::size_t k = 0; k + 1 < jumps.size() && jumps.size() > 2; ++k) {
+    if (jumps[k + 1] - jumps[k] >= rows_of(kMinGone, recording.rate_hz)) continue;
+    for (std::size_t row = jumps[k]; row < jumps[k + 1]; ++row) removed.push_back(row);
+  }
+  if (kMaxRemoved * static_cast<double>(steps.size()) < static_cast<double>(removed.size())) return 0;
+  for (const std::size_t c : layout->outputs) {
+    for (const std::size_t row : removed) recording.channels[c].samples[row] = kMissing;
+  }
+  return removed.size();
+}
 
 std::size_t rows_of(double seconds, double rate_hz) {
   return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));

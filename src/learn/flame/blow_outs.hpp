@@ -29,6 +29,11 @@ std::size_t rows_of(double seconds, double rate_hz);
 /// Errors: not a recording of an outline, no such input.
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
+/// Removes outlines that nothing moved to: stretches of less than half a second between steps that are both longer than
+/// a fifth of the thing's height and 20 times as long as nine in ten. Nothing where that is more than a twentieth of
+/// all. Returns how many rows.
+std::size_t remove_jumps(Recording& recording);
+
 /// The recording with outlines and inputs missing where the flame is in decay, extinguished or in re-ignition: what is
 /// left is a flame that burns, before and after. Stretches that were not blown stay as they are.
 Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs);

@@ -97,6 +97,13 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   if (!factors) return factors.error();
   auto on_one_scale = at_common_gain({recordings.begin(), recordings.end()});
   if (!on_one_scale) return on_one_scale.error();
+  std::vector<std::string> warnings;
+  for (Recording& recording : *on_one_scale) {
+    const std::size_t removed = remove_jumps(recording);
+    if (removed == 0) continue;
+    warnings.push_back(recording.source + ": " + std::to_string(removed) +
+                       " outlines lie far from those around them, as nothing moves: left out");
+  }
   const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe.extinction);
   if (!seen) return seen.error();
   auto fit = fit_what_drives(seen->burning(), recipe, progress);
@@ -107,7 +114,9 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   refuse_what_capture_refused(recordings, *fit);
   Report report;
   report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason};
-  report.warnings = fit->summary.warnings;
+  report.warnings = std::move(warnings);
+  const auto& more = fit->summary.warnings;
+  report.warnings.insert(report.warnings.end(), more.begin(), more.end());
   if (*extinction && (*extinction)->warning) report.warnings.push_back(*(*extinction)->warning);
   report.sections = report_sections(*fit);
   report.sections.push_back(gain_section(*factors));
