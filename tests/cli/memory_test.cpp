@@ -60,6 +60,7 @@ TEST_F(Memory, ALeafIsSimulatedLearnedAndPlayedInAGigabyte) {
   EXPECT_EQ(fails_within(1000, "simulate leaf --drops 60 -o drops.csv"), "");
   EXPECT_EQ(fails_within(1000, "learn leaf drops.csv -o leaf.wisp"), "");
   EXPECT_EQ(fails_within(1000, "run leaf.wisp --frames 600 -o falls.csv"), "");
+  EXPECT_EQ(fails_within(1000, "export leaf.wisp --loop 6 --instances 20 -o leaves.glb"), "");
 }
 
 TEST_F(Memory, ATableIsLearnedInAGigabyte) {

@@ -34,10 +34,8 @@ describe('what was learned', { skip }, () => {
 
   it('says figures in words, with units and what a good one is', async () => {
     const figures = await page.textContent('.figures');
-    for (const words of ['Fit of the tip, one frame ahead', '93.7 %', 'Overlap of the outlines', '95.9 %', 'good: 85 % or more', 'Largest pole', '0.837', '217 px', 'played freely']) {
-      assert.ok(figures.includes(words), `${words} in ${figures}`);
-    }
-    assert.doesNotMatch(figures, /fpe|fit\.1|sd_ratio|rows/);
+    for (const words of [/Fit of the tip, one frame ahead.{40,50}9\d\.\d %/, /Overlap of the outlines.*good: 85 % or more9\d/, /Largest pole.*0\.8/, /cross themselves/, /217 px/, /played freely/]) assert.match(figures, words);
+    assert.doesNotMatch(figures, /fpe|fit\.1|sd_ratio|rows|share/);
   });
 
   it('keeps figures on one line each', async () => {

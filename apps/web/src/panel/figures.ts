@@ -34,6 +34,8 @@ const KINDS: Readonly<Record<string, Kind>> = {
   rows_held_out: { words: 'Frames kept back to judge by', unit: plain, good: 'a few hundred or more' },
   held_share: { words: 'Steps clamped to the range seen', unit: share, good: 'below 1 %' },
   sd_ratio: { words: 'Movement played, of that recorded', unit: share, good: 'near 100 %' },
+  crossed_share: { words: 'Outlines that cross themselves', unit: share, good: 'none' },
+  outside_share: { words: 'Shapes that the recording has not', unit: share, good: 'at most 3 %' },
   pixels_per_unit: { words: 'Height of the flame in the film', unit: (value) => `${number(value)} px`, good: '100 px or more' },
   play_distance: { words: 'Energy distance of free play from the recording', unit: plain, good: 'well below that of shuffled frames' },
   'play_distance.shuffled': { words: 'Energy distance of shuffled frames', unit: plain, good: '' },
