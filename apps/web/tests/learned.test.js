@@ -34,7 +34,7 @@ describe('what was learned', { skip }, () => {
 
   it('says figures in words, with units and what a good one is', async () => {
     const figures = await page.textContent('.figures');
-    for (const words of [/Fit of the tip, one frame ahead.{40,50}9\d\.\d %/, /Overlap of the outlines.*good: 85 % or more9\d/, /Largest pole.*0\.8/, /cross themselves/, /217 px/, /played freely/]) assert.match(figures, words);
+    for (const words of [/Fit of the tip, one frame ahead.{30,50}9\d\.\d %/, /Overlap of the outlines.*good: 85 % or more9\d/, /Largest pole.*0\.8/, /cross themselves/, /217 px/, /played freely/]) assert.match(figures, words);
     assert.doesNotMatch(figures, /fpe|fit\.1|sd_ratio|rows|share/);
   });
 
