@@ -9,6 +9,7 @@
 
 #include "capture/capture_clip.hpp"
 #include "capture/clip/clip_ear.hpp"
+#include "record/verdict.hpp"
 #include "wisp/capture/media/sound.hpp"
 
 namespace wisp {
@@ -60,16 +61,16 @@ double light_of(const Picture& picture, const Region& region, std::vector<std::u
   return sum / static_cast<double>(pixels.size());
 }
 
-}  // namespace
-
-Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress) {
+Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, bool sound,
+                         const Progress& progress) {
   auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames});
   if (!reader) return reader.error();
   const VideoInfo& info = reader->info();
-  auto live = LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images}, options);
+  auto live =
+      LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images || !sound}, options);
   if (!live) return live.error();
   if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
-  if (!info.images) {
+  if (sound && !info.images) {
     const auto heard = hear_sound(path, [&](const SoundFormat& format, double begin, std::span<const float> samples) {
       return live->hear(format, begin - reader->info().begin, samples);
     });
@@ -82,8 +83,55 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, std::size_t frames) {
+// The longest stretch of rows with outlines, in the film's frames; nothing where that is hardly a part, or all of it.
+std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first) {
+  constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
+  const std::vector<double>& samples = recording.channels[*find_channel(recording, "p0.x")].samples;
+  std::size_t begin = 0, best = 0, best_begin = 0;
+  for (std::size_t row = 0; row < samples.size(); ++row) {
+    if (std::isnan(samples[row])) begin = row + 1;
+    if (row + 1 - begin > best) best = row + 1 - begin, best_begin = begin;
+  }
+  const auto rows = static_cast<double>(best);
+  if (rows < kMinSeconds * recording.rate_hz || rows > kMaxShare * static_cast<double>(samples.size())) return {};
+  return FrameRange{first + static_cast<std::int64_t>(best_begin),
+                    first + static_cast<std::int64_t>(best_begin + best) - 1};
+}
+
+// Which flag would make a refused film usable, as a clause; empty where none would. Nobody films again for what a flag
+// cures.
+std::string other_look(const std::filesystem::path& path, ClipCapture options, const Recording* refused,
+                       const Progress& progress) {
+  if (options.flame == 0 || options.dark) return "";
+  const auto usable = [&](const ClipCapture& other) {
+    const auto captured = look_at(path, other, false, progress);
+    return captured && captured->report.verdict->usable;
+  };
+  ClipCapture other = options;
+  if (refused) other.frames = longest_part(*refused, options.frames ? options.frames->first : 1);
+  if (refused && other.frames && usable(other))
+    return "; a part of it is usable: --frames " + std::to_string(other.frames->first) + ":" +
+           std::to_string(other.frames->last);
+  options.flame = 0;
+  return usable(options) ? "; something that moves can be followed, flame or not: --flame 0" : "";
+}
+
+}  // namespace
+
+Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress) {
+  auto captured = look_at(path, options, true, progress);
+  if (captured ? captured->report.verdict->usable : captured.error().message.find("no flame") == std::string::npos)
+    return captured;
+  const std::string advice = other_look(path, options, captured ? &captured->recording : nullptr, progress);
+  if (advice.empty()) return captured;
+  if (!captured) return Error{captured.error().message + advice};
+  set_verdict(captured->recording, false, captured->report.verdict->reason += advice);
+  return captured;
+}
+
+Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, std::optional<std::size_t> frames) {
   std::optional<ClipEar> ear;
+  double seconds = 0;
   const auto unusable = [&](const Error& why) {
     return Error{path.string() + ": its sound cannot be used: " + why.message};
   };
@@ -94,6 +142,7 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
       ear.emplace(std::move(*made));
     }
     ear->feed(begin, samples);
+    seconds = begin + static_cast<double>(samples.size()) / format.channels / format.rate_hz;
     return Result<void>();
   });
   if (!heard) return heard.error();
@@ -102,9 +151,19 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
     none.note = "not heard: the clip has no sound track";
     return none;
   }
-  auto wind = ear->finish(frames);
+  auto wind = ear->finish(frames.value_or(static_cast<std::size_t>(std::max(0.0, seconds * rate_hz + 1e-6))));
   if (!wind) return unusable(wind.error());
   return wind;
+}
+
+Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz, WindMeasure measure) {
+  const auto wind = hear_wind(path, rate_hz);
+  if (!wind) return wind.error();
+  if (wind->frames.empty()) return Error{path.string() + ": wind " + wind->note};
+  Recording recording{.source = path.string(), .rate_hz = rate_hz};
+  recording.attributes.push_back({"source", path.string()});
+  join_wind(*wind, measure, recording);
+  return recording;
 }
 
 Result<Recording> capture_brightness(const std::filesystem::path& path, const ClipCapture& options,

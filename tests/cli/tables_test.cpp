@@ -235,5 +235,22 @@ TEST_F(Tables, RunGoesAlongAPlainTable) {
               HasSubstr("1e-12 samples a second, expected 1e-6 to 1e7"));
 }
 
+// An amplifier settles: the light of the trace is right from its ninth sample on.
+TEST_F(Tables, ATracesStartUpIsLeftOutAndSaid) {
+  std::ofstream out(at("trace.csv"));
+  out << "light\n";
+  for (int t = 0; t < 1000; ++t) {
+    const double settled = t < 8 ? 0.05 + 0.1 * t : 1;
+    out << settled * (1 + 0.05 * std::sin(0.9 * t)) << '\n';
+  }
+  out.close();
+  const Said said = wisp("capture brightness " + at("trace.csv") + " --channel light --rate 100 -o " + at("light.csv"));
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.err, HasSubstr("left out its first 8 samples"));
+  const std::vector<double> light = samples(recording("light.csv"), "brightness");
+  EXPECT_TRUE(std::isnan(light[7]));
+  EXPECT_NEAR(light[8], 1, 0.06);
+}
+
 }  // namespace
 }  // namespace wisp::tables_test

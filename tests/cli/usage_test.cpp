@@ -63,9 +63,10 @@ TEST_F(Usage, WithJsonAFailureIsADocumentToo) {
 }
 
 TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
-  for (const char* command : {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx",
-                              "learn switched", "capture brightness", "learn flicker", "learn chain", "learn leaf",
-                              "simulate candle", "simulate leaf", "validate", "run", "export", "info", "demo"}) {
+  for (const char* command :
+       {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx", "learn switched",
+        "capture brightness", "capture wind", "learn flicker", "learn chain", "learn leaf", "simulate candle",
+        "simulate leaf", "validate", "run", "export", "info", "demo"}) {
     const Said said = wisp(std::string(command) + " --help");
     EXPECT_EQ(said.status, 0) << command;
     EXPECT_THAT(said.out, HasSubstr("Examples:")) << command;

@@ -1,10 +1,12 @@
-// `wisp capture outline`, its preset `wisp capture flame`, `capture brightness` and `capture fall`: from a clip to a
-// recording.
+// `wisp capture outline`, its preset `wisp capture flame`, `capture brightness`, `capture wind` and `capture fall`:
+// from a clip to a recording.
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
+#include <span>
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
@@ -85,6 +87,19 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
+// A lamp's or an amplifier's start: samples at a trace's head, within its first second, that lie below all later ones
+// where the first is less than half of their mean. Returns how many.
+std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
+  const auto second = std::min(light.size(), static_cast<std::size_t>(std::max(1.0, rate_hz)));
+  if (second == light.size() ||
+      !(light.front() < 0.5 * std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(light.size())))
+    return 0;
+  const double least = *std::min_element(light.begin() + static_cast<std::ptrdiff_t>(second), light.end());
+  return static_cast<std::size_t>(std::find_if(light.begin(), light.begin() + static_cast<std::ptrdiff_t>(second),
+                                               [&](double x) { return x >= least; }) -
+                                  light.begin());
+}
+
 // A clip's light, or a photodiode's trace, of mean 1.
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
@@ -103,6 +118,10 @@ Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) 
   auto recording = read_table(path, arguments, {.outputs = {arguments.text("channel")}});
   if (!recording) return recording;
   Channel light = std::move(recording->channels[*find_channel(*recording, arguments.text("channel"))]);
+  if (const std::size_t count = start_up_samples(light.samples, recording->rate_hz); count > 0) {
+    std::fill_n(light.samples.begin(), count, std::nan(""));
+    terminal.warn(path + ": left out its first " + std::to_string(count) + " samples, in which the light starts up");
+  }
   double sum = 0, rows = 0;
   for (const double value : light.samples) {
     if (std::isnan(value)) continue;
@@ -127,6 +146,27 @@ Result<void> run_brightness(const Arguments& arguments, Terminal& terminal) {
   terminal.add("output", path);
   terminal.say("wrote " + path + ": " + std::to_string(recording->rows()) + " rows, " + shown(recording->rate_hz, 5) +
                " a second");
+  return {};
+}
+
+Result<void> run_wind(const Arguments& arguments, Terminal& terminal) {
+  const FlagRange rate{"rate", 1, 1000};
+  if (auto ok = check_ranges(arguments, {&rate, 1}); !ok) return ok;
+  const auto options = capture_options(arguments);
+  if (!options) return options.error();
+  const auto recording = capture_wind(arguments.positional(), options->rate_hz, options->wind);
+  if (!recording) return recording.error();
+  const std::string& path = arguments.text("output");
+  if (auto ok = write_csv(path, *recording); !ok) return ok;
+  const std::vector<double>& wind = recording->channels.front().samples;
+  const auto blown = std::count_if(wind.begin(), wind.end(), [](double value) { return value > 0; });
+  terminal.add("frames", recording->rows());
+  terminal.add("rate_hz", recording->rate_hz);
+  terminal.add("heard", static_cast<double>(blown) / static_cast<double>(wind.size()));
+  terminal.add("output", path);
+  terminal.say("wrote " + path + ": " + std::to_string(wind.size()) + " rows, " + shown(recording->rate_hz, 5) +
+               " a second, wind in " + std::to_string(100 * blown / static_cast<std::ptrdiff_t>(wind.size())) +
+               " % of them");
   return {};
 }
 
@@ -201,6 +241,20 @@ Command capture_brightness_command() {
            {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv",
             "A photodiode's trace"}},
           run_brightness};
+}
+
+Command capture_wind_command() {
+  std::vector<Flag> flags = {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
+                             {"rate", Kind::kNumber, "HZ", "60", "rows a second, 1 to 1000"}};
+  for (Flag& flag : capture_flags("0")) {
+    if (flag.name == "wind-measure") flags.push_back(std::move(flag));
+  }
+  return {"capture wind",
+          "Hears the wind in a sound file, or in a film's sound, and writes it as a recording.",
+          {{"SOUND", "a sound file, or a film with sound"}},
+          std::move(flags),
+          {{"wisp capture wind breath.wav -o wind.csv", "The wind of a breath, 60 rows a second"}},
+          run_wind};
 }
 
 Command capture_fall_command() {

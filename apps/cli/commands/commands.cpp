@@ -11,6 +11,7 @@ const std::vector<Command>& commands() {
       capture_outline_command(),
       capture_flame_command(),
       capture_brightness_command(),
+      capture_wind_command(),
       capture_fall_command(),
       learn_outline_command(),
       learn_flame_command(),

@@ -8,6 +8,7 @@ namespace wisp::cli {
 Command capture_outline_command();
 Command capture_flame_command();
 Command capture_brightness_command();
+Command capture_wind_command();
 Command capture_fall_command();
 Command learn_outline_command();
 Command learn_flame_command();

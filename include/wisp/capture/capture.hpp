@@ -2,6 +2,7 @@
 // From a clip's file to a recording: the outline in its picture, joined with the wind in its sound.
 
 #include <filesystem>
+#include <optional>
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
@@ -27,11 +28,19 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
 Result<Captured> capture_falls(const std::filesystem::path& path, const FallOptions& options,
                                const Progress& progress = {});
 
-/// Hears the wind of a clip whose picture has `frames` frames at `rate_hz` a second.
-/// Returns no frames where there is no sound track or a silent one; `note` tells which.
-/// Errors: the file cannot be read, or its sound cannot be decoded.
+/// Hears the wind of a clip whose picture has `frames` frames at `rate_hz` a second; of a sound file, which has none,
+/// as many as it lasts. Returns no frames where there is no sound track or a silent one; `note` tells which. Errors:
+/// the file cannot be read, or its sound cannot be decoded.
 ///
 /// Precondition: rate_hz > 0.
-Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, std::size_t frames);
+Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz,
+                           std::optional<std::size_t> frames = std::nullopt);
+
+/// Captures the wind in a sound file, or in a film's sound, `rate_hz` rows a second: one input named by its measure.
+/// Errors: as hear_wind(), and sound in which nothing can be heard.
+///
+/// Precondition: rate_hz > 0.
+Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz,
+                               WindMeasure measure = WindMeasure::kSpeed);
 
 }  // namespace wisp

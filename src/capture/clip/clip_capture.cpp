@@ -32,15 +32,6 @@ OutlineCaptureOptions outline_options(const ClipSource& source, const ClipCaptur
 
 constexpr double kClippedShare = 0.01;  // of samples at full scale: beyond it the wind's peaks are cut off
 
-void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording) {
-  if (wind.frames.empty()) return;
-  const bool rms = measure == WindMeasure::kRms;
-  Channel channel{wind_channel_name(measure), rms ? "full scale" : "1", Role::kInput, {}};
-  for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
-  if (!rms && wind.one_rms > 0) set_one_rms(recording, channel.name, wind.one_rms);
-  recording.channels.insert(recording.channels.begin(), std::move(channel));
-}
-
 // A stretch without an outline that begins in or just after wind, and ends with the flame back, is a flame that was
 // blown out and lit again. Wind of half the strong one puts a flame out at the earliest.
 constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // of wind 1; seconds; seconds
@@ -192,6 +183,15 @@ ReportSection wind_section(const ClipWind& wind) {
 }
 
 }  // namespace
+
+void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording) {
+  if (wind.frames.empty()) return;
+  const bool rms = measure == WindMeasure::kRms;
+  Channel channel{wind_channel_name(measure), rms ? "full scale" : "1", Role::kInput, {}};
+  for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
+  if (!rms && wind.one_rms > 0) set_one_rms(recording, channel.name, wind.one_rms);
+  recording.channels.insert(recording.channels.begin(), std::move(channel));
+}
 
 std::optional<SharedCurve> curve_of(const Recording& recording) {
   SharedCurve curve;

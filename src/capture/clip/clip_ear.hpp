@@ -10,6 +10,9 @@
 
 namespace wisp {
 
+/// Puts a clip's wind before a recording's channels, where there is any.
+void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording);
+
 /// Hears the wind of a clip from its sound as it comes.
 class ClipEar {
  public:

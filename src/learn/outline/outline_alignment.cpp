@@ -18,9 +18,11 @@ using Series = std::vector<double>;
 
 constexpr std::size_t kWhiteningOrder = 4;  // lags that carry a gust's shape at 25 to 60 frames a second
 constexpr double kFalseAlarm = 0.01;
-constexpr int kResamples = 400;      // of the bootstrap
-constexpr double kBlockSeconds = 2;  // longer than a gust, so that blocks are nearly independent
-constexpr double kTail = 0.025;      // of resamples on either side of the interval
+constexpr int kResamples = 400;          // of the bootstrap
+constexpr double kBlockSeconds = 2;      // longer than a gust, so that blocks are nearly independent
+constexpr double kTail = 0.025;          // of resamples on either side of the interval
+constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may well be an end
+constexpr double kAtItsEnd = 0.05;       // of a wider interval, from an end: two offsets are in it, or none
 
 Error bad(const std::string& what) { return Error{"alignment: " + what}; }
 
@@ -178,10 +180,13 @@ Interval bootstrap(const BlockSums& sums) {
 
 void judge(Alignment& found, double max_seconds) {
   const double width = found.high_seconds - found.low_seconds;
+  const double to_end = std::min(found.offset_seconds - found.low_seconds, found.high_seconds - found.offset_seconds);
   if (std::abs(found.correlation) < found.chance) {
     found.reason = "motion and wind have nothing in common that stands out from chance";
   } else if (found.low_seconds <= -max_seconds || found.high_seconds >= max_seconds) {
     found.reason = "the best offset lies at the search's end; search farther";
+  } else if (width > kMaxSharpWidth && to_end < kAtItsEnd * width) {
+    found.reason = "the best offset, " + milliseconds(found.offset_seconds) + ", lies at the end of its own interval";
   } else if (width > max_seconds) {
     found.reason = "the offset is only known to " + milliseconds(width);
   } else {

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capture/support/clip_files.hpp"
 
 namespace wisp::capture_test {
@@ -64,6 +66,33 @@ TEST_F(Capture, OnlyOutlinesHaveACurve) {
   Recording broken = captured({.rate_hz = 50}).recording;
   set_numbers_attribute(broken, "knots", std::vector<double>{0, 1});
   EXPECT_FALSE(curve_of(broken));
+}
+
+// Wind from a sound file alone.
+TEST(CaptureWind, ASoundFileHasAsManyRowsAsItLasts) {
+  const ScratchFolder folder("wind");
+  constexpr int kRate = 48000;
+  std::vector<std::int16_t> samples(8 * kRate);
+  unsigned state = 1;
+  double low = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    state = state * 1664525U + 1013904223U;
+    const double noise = static_cast<double>(state) / 2147483648.0 - 1;
+    low += 0.01 * (noise - low);  // breath at a microphone: most of it below 100 Hz, and hiss
+    const bool blown = k > 3 * kRate && k < 5 * kRate;
+    samples[k] =
+        static_cast<std::int16_t>(32000 * std::clamp(1e-4 * noise + (blown ? 4 * low + 0.05 * noise : 0), -1.0, 1.0));
+  }
+  support::write_wav(folder / "breath.wav", kRate, 1, samples);
+  const auto wind = capture_wind(folder / "breath.wav", 50);
+  ASSERT_TRUE(wind) << wind.error().message;
+  ASSERT_EQ(wind->rows(), 400u);
+  EXPECT_EQ(wind->channels.front().name, "wind");
+  EXPECT_EQ(wind->channels.front().role, Role::kInput);
+  EXPECT_GT(wind->channels.front().samples[200], 0.2);
+  EXPECT_LT(wind->channels.front().samples[100], 1e-3);
+  const auto none = capture_wind(folder / "none.wav", 50);
+  EXPECT_FALSE(none);
 }
 
 }  // namespace

@@ -159,5 +159,18 @@ TEST(Alignment, SaysWhatItCannotDo) {
   EXPECT_THAT(message(some, Series(600, 1.0)), HasSubstr("the motion never changes"));
 }
 
+// Most blocks have the motion 0.7 s early, the others 0.1 s: the best offset is where its own interval ends.
+TEST(Alignment, AnOffsetAtTheEndOfItsOwnIntervalIsNotUsable) {
+  const Series fine = fine_wind(60, 12);
+  const Series wind = frames(fine, 0), early = frames(fine, -0.7), later = frames(fine, -0.1);
+  Series motion;
+  for (std::size_t t = 0; t < wind.size(); ++t) motion.push_back(t % 1200 < 660 ? early[t] : later[t]);
+  const auto found = align_offset(wind, motion, {.rate_hz = kRate});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->offset_seconds, -0.7, 0.02);
+  EXPECT_FALSE(found->usable);
+  EXPECT_THAT(found->reason, HasSubstr("the end of its own interval"));
+}
+
 }  // namespace
 }  // namespace wisp::alignment_test

@@ -1,0 +1,59 @@
+// What would have made a refused film usable is said, and nothing where nothing would.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "capture/support/clip_files.hpp"
+#include "capture/support/made_clip.hpp"
+#include "wisp/capture/capture.hpp"
+
+namespace wisp::second_look_test {
+namespace {
+
+using support::Plane;
+using support::ScratchFolder;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string reason_of(int frames, const std::function<Plane(int)>& picture) {
+  const ScratchFolder folder("second_look");
+  for (int k = 0; k < frames; ++k) support::write_pgm(folder / (std::to_string(1000 + k) + ".pgm"), picture(k));
+  FlameCapture options;
+  options.rate_hz = 30;
+  const auto captured = capture(folder.path(), options);
+  if (!captured) return captured.error().message;
+  return (captured->report.verdict->usable ? "usable: " : "") + captured->report.verdict->reason;
+}
+
+Plane upside_down(int k) {
+  Plane plane = support::noisy_flame(k);
+  std::reverse(plane.pixels.begin(), plane.pixels.end());
+  return plane;
+}
+
+TEST(SecondLook, WhatIsNoUprightFlameCanBeFollowedAllTheSame) {
+  EXPECT_THAT(reason_of(60, support::noisy_flame), HasSubstr("usable: "));
+  EXPECT_THAT(reason_of(60, upside_down), HasSubstr("can be followed, flame or not: --flame 0"));
+}
+
+TEST(SecondLook, APartThatIsUsableIsNamed) {
+  const auto hidden = [](int k) { return k >= 80 && k < 100 ? Plane(160, 180, 8) : support::noisy_flame(k); };
+  EXPECT_THAT(reason_of(120, hidden), HasSubstr("a part of it is usable: --frames 1:80"));
+}
+
+TEST(SecondLook, AStillLampGetsNoAdvice) {
+  const auto lamp = [](int k) {
+    Plane plane = support::flame_picture(support::swaying(0));
+    support::add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  };
+  const std::string reason = reason_of(60, lamp);
+  EXPECT_THAT(reason, HasSubstr("there is no flame"));
+  EXPECT_THAT(reason, Not(HasSubstr("--f")));
+}
+
+}  // namespace
+}  // namespace wisp::second_look_test
