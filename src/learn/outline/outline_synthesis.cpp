@@ -9,8 +9,6 @@
 namespace wisp {
 namespace {
 
-constexpr int kCrowd = 100;
-
 // The inputs' samples, one row after the other; empty where the model is driven by nothing.
 Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Recording* input) {
   std::vector<std::vector<float>> rows;
@@ -69,40 +67,6 @@ Recording empty_recording(const Model& model, std::size_t rows) {
   return out;
 }
 
-// Standard deviations of a bank's outputs about a middle that keeps the sums small.
-class Spread {
- public:
-  explicit Spread(const Model& model) : sum_(model.outputs.size(), 0.0), square_(model.outputs.size(), 0.0) {
-    for (const Output& output : model.outputs) middle_.push_back((output.lowest + output.highest) / 2);
-  }
-
-  void add(std::span<const float> values) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const std::size_t output = k % middle_.size();
-      const double deviation = values[k] - middle_[output];
-      sum_[output] += deviation;
-      square_[output] += deviation * deviation;
-    }
-    count_ += values.size() / middle_.size();
-  }
-
-  std::vector<double> sd() const {
-    std::vector<double> out;
-    const auto n = static_cast<double>(count_);
-    for (std::size_t k = 0; k < middle_.size(); ++k) {
-      const double mean = sum_[k] / n;
-      out.push_back(std::sqrt(std::max(0.0, square_[k] / n - mean * mean)));
-    }
-    return out;
-  }
-
- private:
-  std::vector<double> middle_;
-  std::vector<double> sum_;
-  std::vector<double> square_;
-  std::size_t count_ = 0;
-};
-
 double share(const Bank::Clamped& before, const Bank::Clamped& after) {
   const std::uint64_t steps = after.steps - before.steps;
   return steps == 0 ? 0 : static_cast<double>(after.clamped - before.clamped) / static_cast<double>(steps);
@@ -131,27 +95,6 @@ Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options
   }
   out.held_share = share(before, bank->clamped());
   return out;
-}
-
-Result<FreePlay> play_freely(const Model& model, std::size_t steps, const SynthesisOptions& options) {
-  const auto inputs = input_rows(model, options.input);
-  if (!inputs) return inputs.error();
-  auto bank = Bank::create(burning(model), {.capacity = kCrowd, .seed = options.seed});
-  if (!bank) return bank.error();
-  bank->set_noise(options.noise);
-  for (int k = 0; k < kCrowd; ++k) (void)bank->spawn();
-  const std::size_t warm_up = warm_up_steps(model, options);
-  Player player(*bank, *inputs, warm_up);
-  for (std::size_t t = 0; t < warm_up; ++t) player.step();
-  const Bank::Clamped before = bank->clamped();
-  Spread spread(model);
-  std::vector<float> values(kCrowd * model.outputs.size());
-  for (std::size_t t = 0; t < steps / kCrowd; ++t) {
-    player.step();
-    bank->outputs(values);
-    spread.add(values);
-  }
-  return FreePlay{share(before, bank->clamped()), spread.sd()};
 }
 
 }  // namespace wisp

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
@@ -30,17 +29,5 @@ struct Synthesis {
 /// Plays a model in a bank of one.
 /// Errors: as Bank::create(); an input that the recording has not or whose samples are missing.
 Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options);
-
-/// What a crowd of instances did.
-struct FreePlay {
-  double held_share = 0;   ///< of steps in which an output was clamped to its range
-  std::vector<double> sd;  ///< standard deviation of every output, in its unit
-};
-
-/// Plays 100 instances for `steps` steps together, each after a warm-up, with inputs as in SynthesisOptions.
-/// Errors: as synthesize().
-///
-/// Precondition: steps >= 100.
-Result<FreePlay> play_freely(const Model& model, std::size_t steps, const SynthesisOptions& options = {});
 
 }  // namespace wisp
