@@ -1,14 +1,18 @@
 // Fixed point: the state is in units of 2^-29 of a power of two above its range, coefficients in 2^-28, and sums in
-// 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the sum of four uniform bytes (Irwin-Hall), from
-// G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
+// 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the inverse of their distribution from 17
+// quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986, section II.2), linear between them and of the
+// fourth power towards the first and the last; bits by G. Marsaglia's xorshift32 (Journal of Statistical Software 8,
+// 2003).
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "wisp/export/export.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
@@ -25,14 +29,17 @@ namespace {
 constexpr int kWeightBits = 28, kSumBits = 25, kOneBits = 12;
 constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
 constexpr double kMaxWeight = 8, kMaxSum = 24;
-// Standard deviation of the sum of four bytes from -128 to 127.
-const double kBytesSd = std::sqrt(4.0 * (256 * 256 - 1) / 12);
+// Normal quantiles; the ends give a kurtosis of 3.
+constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503, -0.8871, -0.6745, -0.4888,
+                                                      -0.3186, -0.1573, 0,       0.1573,  0.3186,  0.4888,
+                                                      0.6745,  0.8871,  1.1503,  1.5341,  3.2};
 
 // The coefficients of a model with one output.
 struct Lamp {
-  std::vector<std::vector<double>> feedback;  // per mode and lag, sign of the prediction
-  std::vector<double> constant, shock;        // per mode
-  std::vector<double> transitions;            // modes × modes
+  std::vector<std::vector<double>> feedback;                      // per mode and lag, sign of the prediction
+  std::vector<double> constant, shock;                            // per mode
+  std::vector<double> transitions;                                // modes × modes
+  std::vector<double> quantiles{kNormal.begin(), kNormal.end()};  // of shocks
   std::size_t lags = 1;
   double mean = 0;
 };
@@ -46,16 +53,44 @@ void add_mode(const ArxModel& arx, double shock, Lamp& lamp) {
   lamp.mean = arx.output_mean[0];
 }
 
-// Standard deviation of the shocks of a single ARX model.
-double shock_of(const ArxModel& arx) {
+void add_only_mode(const ArxModel& arx, Lamp& lamp) {
   double square = arx.noise.sd.empty() ? 0 : arx.noise.sd[0] * arx.noise.sd[0];
   for (const double each : arx.noise.mixing) square += each * each;
-  if (!arx.noise.resampled.empty()) {
-    square = 0;
-    for (const std::int16_t row : arx.noise.resampled.rows) square += std::pow(row * arx.noise.resampled.scale[0], 2);
-    square /= static_cast<double>(arx.noise.resampled.row_count());
+  if (const auto& resampled = arx.noise.resampled; !resampled.empty()) {
+    std::vector<double> rows(resampled.rows.begin(), resampled.rows.end());
+    for (double& row : rows) row *= resampled.scale[0];
+    square = mean(rows) * mean(rows) + deviation(rows) * deviation(rows);
+    for (std::size_t k = 0; k < kShockQuantiles; ++k) {
+      lamp.quantiles[k] = quantile(rows, static_cast<double>(k) / (kShockQuantiles - 1));
+    }
   }
-  return std::sqrt(square);
+  add_mode(arx, std::sqrt(square), lamp);
+  lamp.transitions = {1};
+}
+
+// The quantiles as bytes, and the mean and standard deviation of what a lamp draws from them.
+struct Shocks {
+  std::array<int, kShockQuantiles> bytes{};
+  double mean = 0, sd = 0;
+};
+
+Shocks shocks_of(const std::vector<double>& quantiles) {
+  Shocks shocks;
+  const double largest = std::max({1e-12, std::abs(quantiles.front()), std::abs(quantiles.back())});
+  for (std::size_t k = 0; k < kShockQuantiles; ++k) {
+    shocks.bytes[k] = static_cast<int>(std::lround(127 * std::clamp(quantiles[k] / largest, -1.0, 1.0)));
+  }
+  std::vector<double> drawn;
+  const auto steeper = [](int part) { return (part * part >> 8) * (part * part >> 8) >> 8; };
+  for (std::size_t k = 0; k + 1 < kShockQuantiles; ++k) {
+    for (int part = 0; part < 256; ++part) {
+      const int share = k == 0 ? 255 - steeper(255 - part) : k + 2 == kShockQuantiles ? steeper(part) : part;
+      drawn.push_back(256 * shocks.bytes[k] + (shocks.bytes[k + 1] - shocks.bytes[k]) * share);
+    }
+  }
+  shocks.mean = mean(drawn);
+  shocks.sd = std::max(1.0, deviation(drawn));
+  return shocks;
 }
 
 Result<Lamp> lamp_of(const Model& model) {
@@ -68,13 +103,13 @@ Result<Lamp> lamp_of(const Model& model) {
   }
   Lamp lamp;
   if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) {
-    add_mode(*arx, shock_of(*arx), lamp);
-    lamp.transitions = {1};
+    add_only_mode(*arx, lamp);
   } else if (const auto* switched = std::get_if<SwitchedArxModel>(&model.dynamics)) {
     for (std::size_t mode = 0; mode < switched->modes.size(); ++mode) {
       add_mode(mode_model(*switched, mode), switched->modes[mode].shock[0], lamp);
     }
     lamp.transitions = switched->transitions;
+    if (!switched->shock_quantiles.empty()) lamp.quantiles = switched->shock_quantiles;
   } else {
     return Error{"the model is a chain of segments, which no small microcontroller holds"};
   }
@@ -135,9 +170,12 @@ std::string filled(std::string text, const std::vector<std::pair<std::string, st
   return text;
 }
 
-constexpr const char* kSwitch = R"(  word = next_random(lamp) >> 16;
-  for (k = 0; k < @LASTMODE@ && word >= LAMP_16(&thresholds[lamp->mode][k]); ++k) continue;
-  lamp->mode = k;
+constexpr const char* kSwitch = R"(  uint8_t k;
+  word = next_random(lamp);
+  for (k = 0; k < @LASTMODE@ && (uint16_t)word >= LAMP_16(&thresholds[lamp->mode][k]); ++k) continue;
+  /* The dial: not every move up is made, or not every move down. */
+  const uint8_t chance = (uint8_t)(word >> 24) & 0x7f;
+  if ((k > lamp->mode ? lamp->breeze : (uint8_t)~lamp->breeze) > chance) lamp->mode = k;
 )";
 
 std::string thresholds(const Lamp& lamp) {
@@ -172,11 +210,13 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   }
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
-  const auto constant = [&](std::size_t mode, std::size_t column) {
-    return column == 0 ? lamp->constant[mode] * sum_one : lamp->shock[mode] * sum_one / kBytesSd * 16;
-  };
-  const auto weight = [&](std::size_t mode, std::size_t k) {
-    return k < lamp->feedback[mode].size() ? std::ldexp(lamp->feedback[mode][k], kWeightBits) : 0;
+  const Shocks shocks = shocks_of(lamp->quantiles);
+  const auto unit = [&](std::size_t mode) { return lamp->shock[mode] * sum_one / shocks.sd; };  // of what is drawn
+  const auto weight = [&](std::size_t mode, std::size_t column) {
+    if (column == 0) return lamp->constant[mode] * sum_one - shocks.mean * unit(mode);
+    if (column > lamp->lags) return std::min(65536 * unit(mode), 2147483647.0);
+    const auto& feedback = lamp->feedback[mode];
+    return column <= feedback.size() ? std::ldexp(feedback[column - 1], kWeightBits) : 0;
   };
   std::string upper(name);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -186,8 +226,8 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const std::vector<std::pair<std::string, std::string>> words = {
       {"SWITCH", modes > 1 ? kSwitch : ""},
       {"THRESHOLDS", modes > 1 ? thresholds(*lamp) : ""},
-      {"CONSTANTS", table("int32_t", "constants", modes, 2, constant)},
-      {"WEIGHTS", table("int32_t", "weights", modes, lamp->lags, weight)},
+      {"QUANTILES", table("int8_t", "quantiles", 1, kShockQuantiles, [&](auto, auto k) { return shocks.bytes[k]; })},
+      {"WEIGHTS", table("int32_t", "weights", modes, lamp->lags + 2, weight)},
       {"LASTMODE", std::to_string(modes - 1)},
       {"ONEWORDS", output.name == "brightness" ? ", the mean light" : ""},
       {"LAGS", std::to_string(lamp->lags)},
@@ -202,7 +242,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
       {"MODEL", called},
       {"NAME", std::string(name)}};
   FirmwareSource out{filled(exporting::lamp_header, words), filled(exporting::lamp_source, words), 0};
-  out.state_bytes = 4 * lamp->lags + 4 + 1;
+  out.state_bytes = 4 * (lamp->lags + 1) + 4 + 2;
   return out;
 }
 

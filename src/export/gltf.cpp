@@ -236,9 +236,8 @@ Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
 }
 
 Document body_document(const Take& take, double half_width, double half_length) {
-  constexpr double kUnknown = 0.03;  // metres: a small leaf
   Document document;
-  const double width = half_width > 0 ? half_width : kUnknown;
+  const double width = half_width > 0 ? half_width : kUnknownHalfWidth;
   document.mesh = body_mesh(width, half_length > 0 ? half_length : width, document.buffer);
   for (std::size_t k = 0; k < take.instances; ++k) document.tracks.push_back(body_track(take, k, document.buffer));
   document.turn = {-std::numbers::sqrt2 / 2, 0, 0, std::numbers::sqrt2 / 2};

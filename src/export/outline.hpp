@@ -24,6 +24,8 @@ std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knot
 /// Returns the operating point of the outputs of an ARX or switched model.
 std::vector<double> operating_point(const Model& model);
 
+inline constexpr double kUnknownHalfWidth = 0.03;  ///< metres: a small leaf
+
 /// Errors: the take has other outputs than the model, or no frames.
 Result<void> check_take(const Model& model, const Take& take);
 

@@ -31,6 +31,10 @@ Result<void> check(const Model& model, const TakeOptions& options) {
   if (frames * options.instances * static_cast<double>(model.outputs.size()) > kMaxNumbers) {
     return Error{"the frames are more than 5e8 numbers; ask for fewer seconds or instances"};
   }
+  if (!options.schedule.empty() &&
+      (options.loop || model.inputs.empty() || options.schedule.size() % model.inputs.size() != 0)) {
+    return Error{"a schedule of inputs is for plays that do not loop, of models with inputs, in rows of all inputs"};
+  }
   if (options.inputs.size() > model.inputs.size()) {
     return Error{"there are " + std::to_string(options.inputs.size()) + " inputs, the model has " +
                  std::to_string(model.inputs.size())};
@@ -75,9 +79,11 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
   if (!bank) return bank.error();
   const std::size_t width = taken.instances * taken.outputs;
   taken.values.resize(taken.frames * width);
+  const std::size_t inputs = model.inputs.size(), rows = inputs > 0 ? options.schedule.size() / inputs : 0;
   for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+    if (frame < rows) bank->set_common_inputs(std::span(options.schedule).subspan(frame * inputs, inputs));
     bank->step();
-    if (!burns(*bank)) return went_out(static_cast<double>(frame) / model.rate_hz);
+    if (rows == 0 && !burns(*bank)) return went_out(static_cast<double>(frame) / model.rate_hz);
     bank->outputs(std::span(taken.values).subspan(frame * width, width));
   }
   return taken;

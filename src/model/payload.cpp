@@ -90,7 +90,9 @@ fb::Offset<file::SwitchedArx> write_switched(Builder& builder, const SwitchedArx
   const auto modes_at = builder.CreateVector(modes);
   const auto initial = builder.CreateVector(model.initial);
   const auto transitions = builder.CreateVector(model.transitions);
-  return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, initial, transitions);
+  const auto quantiles = model.shock_quantiles.empty() ? 0 : builder.CreateVector(model.shock_quantiles);
+  return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, initial, transitions,
+                                 quantiles);
 }
 
 fb::Offset<file::ExtinctionTraining> write_extinction_training(Builder& builder,
@@ -282,6 +284,7 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   model.input_mean = numbers(stored.input_mean());
   model.initial = numbers(stored.initial());
   model.transitions = numbers(stored.transitions());
+  model.shock_quantiles = numbers(stored.shock_quantiles());
   return model;
 }
 

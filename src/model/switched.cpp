@@ -51,6 +51,13 @@ Result<void> check_mode(const SwitchedArxModel& model, std::size_t k) {
   return {};
 }
 
+Result<void> check_quantiles(const std::vector<double>& quantiles) {
+  if (quantiles.empty()) return {};
+  if (auto ok = check_numbers(quantiles, kShockQuantiles, "the list of a shock's quantiles"); !ok) return ok;
+  if (std::ranges::is_sorted(quantiles)) return {};
+  return Error{"a shock's quantiles do not ascend"};
+}
+
 Result<void> check_chain(const SwitchedArxModel& model) {
   const std::size_t modes = model.modes.size();
   if (auto ok = check_probabilities(model.initial, modes, "the probability of the first mode"); !ok) return ok;
@@ -81,6 +88,7 @@ Result<void> check(const SwitchedArxModel& model) {
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
     if (auto ok = check_mode(model, k); !ok) return ok;
   }
+  if (auto ok = check_quantiles(model.shock_quantiles); !ok) return ok;
   return check_chain(model);
 }
 

@@ -1567,7 +1567,8 @@ struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_INPUT_MEAN = 12,
     VT_MODES = 14,
     VT_INITIAL = 16,
-    VT_TRANSITIONS = 18
+    VT_TRANSITIONS = 18,
+    VT_SHOCK_QUANTILES = 20
   };
   const flatbuffers::Vector<uint16_t> *na() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_NA);
@@ -1593,6 +1594,9 @@ struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *transitions() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_TRANSITIONS);
   }
+  const flatbuffers::Vector<double> *shock_quantiles() const {
+    return GetPointer<const flatbuffers::Vector<double> *>(VT_SHOCK_QUANTILES);
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffsetRequired(verifier, VT_NA) &&
@@ -1612,6 +1616,8 @@ struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(initial()) &&
            VerifyOffsetRequired(verifier, VT_TRANSITIONS) &&
            verifier.VerifyVector(transitions()) &&
+           VerifyOffset(verifier, VT_SHOCK_QUANTILES) &&
+           verifier.VerifyVector(shock_quantiles()) &&
            verifier.EndTable();
   }
 };
@@ -1644,6 +1650,9 @@ struct SwitchedArxBuilder {
   void add_transitions(flatbuffers::Offset<flatbuffers::Vector<double>> transitions) {
     fbb_.AddOffset(SwitchedArx::VT_TRANSITIONS, transitions);
   }
+  void add_shock_quantiles(flatbuffers::Offset<flatbuffers::Vector<double>> shock_quantiles) {
+    fbb_.AddOffset(SwitchedArx::VT_SHOCK_QUANTILES, shock_quantiles);
+  }
   explicit SwitchedArxBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -1672,8 +1681,10 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArx(
     flatbuffers::Offset<flatbuffers::Vector<double>> input_mean = 0,
     flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<wisp::file::ArxMode>>> modes = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> initial = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> transitions = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<double>> transitions = 0,
+    flatbuffers::Offset<flatbuffers::Vector<double>> shock_quantiles = 0) {
   SwitchedArxBuilder builder_(_fbb);
+  builder_.add_shock_quantiles(shock_quantiles);
   builder_.add_transitions(transitions);
   builder_.add_initial(initial);
   builder_.add_modes(modes);
@@ -1699,7 +1710,8 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArxDirect(
     const std::vector<double> *input_mean = nullptr,
     const std::vector<flatbuffers::Offset<wisp::file::ArxMode>> *modes = nullptr,
     const std::vector<double> *initial = nullptr,
-    const std::vector<double> *transitions = nullptr) {
+    const std::vector<double> *transitions = nullptr,
+    const std::vector<double> *shock_quantiles = nullptr) {
   auto na__ = na ? _fbb.CreateVector<uint16_t>(*na) : 0;
   auto nb__ = nb ? _fbb.CreateVector<uint16_t>(*nb) : 0;
   auto nk__ = nk ? _fbb.CreateVector<uint16_t>(*nk) : 0;
@@ -1708,6 +1720,7 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArxDirect(
   auto modes__ = modes ? _fbb.CreateVector<flatbuffers::Offset<wisp::file::ArxMode>>(*modes) : 0;
   auto initial__ = initial ? _fbb.CreateVector<double>(*initial) : 0;
   auto transitions__ = transitions ? _fbb.CreateVector<double>(*transitions) : 0;
+  auto shock_quantiles__ = shock_quantiles ? _fbb.CreateVector<double>(*shock_quantiles) : 0;
   return wisp::file::CreateSwitchedArx(
       _fbb,
       na__,
@@ -1717,7 +1730,8 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArxDirect(
       input_mean__,
       modes__,
       initial__,
-      transitions__);
+      transitions__,
+      shock_quantiles__);
 }
 
 struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

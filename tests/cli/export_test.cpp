@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "cli/program.hpp"
 #include "model/sample_chain.hpp"
 #include "wisp/model/file.hpp"
@@ -28,7 +30,7 @@ class Export : public InFolder {
 
 TEST_F(Export, WritesEveryKindAndTheSameBytesAgain) {
   for (const std::string name : {"a.glb", "a.json", "a.png", "a.apng", "a.webm"}) {
-    const std::string height = name == "a.glb" ? "" : " --height 48";
+    const std::string height = name == "a.glb" ? "" : name == "a.png" ? " --size 128 --columns 4" : " --size 48";
     const std::string arguments = "export " + kFlame + " --loop 0.5" + height + " -o ";
     const Said said = wisp(arguments + at(name) + " --json");
     ASSERT_EQ(said.status, 0) << said.err;
@@ -42,6 +44,65 @@ TEST_F(Export, WritesEveryKindAndTheSameBytesAgain) {
   EXPECT_TRUE(fs::exists(at("a.atlas.json")));
 }
 
+TEST_F(Export, AnAtlasIsSixtyFourFramesInASquareUnlessAskedOtherwise) {
+  const auto meta_of = [&](const std::string& flags) {
+    EXPECT_EQ(wisp("export " + kFlame + " --loop 2" + flags + " -o " + at("a.png")).status, 0) << flags;
+    return nlohmann::json::parse(file_text(at("a.atlas.json")));
+  };
+  const auto usual = meta_of("");
+  EXPECT_EQ(usual["frames"].size(), 64u);
+  EXPECT_EQ(usual["meta"]["size"]["w"], 1024);
+  EXPECT_EQ(usual["meta"]["size"]["h"], 1024);
+  EXPECT_EQ(usual["meta"]["rate_hz"], 32);
+  const auto asked = meta_of(" --frames 20 --columns 5 --size 320");
+  EXPECT_EQ(asked["frames"].size(), 20u);
+  EXPECT_EQ(asked["frames"][0]["frame"]["w"], 64);
+  EXPECT_EQ(asked["meta"]["rows"], 4);
+}
+
+// A blow that puts the flame out: it burns in the first frame, and nothing is left in the last.
+TEST_F(Export, AScheduleOfWindBlowsTheFlameOut) {
+  std::ofstream table(at("blow.csv"));
+  const Model model = *read_model(kFlame);
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) table << (k > 0 ? "," : "") << model.inputs[k].name;
+  for (int row = 0; row < 180; ++row) {
+    table << "\n";
+    for (std::size_t k = 0; k < model.inputs.size(); ++k) table << (k > 0 ? "," : "") << (row < 30 ? 0 : 9);
+  }
+  table << "\n";
+  table.close();
+  const Said said =
+      wisp("export " + kFlame + " --input " + at("blow.csv") + " --size 48 -o " + at("a.apng") + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["frames"], 180);
+  const std::string ffmpeg = "ffmpeg -v error -i " + at("a.apng") + " -f rawvideo -pix_fmt rgba " + at("raw");
+  ASSERT_EQ(std::system(ffmpeg.c_str()), 0);
+  const std::string pixels = file_text(at("raw"));
+  const std::size_t frame = pixels.size() / 180;
+  const auto brightest = [&](std::size_t k) {
+    int most = 0;
+    for (std::size_t at = 3; at < frame; at += 4)
+      most = std::max<int>(most, static_cast<unsigned char>(pixels[k * frame + at]));
+    return most;
+  };
+  EXPECT_GT(brightest(0), 200);
+  EXPECT_LT(brightest(179), 40);
+}
+
+TEST_F(Export, AVertexTextureHoldsEveryFramesOutline) {
+  const Said said = wisp("export " + kFlame + " --loop 1 -o " + at("a.vat.png") + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto meta = nlohmann::json::parse(file_text(at("a.vat.json")));
+  EXPECT_EQ(meta["points"], 32);
+  EXPECT_EQ(meta["frames"], 60);
+  EXPECT_EQ(meta["loop"], true);
+  EXPECT_EQ(meta["triangles"].size(), 90u);
+  const std::string ffmpeg = "ffmpeg -v error -i " + at("a.vat.png") + " -f rawvideo -pix_fmt rgb24 " + at("raw");
+  ASSERT_EQ(std::system(ffmpeg.c_str()), 0);
+  EXPECT_EQ(file_text(at("raw")).size(), 32u * 120 * 3);
+  EXPECT_EQ(wisp("export " + kLeaf + " --loop 3 -o " + at("b.vat.png")).status, 0);
+}
+
 TEST_F(Export, ALeafsRoundSaysHowFarItLeads) {
   const Said said = wisp("export " + kLeaf + " --loop 3 -o " + at("a.glb") + " --json");
   ASSERT_EQ(said.status, 0) << said.err;
@@ -49,7 +110,7 @@ TEST_F(Export, ALeafsRoundSaysHowFarItLeads) {
 }
 
 TEST_F(Export, APictureOfAFlameEndsInNothing) {
-  ASSERT_EQ(wisp("export " + kFlame + " --seconds 0.1 --height 64 -o " + at("a.apng")).status, 0);
+  ASSERT_EQ(wisp("export " + kFlame + " --seconds 0.1 --size 64 -o " + at("a.apng")).status, 0);
   const std::string ffprobe =
       "ffprobe -v error -show_entries stream=width -of csv=p=0 " + at("a.apng") + " >" + at("width");
   ASSERT_EQ(std::system(ffprobe.c_str()), 0);
@@ -76,7 +137,8 @@ TEST_F(Export, AFlagThatWouldDoNothingIsWrongUsage) {
     EXPECT_THAT(said.err, HasSubstr(words)) << arguments;
   };
   refused(kFlame + " --loop 2 -o " + at("a.c"), "--loop does nothing to a .c file");
-  refused(kFlame + " --height 99 -o " + at("a.glb"), "--height does nothing to a .glb file");
+  refused(kFlame + " --size 99 -o " + at("a.glb"), "--size does nothing to a .glb file");
+  refused(kFlame + " --columns 9 -o " + at("a.webm"), "--columns does nothing to a .webm file");
   refused(kFlame + " --instances 2 -o " + at("a.json"), "--instances does nothing to a .json file");
   ASSERT_TRUE(write_model(at("calm.wisp"), sample_chain()));
   refused(at("calm.wisp") + " --wind 1 -o " + at("a.glb"), "has none");
@@ -88,7 +150,7 @@ TEST_F(Export, WhatCannotBeWrittenIsOneSentenceAndNoFile) {
   expect_error(kLeaf + " -o " + at("a.json"), "a body's motion goes into a .glb");
   expect_error(kLeaf + " -o " + at("a.png"), "no flame to draw");
   expect_error(kFlame + " --seconds 0 -o " + at("a.glb"), "expected above 0");
-  expect_error(kFlame + " --height 4 -o " + at("a.png"), "expected 16 to 2048");
+  expect_error(kFlame + " --size 40 -o " + at("a.png"), "expected 16 to 2048");
   expect_error(kFlame + " --instances 5000 -o " + at("a.glb"), "expected 1 to 1000");
   expect_error(kFlame + " --wind 9 --seconds 2 -o " + at("a.glb"), "goes out");
   expect_error(at("none.wisp") + " -o " + at("a.glb"), "cannot be opened");

@@ -51,7 +51,7 @@ TEST_F(Memory, AFilmOfAFlameIsCapturedIn300MegabytesAndLearnedInAGigabyte) {
   for (const char* command :
        {"validate flame.wisp flame.csv --film-strip strip.png", "run flame.wisp --frames 60 -o flame.mp4",
         "info flame.wisp", "report flame.wisp flame.csv -o flame.html",
-        "export flame.wisp --loop 2 --height 128 -o flame.png"}) {
+        "export flame.wisp --loop 2 -o flame.png"}) {
     EXPECT_EQ(fails_within(1000, command), "");
   }
 }

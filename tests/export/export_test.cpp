@@ -129,6 +129,57 @@ TEST(Gltf, LeavesOfALoopBeginApartAndTheSceneReturns) {
   }
 }
 
+// As a shader reads it: the upper bytes in the first rows, the lower ones in the second.
+TEST(VertexAnimation, IsTheOutlineOfEveryFrameToSixteenBits) {
+  const Model model = flame_model();
+  const auto taken = take(model, {.seconds = 1, .loop = true});
+  ASSERT_TRUE(taken);
+  const auto made = vertex_animation(model, *taken);
+  ASSERT_TRUE(made) << made.error().message;
+  const Json json = Json::parse(made->json);
+  ASSERT_EQ(made->columns, 32u);
+  ASSERT_EQ(made->rows, 2 * taken->frames);
+  for (const std::size_t frame : {std::size_t{0}, taken->frames / 2, taken->frames - 1}) {
+    const auto outline = outline_of(model, *taken, frame, 0, 32);
+    for (std::size_t point = 0; point < 32; ++point) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const std::size_t at = 3 * (frame * 32 + point) + axis;
+        const double share = (256 * made->rgb[at] + made->rgb[at + made->rgb.size() / 2]) / 65535.0;
+        const double low = json["lowest"][axis], high = json["highest"][axis];
+        EXPECT_NEAR(low + share * (high - low), outline[2 * point + axis], 1e-4);
+      }
+    }
+  }
+  for (const Json& corner : json["triangles"]) EXPECT_LT(corner.get<int>(), 32);
+  EXPECT_FALSE(vertex_animation(flame_model(), Take{}));
+}
+
+TEST(VertexAnimation, ALeafTurnsAndMovesWithItsPose) {
+  const Model model = leaf();
+  const auto taken = take(model, {.seconds = 1});
+  const auto made = vertex_animation(model, *taken);
+  ASSERT_TRUE(made);
+  const Json json = Json::parse(made->json);
+  const std::size_t half = made->rgb.size() / 2, columns = made->columns;
+  const auto place = [&](std::size_t frame, std::size_t point, std::size_t axis) {
+    const std::size_t at = 3 * (frame * columns + point) + axis;
+    const double low = json["lowest"][axis], high = json["highest"][axis];
+    return low + (256 * made->rgb[at] + made->rgb[at + half]) / 65535.0 * (high - low);
+  };
+  for (std::size_t frame = 0; frame < taken->frames; frame += 7) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double middle = 0;
+      for (std::size_t point = 0; point < columns; ++point)
+        middle += place(frame, point, axis) / static_cast<double>(columns);
+      EXPECT_NEAR(middle, taken->at(frame, 0)[axis], 1e-3);
+    }
+    double across = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      across = std::hypot(across, place(frame, 0, axis) - place(frame, 12, axis));
+    EXPECT_NEAR(across, 2 * std::get<PoseView>(model.view).half_width, 1e-3);
+  }
+}
+
 TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheOutlineThatABankDraws) {
   const Model model = flame_model();
   auto bank = Bank::create(model, {.seed = 4, .polyline_points = 32});

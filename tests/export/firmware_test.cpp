@@ -119,6 +119,133 @@ TEST_F(Firmware, PlaysAsABankDoes) {
   EXPECT_NEAR(a.calm, b.calm, 0.03);
 }
 
+// What a lamp of one mode without memory plays: its shocks.
+TEST_F(Firmware, ShocksHaveTheQuantilesThatWereRecorded) {
+  Model model = light();
+  auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
+  dynamics.modes = {{.theta = {{0, 0, 0, 0}}, .constant = {0}, .shock = {0.05}}};
+  dynamics.transitions = dynamics.initial = {1};
+  // A light that flares: calm below, rarely far above.
+  dynamics.shock_quantiles = {-1.2, -0.8, -0.6, -0.5, -0.42, -0.35, -0.3, -0.25, -0.2,
+                              -0.1, 0,    0.05, 0.12, 0.2,   0.35,  0.7,  9};
+  ASSERT_TRUE(check(model));
+  const auto shocks_of = [&](const Model& lamp_model) {
+    write(lamp_model);
+    EXPECT_NE(said("cc -std=c99 -O1 -Wall -Wextra -Werror lamp.c main.c -o play && ./play > out && echo done"), "");
+    std::vector<double> shocks;
+    std::ifstream stream(folder_ / "out");
+    for (double value = 0; stream >> value;) shocks.push_back((value / 4096 - 1) / 0.05);
+    return shocks;
+  };
+  std::ofstream(folder_ / "main.c")
+      << "#include <stdio.h>\n#include \"lamp.h\"\n"
+         "int main(void) { lamp_state lamp; int k; lamp_start(&lamp, 3);\n"
+         "for (k = 0; k < 400000; ++k) printf(\"%d\\n\", lamp_step(&lamp));\nreturn 0; }\n";
+  const auto moment = [](const std::vector<double>& values, int power, double mean) {
+    double sum = 0;
+    for (const double value : values) sum += std::pow(value - mean, power) / static_cast<double>(values.size());
+    return sum;
+  };
+  const auto flaring = shocks_of(model);
+  ASSERT_EQ(flaring.size(), 400000u);
+  const double mean = moment(flaring, 1, 0), sd = std::sqrt(moment(flaring, 2, mean));
+  EXPECT_NEAR(mean, 0, 0.01);
+  EXPECT_NEAR(sd, 1, 0.02);
+  EXPECT_GT(moment(flaring, 3, mean), 2);
+  EXPECT_GT(moment(flaring, 4, mean), 9);
+  dynamics.shock_quantiles.clear();
+  const auto normal = shocks_of(model);
+  EXPECT_NEAR(std::sqrt(moment(normal, 2, 0)), 1, 0.02);
+  EXPECT_NEAR(moment(normal, 4, 0), 3, 0.2);
+}
+
+// The dial: calm for ever, as recorded, and hardly ever calm.
+TEST_F(Firmware, TheDialGoesFromCalmToBreezy) {
+  write(light());
+  std::ofstream(folder_ / "main.c")
+      << "#include <stdio.h>\n#include \"lamp.h\"\n"
+         "int main(void) { lamp_state lamp; int k; lamp_start(&lamp, 3); lamp.breeze = BREEZE;\n"
+         "for (k = 0; k < 200000; ++k) printf(\"%d\\n\", lamp_step(&lamp));\nreturn 0; }\n";
+  const auto calm_at = [&](int breeze) {
+    EXPECT_NE(said("cc -std=c99 -O1 -DBREEZE=" + std::to_string(breeze) +
+                   " lamp.c main.c -o play && ./play > out && echo ok"),
+              "");
+    std::vector<double> trace;
+    std::ifstream stream(folder_ / "out");
+    for (double value = 0; stream >> value;) trace.push_back(value / 4096);
+    return look_of(trace).calm;
+  };
+  const double middle = calm_at(128);
+  EXPECT_GT(calm_at(0), 0.99);
+  EXPECT_GT(calm_at(64), middle + 0.05);
+  EXPECT_LT(calm_at(192), middle - 0.05);
+  EXPECT_LT(calm_at(255), 0.1);
+}
+
+// The three firmwares' headers could not be had: stand-ins have what their sources declare.
+TEST_F(Firmware, ExamplesForLampsCompile) {
+  const std::string lamps = WISP_SOURCE_DIR "/examples/07_led_candle/";
+  const auto source = firmware_source(light(), "candle");
+  ASSERT_TRUE(source);
+  std::ofstream(folder_ / "candle.h") << source->header;
+  std::ofstream(folder_ / "wled.h") << R"(#include <cstdint>
+#define F(text) text
+#define REGISTER_USERMOD(usermod) Usermod* registered = &usermod
+#define RGBW32(r, g, b, w) (uint32_t((w) << 24 | (r) << 16 | (g) << 8 | (b)))
+#define R(c) ((c) >> 16 & 0xff)
+#define G(c) ((c) >> 8 & 0xff)
+#define B(c) ((c) & 0xff)
+#define W(c) ((c) >> 24)
+#define USERMOD_ID_UNSPECIFIED 1
+struct Entry { Entry& operator=(int) { return *this; } };
+struct JsonObject { Entry operator[](const char*) const { return {}; } JsonObject(Entry = {}) {} bool isNull() const { return true; }
+  JsonObject createNestedObject(const char*) { return {}; } };
+template <class T> bool getJsonValue(Entry, T&, T) { return true; }
+struct Usermod { virtual void setup() {} virtual void handleOverlayDraw() {} virtual void addToConfig(JsonObject&) {}
+  virtual bool readFromConfig(JsonObject&) { return true; } virtual uint16_t getId() { return 0; } };
+struct Segment { uint16_t start, stop; };
+struct Strip { uint16_t getLengthTotal(); uint8_t getSegmentsNum(); Segment& getSegment(uint8_t);
+  uint32_t getPixelColor(unsigned); void setPixelColor(unsigned, uint32_t); };
+extern Strip strip;
+uint32_t millis();
+)";
+  const std::string compile = "c++ -std=c++17 -Wall -Wextra -Werror -fsyntax-only -I. ";
+  EXPECT_NE(said(compile + "-x c++ " + lamps + "wled/wisp_candle/wisp_candle.cpp && echo done"), "");
+  said("mkdir -p esphome/components/light esphome/core");
+  std::ofstream(folder_ / "esphome/core/hal.h") << "#include <cstdint>\nnamespace esphome { uint32_t millis(); }\n";
+  std::ofstream(folder_ / "esphome/components/light/addressable_light_effect.h") << R"(#include <cstdint>
+#include <string>
+namespace esphome {
+struct Color { Color operator*(uint8_t) const { return *this; } };
+namespace light {
+struct AddressableLight { int32_t size() const; Color& operator[](int32_t); void schedule_show(); };
+struct AddressableLightEffect { explicit AddressableLightEffect(const std::string&) {}
+  virtual void apply(AddressableLight&, const Color&) = 0; };
+}}
+)";
+  std::ofstream(folder_ / "effect.cpp") << "#include \"" + lamps +
+                                               "esphome/components/wisp_candle/wisp_candle.h\"\n"
+                                               "esphome::wisp_candle::WispCandleEffect effect(\"candle\");\n";
+  EXPECT_NE(said(compile + "effect.cpp && echo done"), "");
+  EXPECT_NE(said("python3 -m py_compile " + lamps + "esphome/components/wisp_candle/__init__.py && rm -rf " + lamps +
+                 "esphome/components/wisp_candle/__pycache__ && echo done"),
+            "");
+  std::ofstream(folder_ / "driver.cpp") << R"(#include <cstdint>
+#define USE_WISP_CANDLE
+#define USE_LIGHT
+#define PROGMEM
+#define FUNC_LOOP 1
+#define FUNC_COMMAND 2
+struct { int payload; } XdrvMailbox;
+struct { uint32_t power; } TasmotaGlobal;
+struct { uint8_t device; } Light;
+void ResponseCmndNumber(int); uint32_t millis(); uint32_t ESP_getChipId(); void LightSetBri(uint8_t, uint8_t);
+bool DecodeCommand(const char*, void (*const*)(void));
+void CmndWispBreeze(void);
+#include ")" + lamps + "tasmota/xdrv_120_wisp_candle.ino\"\n";
+  EXPECT_NE(said(compile + "driver.cpp && echo done"), "");
+}
+
 // All pairs of 256 neighbouring seeds: none plays another's light, and none goes with it. Over 2,000 s a correlation of
 // lights that have nothing to do with each other is 0.02 or so, the largest of 32,640 below 0.1.
 TEST_F(Firmware, NeighbouringSeedsFlickerApart) {

@@ -29,6 +29,7 @@ void expect_same(const Model& a, const Model& b) {
   expect_same_frame(x, y);
   EXPECT_EQ(x.initial, y.initial);
   EXPECT_EQ(x.transitions, y.transitions);
+  EXPECT_EQ(x.shock_quantiles, y.shock_quantiles);
   ASSERT_EQ(x.modes.size(), y.modes.size());
   for (std::size_t k = 0; k < x.modes.size(); ++k) {
     expect_same_coefficients(x.modes[k], y.modes[k]);
@@ -43,6 +44,12 @@ TEST(SwitchedModel, WhatIsWrittenIsRead) {
   const auto read = parse_model(*bytes, "switched.wisp");
   ASSERT_TRUE(read) << read.error().message;
   expect_same(*read, model);
+
+  Model flaring = model;
+  for (int k = 0; k < 17; ++k) switched(flaring).shock_quantiles.push_back(k < 16 ? 0.1 * k - 1 : 9);
+  const auto again = parse_model(*model_bytes(flaring), "flaring.wisp");
+  ASSERT_TRUE(again) << again.error().message;
+  expect_same(*again, flaring);
 }
 
 // Written when switched models came into the format; it must load, and mean the same, for ever.
@@ -64,6 +71,15 @@ TEST(SwitchedModel, WhatMakesNoSenseIsRefusedByName) {
     const char* said;
   };
   const Wrong all[] = {
+      {[](auto& m) {
+         m.shock_quantiles = {1, 2};
+       },
+       "quantiles has 2 values, expected 17"},
+      {[](auto& m) {
+         m.shock_quantiles = std::vector<double>(17, 1);
+         m.shock_quantiles[3] = 0;
+       },
+       "quantiles do not ascend"},
       {[](auto& m) { m.modes.clear(); }, "0 modes, expected 1 to 64"},
       {[](auto& m) { m.modes.resize(65); }, "65 modes"},
       {[](auto& m) { m.modes[1].theta[1].pop_back(); },

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 
@@ -40,9 +39,15 @@ void fade_edges(float room, Image& image) {
   }
 }
 
-// Frames `height` pixels high, cut to where the flame and its halo reach in any of them.
+// What a flipbook shows of a take.
+struct Pages {
+  std::vector<std::size_t> frames;  // of the take
+  int height = 0, width = 0;        // of a frame; width 0: as wide as the flame and its halo reach in any of them
+};
+
 // Errors: the model is no flame; the height is not 16 to 2048.
-Result<Flipbook> flame_flipbook(const Model& model, const Take& take, int height) {
+Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Pages& pages) {
+  const int height = pages.height;
   constexpr int kPoints = 96;
   constexpr float kHalo = 0.35F;  // margin around the flame, in its heights
   if (!is_flame(model)) {
@@ -51,11 +56,11 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, int height
         "into a .c"};
   }
   if (height < 16 || height > 2048) {
-    return Error{"--height is " + std::to_string(height) + " pixels, expected 16 to 2048"};
+    return Error{"a frame is " + std::to_string(height) + " pixels high, expected 16 to 2048"};
   }
   float left = 0, right = 0, top = 0;
   std::vector<std::vector<Point>> outlines;
-  for (std::size_t frame = 0; frame < take.frames; ++frame) {
+  for (const std::size_t frame : pages.frames) {
     const auto points = outline_of(model, take, frame, 0, kPoints);
     outlines.emplace_back();
     for (std::size_t k = 0; k < points.size(); k += 2) {
@@ -68,11 +73,16 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, int height
   // A small halo that nearly fits the margin.
   const FlameStyle style{.glow_reach = 0.25F, .candle = false};
   FlameScene scene;
+  const float across = right - left + 2 * kHalo;
   scene.pixels_per_unit = static_cast<float>(height) / (top + 2 * kHalo);
-  const float room = kHalo * scene.pixels_per_unit;
-  scene.base = {room - left * scene.pixels_per_unit, static_cast<float>(height) - room};
-  const int width = static_cast<int>(std::ceil((right - left) * scene.pixels_per_unit + 2 * room));
-  Flipbook book{.rate_hz = take.rate_hz, .loop = take.loop, .pivot = scene.base};
+  if (pages.width > 0)
+    scene.pixels_per_unit = std::min(scene.pixels_per_unit, static_cast<float>(pages.width) / across);
+  const float room = kHalo * scene.pixels_per_unit, reach = across * scene.pixels_per_unit;
+  const int width = pages.width > 0 ? pages.width : static_cast<int>(std::ceil(reach));
+  const float margin = pages.width > 0 ? (static_cast<float>(width) - reach) / 2 : 0;
+  scene.base = {margin + room - left * scene.pixels_per_unit, static_cast<float>(height) - room};
+  const double seconds = static_cast<double>(take.frames) / take.rate_hz;
+  Flipbook book{.rate_hz = static_cast<double>(pages.frames.size()) / seconds, .loop = take.loop, .pivot = scene.base};
   for (const auto& outline : outlines) {
     book.frames.emplace_back(width, height);
     draw_flame(book.frames.back(), outline, scene, style);
@@ -82,7 +92,7 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, int height
   return book;
 }
 
-constexpr int kAtlasHeight = 256, kLottieHeight = 512;
+constexpr int kFilmHeight = 256, kLottieHeight = 512, kAtlasColumns = 8, kAtlasSize = 1024;
 
 struct Job {
   const Model& model;
@@ -90,8 +100,8 @@ struct Job {
   std::string path;
 };
 
-int height_of(const Job& job, int fallback) {
-  return job.arguments.has("height") ? job.arguments.integer("height") : fallback;
+int given(const Job& job, const char* flag, int fallback) {
+  return job.arguments.has(flag) ? job.arguments.integer(flag) : fallback;
 }
 
 Result<void> write_gltf(const Job& job, const Take& taken) {
@@ -101,15 +111,37 @@ Result<void> write_gltf(const Job& job, const Take& taken) {
 }
 
 Result<void> write_lottie(const Job& job, const Take& taken) {
-  const auto text = lottie_text(job.model, taken, height_of(job, kLottieHeight));
+  const auto text = lottie_text(job.model, taken, given(job, "size", kLottieHeight));
   if (!text) return text.error();
   return write_file(job.path, *text);
 }
 
 Result<void> write_pictures(const Job& job, const Take& taken) {
-  const auto book = flame_flipbook(job.model, taken, height_of(job, kAtlasHeight));
+  const bool atlas = job.path.ends_with(".png");
+  const int columns = given(job, "columns", kAtlasColumns), size = given(job, "size", kAtlasSize);
+  if (atlas && (columns < 1 || columns > 64)) return Error{"--columns is not 1 to 64"};
+  auto count = atlas ? static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) : taken.frames;
+  if (job.arguments.has("frames")) count = static_cast<std::size_t>(std::max(1, job.arguments.integer("frames")));
+  Pages pages{{}, atlas ? size / columns : given(job, "size", kFilmHeight), atlas ? size / columns : 0};
+  count = std::min(count, taken.frames);
+  for (std::size_t k = 0; k < count; ++k) pages.frames.push_back(k * taken.frames / count);
+  auto book = flame_flipbook(job.model, taken, pages);
   if (!book) return book.error();
-  return job.path.ends_with(".png") ? write_atlas(job.path, *book) : write_animation(job.path, *book);
+  book->columns = columns;
+  return atlas ? write_atlas(job.path, *book) : write_animation(job.path, *book);
+}
+
+// OUT.vat.png, and OUT.vat.json beside it.
+Result<void> write_vertices(const Job& job, const Take& taken) {
+  const auto made = vertex_animation(job.model, taken);
+  if (!made) return made.error();
+  Image texture(static_cast<int>(made->columns), static_cast<int>(made->rows));
+  for (std::size_t k = 0; k < texture.pixels().size(); ++k) {
+    const std::uint8_t* rgb = &made->rgb[3 * k];
+    texture.pixels()[k] = 0xff000000U | static_cast<std::uint32_t>(rgb[0] << 16 | rgb[1] << 8 | rgb[2]);
+  }
+  if (auto ok = write_png(job.path, texture); !ok) return ok;
+  return write_file(std::filesystem::path(job.path).replace_extension(".json"), made->json);
 }
 
 // NAME.c, and NAME.h beside it.
@@ -134,25 +166,32 @@ Result<void> check_flags(const Arguments& arguments, const std::string& extensio
     return Error{"--" + std::string(flag) + " does nothing to a " + extension + " file, which " + why};
   };
   if (extension == ".c") {
-    static const std::map<const char*, const char*> of_play = {{"seconds", "4"}, {"loop", ""},   {"wind", "0"},
-                                                               {"noise", "on"},  {"height", ""}, {"seed", "1"}};
+    static const std::map<const char*, const char*> of_play = {
+        {"seconds", "4"}, {"loop", ""}, {"wind", "0"}, {"noise", "on"}, {"size", ""}, {"seed", "1"}, {"input", ""}};
     for (const auto& [flag, fallback] : of_play) {
       if (auto ok = refuse(flag, fallback, "is the model itself and plays for ever"); !ok) return ok;
     }
   }
-  if (extension == ".glb") return refuse("height", "", "is in metres");
+  if (extension != ".png") {
+    if (auto ok = refuse("columns", "", "is no atlas"); !ok) return ok;
+  }
+  if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop"))) {
+    return Error{"--input does not go with --columns, or with --loop, which is a steady play"};
+  }
+  if (extension == ".glb") return refuse("size", "", "is in metres");
   return refuse("instances", "1", "holds one");
 }
 
 Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
-  static const std::map<std::string, std::function<Result<void>(const Job&, const Take&)>> writers = {
+  static const std::map<std::string, Result<void> (*)(const Job&, const Take&)> writers = {
       {".glb", write_gltf},      {".json", write_lottie},   {".png", write_pictures},
       {".apng", write_pictures}, {".webm", write_pictures},
   };
   const std::string& path = arguments.text("output");
   const std::string extension = std::filesystem::path(path).extension().string();
   const auto writer = writers.find(extension);
-  if (writer == writers.end() && extension != ".c") {
+  const auto write = path.ends_with(".vat.png") ? write_vertices : writer == writers.end() ? nullptr : writer->second;
+  if (!write && extension != ".c") {
     return Error{path + ": cannot be written, expected a name that ends in .glb, .json, .png, .apng, .webm or .c"};
   }
   if (auto ok = check_flags(arguments, extension); !ok) return ok;
@@ -162,7 +201,7 @@ Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
   const Job job{*model, arguments, path};
   const auto taken = take_from(*model, arguments, terminal);
   if (!taken) return taken.error();
-  if (auto ok = writer->second(job, *taken); !ok) {
+  if (auto ok = write(job, *taken); !ok) {
     return ok.error().message.starts_with(path) ? ok : Error{path + ": " + ok.error().message};
   }
   terminal.add("output", path);
@@ -185,25 +224,32 @@ Command export_command() {
            Kind::kOutput,
            "OUT",
            "",
-           "what to write: OUT.glb, .json, .png, .apng, .webm or .c",
+           "what to write: OUT.glb, .json, .png, .vat.png, .apng, .webm or .c",
            {},
            true,
            {},
-           {".h", ".atlas.json"}},
+           {".h", ".atlas.json", ".json"}},
           {"seconds", Kind::kNumber, "S", "4", "how much of its play"},
           loop_flag(),
           {"instances", Kind::kInteger, "K", "1", "how many in one .glb, each with its own chance"},
           {"wind", Kind::kNumber, "W", "0", "a constant value for every input"},
           {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},
-          {"height", Kind::kInteger, "PIXELS", "", "of a frame; default 256 for pictures, 512 for Lottie"},
+          {"input", Kind::kPath, "REC", "",
+           "a recording or a WAV of blowing in the place of --wind; a flame may go out"},
+          {"size", Kind::kInteger, "PIXELS", "",
+           "width of an atlas, or height of another picture; default 1024, for APNG and WebM 256, for Lottie 512"},
+          {"frames", Kind::kInteger, "N", "", "of pictures, evenly spread; default: columns² in an atlas, else all"},
+          {"columns", Kind::kInteger, "N", "", "of an atlas, whose frames are square; default 8"},
           {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
       },
       {
           {"wisp export leaf.wisp --loop 6 --instances 20 -o leaves.glb", "Twenty leaves that fall for ever"},
           {"wisp export flame.wisp --loop 4 -o flame.glb",
            "A flame as a mesh whose morph targets are the model's outputs"},
-          {"wisp export flame.wisp --loop 2 --height 128 -o flame.png",
-           "A sprite atlas for a game, premultiplied, and flame.atlas.json that says where the frames are"},
+          {"wisp export flame.wisp --loop 2 -o flame.png",
+           "A sprite atlas for a game: 64 frames in 1024 x 1024, premultiplied; flame.atlas.json says where they are"},
+          {"wisp export flame.wisp --loop 4 -o flame.vat.png",
+           "A vertex animation texture for crowds, and flame.vat.json"},
           {"wisp export flame.wisp --loop 3 -o flame.json", "The outline as a Lottie animation"},
           {"wisp export light.wisp -o candle.c", "A lamp that flickers, in fixed point, for a microcontroller"},
       },

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "films/candle_pictures.hpp"
+#include "flags/wind_input.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
 
@@ -76,6 +77,14 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
                       .noise = arguments.text("noise") == "on"};
   options.seconds = arguments.number(options.loop ? "loop" : "seconds");
   options.inputs.assign(model.inputs.size(), arguments.number("wind"));
+  if (arguments.has("input")) {
+    const auto track = InputTrack::from(model, arguments);
+    if (!track) return track.error();
+    for (std::size_t frame = 0; frame < track->rows(); ++frame) {
+      for (const float value : track->at(frame)) options.schedule.push_back(value);
+    }
+    options.seconds = static_cast<double>(track->rows()) / model.rate_hz;
+  }
   auto taken = take(model, options);
   if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
   terminal.add("frames", taken->frames);

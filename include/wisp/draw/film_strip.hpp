@@ -37,6 +37,7 @@ struct Flipbook {
   std::vector<Image> frames{};
   double rate_hz = 30;
   bool loop = false;  ///< the first frame follows the last one
+  int columns = 0;    ///< of an atlas; 0: as near to a square as whole frames make it
   Point pivot{};      ///< what stands still, in pixels of a frame: a flame's base
 };
 

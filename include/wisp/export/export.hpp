@@ -22,6 +22,8 @@ struct TakeOptions {
   std::uint64_t seed = 1;        ///< of the random streams
   bool noise = true;             ///< the residual noise; a loop without it stands still
   std::vector<double> inputs{};  ///< constant, per input of the model, in its unit; missing ones are 0
+  /// Rows of all inputs, a frame each, in the place of `inputs`; the last row stays. A flame may go out. Not for loops.
+  std::vector<float> schedule{};
 };
 
 /// Frames of a model at its own rate, recorded after the model has settled.
@@ -61,6 +63,19 @@ Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
 /// Errors: the model's outputs are no outline; the height is not 16 to 8192; the take is not of this model.
 Result<std::string> lottie_text(const Model& model, const Take& take, int height = 512);
 
+/// A take's first instance as places of points for a vertex shader: a picture of `columns` points and, from above, a
+/// row a frame with the upper bytes of x, y, z as red, green, blue, then a row a frame with the lower bytes. 0 is
+/// `lowest` and 65535 `highest`, in `json` with frames, rate, travel of a loop and triangles.
+struct VertexAnimation {
+  std::size_t columns = 0, rows = 0;
+  std::vector<std::uint8_t> rgb{};  ///< rows × columns × 3
+  std::string json{};
+};
+
+/// Points of an outline, in its units, or the edge of a body's ellipse, in metres, z up.
+/// Errors: the model's outputs are neither an outline nor a pose; the take is not of this model.
+Result<VertexAnimation> vertex_animation(const Model& model, const Take& take);
+
 /// C99 for microcontrollers: one file with what the model is, one that declares it.
 struct FirmwareSource {
   std::string header;         ///< NAME.h
@@ -69,8 +84,8 @@ struct FirmwareSource {
 };
 
 /// A model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library. All that
-/// compilers agree on, so that every processor plays the same numbers from the same seed. Shocks are Gaussian (of the
-/// residuals' size, where the model plays residuals again), made of four random bytes. `name` begins all names in it.
+/// compilers agree on, so that every processor plays the same numbers from the same seed. Shocks are drawn from 17
+/// quantiles of the recorded ones where the model has them, and are normal elsewhere. `name` begins all names in it.
 /// Errors: not exactly one output; an input; a chain; more than 16 modes or 32 lags; a coefficient of 8 or more; a name
 /// that C does not take.
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);

@@ -17,6 +17,7 @@
 namespace wisp {
 
 inline constexpr std::size_t kMaxArxModes = 64;
+inline constexpr std::size_t kShockQuantiles = 17;
 
 /// One mode. Shapes are those of ArxModel.
 struct ArxMode {
@@ -33,6 +34,9 @@ struct SwitchedArxModel {
   std::vector<ArxMode> modes;       ///< 1 … kMaxArxModes
   std::vector<double> initial;      ///< per mode, probability of an instance's first sample; sums to 1
   std::vector<double> transitions;  ///< probabilities, from × to, row-major; rows sum to 1
+  /// Of recorded shocks over their standard deviation, at probabilities 0, 1/16 … 1; or empty. Exported lamps draw from
+  /// them, banks play normal shocks.
+  std::vector<double> shock_quantiles{};
 };
 
 /// One mode as an ARX model of its own, its shocks as a mixing matrix.

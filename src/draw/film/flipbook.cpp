@@ -71,6 +71,7 @@ struct Grid {
 // As near to a square as whole frames make it.
 Grid grid_of(const Flipbook& book) {
   const auto count = static_cast<double>(book.frames.size());
+  if (book.columns > 0) return {book.columns, static_cast<int>(std::ceil(count / book.columns))};
   const double shape = static_cast<double>(book.frames[0].height()) / book.frames[0].width();
   const int columns = std::clamp(static_cast<int>(std::ceil(std::sqrt(count * shape))), 1, static_cast<int>(count));
   return {columns, static_cast<int>(std::ceil(count / columns))};

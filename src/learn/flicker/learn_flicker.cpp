@@ -221,6 +221,27 @@ std::optional<ArxMode> regress(const markov::Rows& rows, const std::vector<int>&
   return markov::model_mode(found, rows);
 }
 
+// Of the shocks that a mode leaves over in its own rows, over their standard deviation.
+std::vector<double> quantiles_of(const Light& light, const std::vector<std::vector<int>>& modes, int mode,
+                                 const SwitchedArxModel& model) {
+  const ArxModel arx = mode_model(model, static_cast<std::size_t>(mode));
+  const auto a = arx.a(0, 0);
+  std::vector<double> shocks, quantiles;
+  for (std::size_t t = 0; t < light.learned.size(); ++t) {
+    const auto& trace = light.learned[t];
+    for (std::size_t row = a.size(); row < trace.size(); ++row) {
+      double shock = trace[row] - 1 - arx.constant[0];
+      for (std::size_t lag = 0; lag < a.size(); ++lag) shock += a[lag] * (trace[row - lag - 1] - 1);
+      if (modes[t][row] == mode) shocks.push_back(shock);
+    }
+  }
+  for (std::size_t k = 0; k < kShockQuantiles; ++k) {
+    const double share = static_cast<double>(k) / (kShockQuantiles - 1);
+    quantiles.push_back(quantile(shocks, share) / std::max(1e-12, deviation(shocks)));
+  }
+  return quantiles;
+}
+
 // All traces as one recording, an episode each.
 Recording recording_of(const Traces& traces, double rate_hz) {
   Recording recording{.source = "light", .rate_hz = rate_hz, .channels = {{"brightness", "", Role::kOutput, {}}}};
@@ -423,6 +444,8 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
     dynamics.modes.push_back(std::move(*found));
   }
   count_transitions(modes, dynamics);
+  // The most restless mode makes the flares.
+  dynamics.shock_quantiles = quantiles_of(light, modes, recipe.modes - 1, dynamics);
   Fit fit{plain(light, recipe, recordings), {}};
   fit.model.dynamics = std::move(dynamics);
   const auto& learned = std::get<SwitchedArxModel>(fit.model.dynamics);

@@ -47,6 +47,12 @@ TEST(LearnFlicker, PlaysAsCalmAndAsStronglyAsWhatWasHeldOut) {
   EXPECT_NEAR(figure(*fit, "played_calm_share"), figure(*fit, "held_out_calm_share"), 0.10);
   EXPECT_NEAR(figure(*fit, "played_sd") / figure(*fit, "held_out_sd"), 1, 0.15);
   EXPECT_GT(figure(*fit, "played_calm_share"), 0.2);
+  // What an exported lamp draws its shocks from: here, normal ones.
+  const auto& quantiles = std::get<SwitchedArxModel>(fit->model.dynamics).shock_quantiles;
+  ASSERT_EQ(quantiles.size(), 17u);
+  EXPECT_NEAR(quantiles[8], 0, 0.1);
+  EXPECT_NEAR(quantiles[12], 0.6745, 0.15);
+  EXPECT_GT(quantiles[16], 2.5);
 }
 
 TEST(LearnFlicker, AFasterTraceIsAveragedDown) {
