@@ -4,8 +4,6 @@
 
 #include <limits>
 
-#include "base/words.hpp"
-
 namespace wisp::verdict_test {
 namespace {
 
@@ -31,16 +29,6 @@ TEST(Verdict, AFigureAboveItsLimitIsMissed) {
 TEST(Verdict, AFigureThatWasNotMeasuredAbstains) {
   const Criterion criteria[] = {{kNotMeasured, Bound::kAtLeast, 1, "low"}, {kNotMeasured, Bound::kAtMost, 1, "high"}};
   EXPECT_FALSE(first_missed(criteria));
-}
-
-enum class Fruit { kApple, kPear, kPlum };
-constexpr Words<Fruit, 3> kFruits = {{{"apple", Fruit::kApple}, {"pear", Fruit::kPear}, {"plum", Fruit::kPlum}}};
-
-TEST(Words, AreReadAndPrintedFromOneTable) {
-  EXPECT_EQ(word_of(kFruits, Fruit::kPear), "pear");
-  EXPECT_EQ(value_of(kFruits, "plum"), Fruit::kPlum);
-  EXPECT_FALSE(value_of(kFruits, "Plum"));
-  EXPECT_EQ(list_of(kFruits), "apple, pear or plum");
 }
 
 }  // namespace

@@ -31,8 +31,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"base",
        {{},
         {"fcntl.h", "unistd.h", "io.h", "process.h"},
-        {"base/hash.hpp", "base/json_text.hpp", "base/path_text.hpp", "base/statistics.hpp", "base/verdict.hpp",
-         "base/words.hpp"}}},
+        {"base/hash.hpp", "base/json_text.hpp", "base/path_text.hpp", "base/statistics.hpp", "base/verdict.hpp"}}},
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}, {"model/bspline.hpp"}}},
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},
