@@ -1,6 +1,8 @@
 #pragma once
-// The edge points of one outline in their order: from the base's left over the tip to the base's right, each with its
-// place along the way.
+// Edge points: Sobel gradients along a region's boundary, located to a fraction of a pixel (section 3.1 of the paper;
+// the direction from the picture itself, the place where brightness along it crosses the level, which a thresholded
+// picture gives only to half a pixel). And the edge points of one outline in their order: from the base's left over the
+// tip to the base's right, each with its place along the way.
 //
 // The base is where the outline is open. Its two corners are the boundary's outermost points towards lower left and
 // lower right, seen along the axis of the thing's lower part: on a flat base its corners, on a round one two points
@@ -15,9 +17,23 @@
 #include <span>
 #include <vector>
 
-#include "capture/vision/edges.hpp"
+#include "capture/vision/region.hpp"
+#include "wisp/capture/vision/image.hpp"
 
 namespace wisp {
+
+/// A point on the outline.
+struct EdgePoint {
+  double x = 0;  ///< pixels, pixel centres at whole numbers
+  double y = 0;
+  double normal_x = 0;  ///< unit, pointing out of the bright region
+  double normal_y = 0;
+};
+
+/// Locates the edge at one boundary pixel.
+///
+/// Precondition: pixel lies inside the image and is brighter than `level`.
+EdgePoint locate_edge(const ImageView& image, int level, PixelPosition pixel);
 
 /// Steps of a pace that is fitted.
 inline constexpr int kPaceSteps = 64;

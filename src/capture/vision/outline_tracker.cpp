@@ -4,11 +4,56 @@
 #include <cassert>
 #include <cmath>
 
-#include "capture/vision/cholesky.hpp"
 #include "capture/vision/region.hpp"
 
 namespace wisp {
 namespace {
+
+// Replaces the lower triangle of the n × n matrix by its factor L with L Lᵀ = matrix. Returns false where the matrix
+// is not positive definite.
+bool cholesky(std::span<double> matrix, int n) {
+  for (int i = 0; i < n; ++i) {
+    double* row = matrix.data() + static_cast<std::ptrdiff_t>(i) * n;
+    for (int j = 0; j <= i; ++j) {
+      const double* other = matrix.data() + static_cast<std::ptrdiff_t>(j) * n;
+      double sum = row[j];
+      for (int k = 0; k < j; ++k) sum -= row[k] * other[k];
+      if (j < i) {
+        row[j] = sum / other[j];
+      } else {
+        if (!(sum > 0)) return false;
+        row[i] = std::sqrt(sum);
+      }
+    }
+  }
+  return true;
+}
+
+// Solves L Lᵀ x = b in place.
+void cholesky_solve(std::span<const double> factor, int n, std::span<double> b) {
+  for (int i = 0; i < n; ++i) {
+    const double* row = factor.data() + static_cast<std::ptrdiff_t>(i) * n;
+    double sum = b[i];
+    for (int k = 0; k < i; ++k) sum -= row[k] * b[k];
+    b[i] = sum / row[i];
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    const double* row = factor.data() + static_cast<std::ptrdiff_t>(i) * n;
+    b[i] /= row[i];
+    for (int k = 0; k < i; ++k) b[k] -= row[k] * b[i];
+  }
+}
+
+// The whole inverse of L Lᵀ into `inverse` (n × n).
+void cholesky_inverse(std::span<const double> factor, int n, std::span<double> inverse) {
+  for (int column = 0; column < n; ++column) {
+    // Row `column` serves as the right-hand side: the inverse is symmetric.
+    const std::span<double> row = inverse.subspan(static_cast<std::size_t>(column) * n, n);
+    std::fill(row.begin(), row.end(), 0.0);
+    row[column] = 1;
+    cholesky_solve(factor, n, row);
+  }
+}
 
 constexpr double kMinNormalSd = 0.25;  // pixels: what is left of noise when an edge is located well
 

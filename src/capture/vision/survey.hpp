@@ -4,17 +4,37 @@
 // Wax, the wick's holder and reflections are bright too. Over a few pictures, bright regions of many levels in every
 // channel are weighed by what a flame does (candidates.hpp), first in the whole picture on a coarse grid, then around
 // each flame on a finer one: region, channel and level are chosen together.
+//
+// Levels are those of N. Otsu, A Threshold Selection Method from Gray-Level Histograms, IEEE Trans. SMC 9(1), 1979, as
+// section 3.1 of the paper asks for one that separates the histogram's two clusters, flame and background.
 
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "capture/vision/edge_cloud.hpp"
-#include "capture/vision/threshold.hpp"
 #include "wisp/base/result.hpp"
+#include "wisp/capture/vision/image.hpp"
 #include "wisp/capture/vision/picture.hpp"
 
 namespace wisp {
+
+/// Counts every `step`-th pixel of every `step`-th row.
+///
+/// Precondition: step >= 1.
+void add_to_histogram(Histogram& histogram, const ImageView& image, int step);
+
+/// A histogram cut in two.
+struct TwoClusters {
+  int threshold = 0;        ///< brighter than this is the bright cluster; 0 to 254
+  double separation = 0;    ///< variance between the clusters over the whole variance, 0 (one cluster) to 1
+  double dark_mean = 0;     ///< mean brightness of the dark cluster
+  double bright_mean = 0;   ///< mean brightness of the bright one
+  double bright_share = 0;  ///< share of pixels in the bright cluster
+};
+
+/// Cuts the histogram where its clusters are farthest apart. Separation is 0 where there is only one brightness.
+TwoClusters split_histogram(const Histogram& histogram);
 
 /// What to look for.
 struct SurveyOptions {

@@ -1,4 +1,4 @@
-#include "capture/vision/threshold.hpp"
+#include "capture/vision/survey.hpp"
 
 #include <gtest/gtest.h>
 
