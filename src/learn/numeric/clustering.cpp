@@ -4,14 +4,34 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
 
-#include "learn/numeric/nearest_centroids.hpp"
-
 namespace wisp {
 namespace {
+
+struct Rows {
+  const double* values;
+  std::size_t count;
+  std::size_t columns;
+
+  const double* at(std::size_t row) const { return values + row * columns; }
+};
+
+double squared_distance(const double* a, const double* b, std::size_t columns) {
+  // Two sums: additions that wait for one another are what this costs.
+  double even = 0, odd = 0;
+  std::size_t k = 0;
+  for (; k + 1 < columns; k += 2) {
+    const double x = a[k] - b[k], y = a[k + 1] - b[k + 1];
+    even += x * x;
+    odd += y * y;
+  }
+  if (k < columns) even += (a[k] - b[k]) * (a[k] - b[k]);
+  return even + odd;
+}
 
 double unit_interval(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
@@ -65,26 +85,70 @@ std::vector<double> start_centroids(const Rows& rows, int clusters, std::mt19937
   return centroids;
 }
 
-KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  NearestCentroids search(rows, start_centroids(rows, options.clusters, random));
-  int round = 0;
-  while (round < options.max_iterations) {
-    ++round;
-    if (search.round() <= options.tolerance * variance) break;
+// Every row to its nearest centroid; a cluster that is left without one gets the row that is farthest from its own.
+void assign(const Rows& rows, KMeans& found) {
+  std::vector<double> away(rows.count);
+  std::fill(found.sizes.begin(), found.sizes.end(), 0);
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    away[row] = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < found.sizes.size(); ++k) {
+      const double distance = squared_distance(rows.at(row), &found.centroids[k * rows.columns], rows.columns);
+      if (distance >= away[row]) continue;
+      away[row] = distance;
+      found.cluster[row] = static_cast<std::uint16_t>(k);
+    }
+    ++found.sizes[found.cluster[row]];
   }
-  return search.result(round);
+  for (std::size_t k = 0; k < found.sizes.size(); ++k) {
+    if (found.sizes[k] > 0) continue;
+    std::size_t farthest = 0;
+    double most = -1;
+    for (std::size_t row = 0; row < rows.count; ++row) {
+      if (found.sizes[found.cluster[row]] < 2 || away[row] <= most) continue;
+      most = away[row];
+      farthest = row;
+    }
+    --found.sizes[found.cluster[farthest]];
+    found.cluster[farthest] = static_cast<std::uint16_t>(k);
+    found.sizes[k] = 1;
+    away[farthest] = 0;
+  }
+  found.inertia = std::accumulate(away.begin(), away.end(), 0.0);
 }
 
-// From where a start stopped to where no row changes sides any more: only the best start is worth it.
-KMeans to_the_end(const Rows& rows, const KMeansOptions& options, const KMeans& found) {
-  NearestCentroids search(rows, found.centroids);
-  int round = found.rounds;
-  while (round < options.max_iterations) {
-    ++round;
-    if (search.round() <= 0) break;
+// Centroids to the means of their rows; the sum of their squared movements.
+double move_centroids(const Rows& rows, KMeans& found) {
+  std::vector<double> sums(found.centroids.size());
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    double* sum = &sums[found.cluster[row] * rows.columns];
+    for (std::size_t column = 0; column < rows.columns; ++column) sum[column] += rows.at(row)[column];
   }
-  return search.result(round);
+  double moved = 0;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const double mean = sums[k] / static_cast<double>(found.sizes[k / rows.columns]);
+    moved += (mean - found.centroids[k]) * (mean - found.centroids[k]);
+    found.centroids[k] = mean;
+  }
+  return moved;
+}
+
+// From its centroids on, until a round moves them by no more than `least`.
+void alternate(const Rows& rows, int most_rounds, double least, KMeans& found) {
+  while (found.rounds < most_rounds) {
+    ++found.rounds;
+    assign(rows, found);
+    if (move_centroids(rows, found) <= least) break;
+  }
+  assign(rows, found);
+}
+
+KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  KMeans found{.columns = rows.columns, .centroids = start_centroids(rows, options.clusters, random)};
+  found.cluster.resize(rows.count);
+  found.sizes.resize(static_cast<std::size_t>(options.clusters));
+  alternate(rows, options.max_iterations, options.tolerance * variance, found);
+  return found;
 }
 
 // Mean variance of the columns: what movements of the centroids are measured against.
@@ -139,7 +203,9 @@ Result<KMeans> k_means(std::span<const double> values, std::size_t columns, cons
   work();
   for (std::thread& thread : threads) thread.join();
   const auto less = [](const KMeans& a, const KMeans& b) { return a.inertia < b.inertia; };
-  return to_the_end(rows, options, *std::min_element(found.begin(), found.end(), less));
+  KMeans best = std::move(*std::min_element(found.begin(), found.end(), less));
+  alternate(rows, options.max_iterations, 0, best);  // until no row changes sides: only the best start is worth it
+  return best;
 }
 
 double silhouette(std::span<const double> values, std::size_t columns, const KMeans& found, std::size_t most) {

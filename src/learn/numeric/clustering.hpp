@@ -2,8 +2,7 @@
 // K-means: rows of numbers into K clusters of least squared distance to their centroid.
 //
 // Sources: S. P. Lloyd (1982) for the alternation; D. Arthur & S. Vassilvitskii, k-means++ (SODA 2007), greedy variant,
-// for the starts; G. Hamerly, Making k-means even faster (SDM 2010), for the bounds by the triangle inequality that
-// leave most distances unmeasured.
+// for the starts.
 
 #include <cstddef>
 #include <cstdint>

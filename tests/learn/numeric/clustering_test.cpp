@@ -60,7 +60,7 @@ TEST(KMeans, FindsClustersThatAreThere) {
   EXPECT_GT(silhouette(rows, 3, *found), 0.7);
 }
 
-TEST(KMeans, BoundsLeaveNothingBetterUnmeasured) {
+TEST(KMeans, EveryRowIsMeasuredToItsOwnCentroid) {
   // Clouds that run into each other, so that rows change sides for long; run to the very end.
   const auto rows = corners(200, 1.6);
   const auto found = k_means(rows, 3, {.clusters = 6, .restarts = 1, .tolerance = 0});
