@@ -13,15 +13,10 @@
 #include <vector>
 
 #include "base/statistics.hpp"
+#include "export/templates.hpp"
 #include "wisp/export/export.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
-
-// What is written, with words to fill in: lamp.h.in and lamp.c.in.
-namespace wisp::exporting {
-extern const char* const lamp_header;
-extern const char* const lamp_source;
-}  // namespace wisp::exporting
 
 namespace wisp {
 namespace {
@@ -135,12 +130,6 @@ Result<void> check(const Lamp& lamp) {
   return {};
 }
 
-bool is_name(std::string_view name) {
-  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
-         std::all_of(name.begin(), name.end(), plain);
-}
-
 std::string whole(double value) { return std::to_string(static_cast<std::int64_t>(std::llround(value))); }
 
 // Formats rows of numbers as C initialisers.
@@ -157,17 +146,6 @@ std::string table(const std::string& type, const std::string& name, std::size_t 
     text += "},\n";
   }
   return text + "};\n";
-}
-
-// Replaces every @KEY@.
-std::string filled(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {
-  for (const auto& [key, word] : words) {
-    const std::string mark = "@" + key + "@";
-    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + word.size())) {
-      text.replace(at, mark.size(), word);
-    }
-  }
-  return text;
 }
 
 constexpr const char* kSwitch = R"(  uint8_t k;
@@ -191,8 +169,19 @@ std::string thresholds(const Lamp& lamp) {
 
 }  // namespace
 
+bool exporting::is_name(std::string_view name) {
+  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+         std::all_of(name.begin(), name.end(), plain);
+}
+
+std::string exporting::comment_text(std::string text) {
+  std::erase_if(text, [](char c) { return c == '*' || c == '/' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
+  return text;
+}
+
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name) {
-  if (!is_name(name)) return Error{"\"" + std::string(name) + "\" is no name in C; call the file after one"};
+  if (!exporting::is_name(name)) return Error{"\"" + std::string(name) + "\" is no name in C; call the file after one"};
   if (auto ok = wisp::check(model); !ok) return ok.error();
   const auto lamp = lamp_of(model);
   if (!lamp) return lamp.error();
@@ -220,9 +209,6 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   };
   std::string upper(name);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  std::string called = model.name;
-  std::erase_if(called,
-                [](char c) { return c == '*' || c == '/' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
   const std::vector<std::pair<std::string, std::string>> words = {
       {"SWITCH", modes > 1 ? kSwitch : ""},
       {"THRESHOLDS", modes > 1 ? thresholds(*lamp) : ""},
@@ -239,9 +225,9 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
       {"RATE", whole(model.rate_hz)},
       {"GUARD", upper + "_H"},
       {"UPPER", upper},
-      {"MODEL", called},
+      {"MODEL", exporting::comment_text(model.name)},
       {"NAME", std::string(name)}};
-  FirmwareSource out{filled(exporting::lamp_header, words), filled(exporting::lamp_source, words), 0};
+  FirmwareSource out{exporting::filled(exporting::lamp_h, words), exporting::filled(exporting::lamp_c, words), 0};
   out.state_bytes = 4 * (lamp->lags + 1) + 4 + 2;
   return out;
 }

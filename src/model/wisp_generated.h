@@ -86,39 +86,33 @@ enum class InputShape : uint8_t {
   Linear = 0,
   SplitSign = 1,
   SplitSignPowers = 4,
-  WindAlong = 5,
-  WindAcross = 6,
   MIN = Linear,
-  MAX = WindAcross
+  MAX = SplitSignPowers
 };
 
-inline const InputShape (&EnumValuesInputShape())[5] {
+inline const InputShape (&EnumValuesInputShape())[3] {
   static const InputShape values[] = {
     InputShape::Linear,
     InputShape::SplitSign,
-    InputShape::SplitSignPowers,
-    InputShape::WindAlong,
-    InputShape::WindAcross
+    InputShape::SplitSignPowers
   };
   return values;
 }
 
 inline const char * const *EnumNamesInputShape() {
-  static const char * const names[8] = {
+  static const char * const names[6] = {
     "Linear",
     "SplitSign",
     "",
     "",
     "SplitSignPowers",
-    "WindAlong",
-    "WindAcross",
     nullptr
   };
   return names;
 }
 
 inline const char *EnumNameInputShape(InputShape e) {
-  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::WindAcross)) return "";
+  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::SplitSignPowers)) return "";
   const size_t index = static_cast<size_t>(e);
   return EnumNamesInputShape()[index];
 }
@@ -548,8 +542,7 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_TOLERANCE = 20,
     VT_MARGIN = 22,
     VT_LONGEST = 24,
-    VT_MIRROR = 26,
-    VT_ACROSS = 28
+    VT_MIRROR = 26
   };
   const flatbuffers::Vector<double> *scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_SCALE);
@@ -587,9 +580,6 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<int16_t> *mirror() const {
     return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_MIRROR);
   }
-  uint16_t across() const {
-    return GetField<uint16_t>(VT_ACROSS, 0);
-  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffsetRequired(verifier, VT_SCALE) &&
@@ -610,7 +600,6 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<uint32_t>(verifier, VT_LONGEST, 4) &&
            VerifyOffset(verifier, VT_MIRROR) &&
            verifier.VerifyVector(mirror()) &&
-           VerifyField<uint16_t>(verifier, VT_ACROSS, 2) &&
            verifier.EndTable();
   }
 };
@@ -655,9 +644,6 @@ struct ResampledResidualsBuilder {
   void add_mirror(flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror) {
     fbb_.AddOffset(ResampledResiduals::VT_MIRROR, mirror);
   }
-  void add_across(uint16_t across) {
-    fbb_.AddElement<uint16_t>(ResampledResiduals::VT_ACROSS, across, 0);
-  }
   explicit ResampledResidualsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -685,8 +671,7 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
     double tolerance = 0.0,
     double margin = 0.0,
     uint32_t longest = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0,
-    uint16_t across = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0) {
   ResampledResidualsBuilder builder_(_fbb);
   builder_.add_margin(margin);
   builder_.add_tolerance(tolerance);
@@ -698,7 +683,6 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
   builder_.add_ends(ends);
   builder_.add_rows(rows);
   builder_.add_scale(scale);
-  builder_.add_across(across);
   builder_.add_against(against);
   builder_.add_toward(toward);
   return builder_.Finish();
@@ -722,8 +706,7 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
     double tolerance = 0.0,
     double margin = 0.0,
     uint32_t longest = 0,
-    const std::vector<int16_t> *mirror = nullptr,
-    uint16_t across = 0) {
+    const std::vector<int16_t> *mirror = nullptr) {
   auto scale__ = scale ? _fbb.CreateVector<double>(*scale) : 0;
   auto rows__ = rows ? _fbb.CreateVector<int8_t>(*rows) : 0;
   auto ends__ = ends ? _fbb.CreateVector<uint32_t>(*ends) : 0;
@@ -743,8 +726,7 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
       tolerance,
       margin,
       longest,
-      mirror__,
-      across);
+      mirror__);
 }
 
 struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
@@ -1761,8 +1743,7 @@ struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_REST = 8,
     VT_BASIS = 10,
     VT_COORDINATES = 12,
-    VT_COMPONENTS = 14,
-    VT_ACROSS = 16
+    VT_COMPONENTS = 14
   };
   uint16_t symmetric() const {
     return GetField<uint16_t>(VT_SYMMETRIC, 0);
@@ -1782,9 +1763,6 @@ struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *components() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_COMPONENTS);
   }
-  uint16_t across() const {
-    return GetField<uint16_t>(VT_ACROSS, 0);
-  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyField<uint16_t>(verifier, VT_SYMMETRIC, 2) &&
@@ -1797,7 +1775,6 @@ struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(coordinates()) &&
            VerifyOffsetRequired(verifier, VT_COMPONENTS) &&
            verifier.VerifyVector(components()) &&
-           VerifyField<uint16_t>(verifier, VT_ACROSS, 2) &&
            verifier.EndTable();
   }
 };
@@ -1824,9 +1801,6 @@ struct ShapeComponentsBuilder {
   void add_components(flatbuffers::Offset<flatbuffers::Vector<double>> components) {
     fbb_.AddOffset(ShapeComponents::VT_COMPONENTS, components);
   }
-  void add_across(uint16_t across) {
-    fbb_.AddElement<uint16_t>(ShapeComponents::VT_ACROSS, across, 0);
-  }
   explicit ShapeComponentsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -1849,14 +1823,12 @@ inline flatbuffers::Offset<ShapeComponents> CreateShapeComponents(
     flatbuffers::Offset<flatbuffers::Vector<double>> rest = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> basis = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> coordinates = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> components = 0,
-    uint16_t across = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<double>> components = 0) {
   ShapeComponentsBuilder builder_(_fbb);
   builder_.add_components(components);
   builder_.add_coordinates(coordinates);
   builder_.add_basis(basis);
   builder_.add_rest(rest);
-  builder_.add_across(across);
   builder_.add_antisymmetric(antisymmetric);
   builder_.add_symmetric(symmetric);
   return builder_.Finish();
@@ -1874,8 +1846,7 @@ inline flatbuffers::Offset<ShapeComponents> CreateShapeComponentsDirect(
     const std::vector<double> *rest = nullptr,
     const std::vector<double> *basis = nullptr,
     const std::vector<double> *coordinates = nullptr,
-    const std::vector<double> *components = nullptr,
-    uint16_t across = 0) {
+    const std::vector<double> *components = nullptr) {
   auto rest__ = rest ? _fbb.CreateVector<double>(*rest) : 0;
   auto basis__ = basis ? _fbb.CreateVector<double>(*basis) : 0;
   auto coordinates__ = coordinates ? _fbb.CreateVector<double>(*coordinates) : 0;
@@ -1887,8 +1858,7 @@ inline flatbuffers::Offset<ShapeComponents> CreateShapeComponentsDirect(
       rest__,
       basis__,
       coordinates__,
-      components__,
-      across);
+      components__);
 }
 
 struct Outline FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

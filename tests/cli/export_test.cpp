@@ -146,7 +146,9 @@ TEST_F(Export, AFlagThatWouldDoNothingIsWrongUsage) {
 }
 
 TEST_F(Export, WhatCannotBeWrittenIsOneSentenceAndNoFile) {
-  expect_error(kFlame + " -o " + at("a.fbx"), "expected a name that ends in .glb, .json, .png, .apng, .webm or .c");
+  expect_error(kFlame + " -o " + at("a.fbx"),
+               "expected a name that ends in .glb, .json, .png, .apng, .webm, .c, .m or .py");
+  expect_error(kFlame + " -o " + at("a.m"), "the model is no plant");
   expect_error(kLeaf + " -o " + at("a.json"), "a body's motion goes into a .glb");
   expect_error(kLeaf + " -o " + at("a.png"), "no flame to draw");
   expect_error(kFlame + " --seconds 0 -o " + at("a.glb"), "expected above 0");

@@ -55,7 +55,7 @@ TEST_F(Guide, IdentifyingATableRuns) {
   }
   const std::string page = file_text(WISP_SOURCE_DIR "/docs/guide/identify.md");
   const auto commands = commands_of(page.substr(0, page.find("## Data larger than memory")));
-  ASSERT_EQ(commands.size(), 9u);
+  ASSERT_EQ(commands.size(), 13u);
   for (const std::string& command : commands) {
     const std::string line = "cd " + folder_.string() + " && " WISP_PROGRAM " " + command + " >said 2>&1 </dev/null";
     EXPECT_EQ(std::system(line.c_str()), 0) << command << "\n" << file_text(at("said"));
@@ -63,7 +63,8 @@ TEST_F(Guide, IdentifyingATableRuns) {
       EXPECT_TRUE(file_text(at("said")).starts_with("usable")) << command << "\n" << file_text(at("said"));
     }
   }
-  for (const char* made : {"channels.png", "compared.png", "load.html"}) {
+  for (const char* made :
+       {"channels.png", "compared.png", "load.html", "load.m", "load.py", "load.c", "load.h", "load.json"}) {
     EXPECT_TRUE(std::filesystem::exists(at(made))) << made;
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "commands/commands.hpp"
@@ -144,28 +145,52 @@ Result<void> write_vertices(const Job& job, const Take& taken) {
   return write_file(std::filesystem::path(job.path).replace_extension(".json"), made->json);
 }
 
-// NAME.c, and NAME.h beside it.
-Result<void> write_firmware(const Model& model, const std::filesystem::path& path, Terminal& terminal) {
-  const auto lamp = firmware_source(model, path.stem().string());
-  if (!lamp) return Error{path.string() + ": " + lamp.error().message};
-  std::filesystem::path header = path;
-  header.replace_extension(".h");
-  if (auto ok = write_file(header, lamp->header); !ok) return ok;
-  if (auto ok = write_file(path, lamp->source); !ok) return ok;
-  terminal.add("state_bytes", lamp->state_bytes);
-  terminal.add("output", path.string());
-  terminal.say("wrote " + path.string() + " and " + header.string() + ": " + std::to_string(lamp->state_bytes) +
-               " bytes of state a lamp, " + shown(model.rate_hz, 5) + " steps a second");
+// The file, and NAME.h beside NAME.c.
+Result<void> write_source(const std::string& text, const std::string& declared, const std::string& what, const Job& job,
+                          Terminal& terminal) {
+  const std::string header = std::filesystem::path(job.path).replace_extension(".h").string();
+  if (!declared.empty()) {
+    if (auto ok = write_file(header, declared); !ok) return ok;
+  }
+  if (auto ok = write_file(job.path, text); !ok) return ok;
+  terminal.add("output", job.path);
+  terminal.say("wrote " + job.path + (declared.empty() ? "" : " and " + header) + ": " + what + ", " +
+               shown(job.model.rate_hz, 5) + " steps a second");
   return {};
 }
 
+// The model itself: a lamp in fixed point, or a linear system.
+Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> language, Terminal& terminal) {
+  const std::string name = std::filesystem::path(job.path).stem().string();
+  if (language) {
+    const auto plant = plant_text(job.model, *language, name);
+    if (!plant) return Error{job.path + ": " + plant.error().message};
+    return write_source(plant->text, plant->header, "a linear system", job, terminal);
+  }
+  const auto lamp = firmware_source(job.model, name);
+  if (!lamp) return Error{job.path + ": " + lamp.error().message};
+  terminal.add("state_bytes", lamp->state_bytes);
+  return write_source(lamp->source, lamp->header, std::to_string(lamp->state_bytes) + " bytes of state a lamp", job,
+                      terminal);
+}
+
+// The language of a linear system, by the file's ending. A lamp has no input, a plant has one.
+std::optional<PlantLanguage> plant_language(const Model& model, const std::string& extension) {
+  const bool plant = std::holds_alternative<ArxModel>(model.dynamics) && !model.inputs.empty() &&
+                     std::holds_alternative<PlainView>(model.view);
+  if (extension == ".m") return PlantLanguage::kOctave;
+  if (extension == ".py") return PlantLanguage::kPython;
+  if (plant && extension == ".json") return PlantLanguage::kJson;
+  return plant && extension == ".c" ? std::optional(PlantLanguage::kC) : std::nullopt;
+}
+
 // A flag that would change nothing is an error: who gives it expects that it does.
-Result<void> check_flags(const Arguments& arguments, const std::string& extension) {
+Result<void> check_flags(const Arguments& arguments, const std::string& extension, bool is_source) {
   const auto refuse = [&](const char* flag, const char* fallback, const std::string& why) -> Result<void> {
     if (!arguments.has(flag) || arguments.text(flag) == fallback) return {};
     return Error{"--" + std::string(flag) + " does nothing to a " + extension + " file, which " + why};
   };
-  if (extension == ".c") {
+  if (is_source) {
     static const std::map<const char*, const char*> of_play = {
         {"seconds", "4"}, {"loop", ""}, {"wind", "0"}, {"noise", "on"}, {"size", ""}, {"seed", "1"}, {"input", ""}};
     for (const auto& [flag, fallback] : of_play) {
@@ -191,14 +216,17 @@ Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
   const std::string extension = std::filesystem::path(path).extension().string();
   const auto writer = writers.find(extension);
   const auto write = path.ends_with(".vat.png") ? write_vertices : writer == writers.end() ? nullptr : writer->second;
-  if (!write && extension != ".c") {
-    return Error{path + ": cannot be written, expected a name that ends in .glb, .json, .png, .apng, .webm or .c"};
+  const bool script = extension == ".m" || extension == ".py" || extension == ".c";
+  if (!write && !script) {
+    return Error{path +
+                 ": cannot be written, expected a name that ends in .glb, .json, .png, .apng, .webm, .c, .m or .py"};
   }
-  if (auto ok = check_flags(arguments, extension); !ok) return ok;
   const auto model = read_model(arguments.positional());
   if (!model) return model.error();
-  if (extension == ".c") return write_firmware(*model, path, terminal);
+  const auto language = plant_language(*model, extension);
+  if (auto ok = check_flags(arguments, extension, language || script); !ok) return ok;
   const Job job{*model, arguments, path};
+  if (language || script) return write_model_source(job, language, terminal);
   const auto taken = take_from(*model, arguments, terminal);
   if (!taken) return taken.error();
   if (auto ok = write(job, *taken); !ok) {
@@ -216,15 +244,16 @@ Command export_command() {
   return {
       "export",
       "Writes a model's play as a file that another tool opens: glTF (.glb), Lottie (.json), a sprite atlas (.png, "
-      "with "
-      "its .atlas.json), APNG or WebM with opacity; or the model itself as C for microcontrollers (.c, with its .h).",
+      "with its .atlas.json), APNG or WebM with opacity; or the model itself: a lamp as C for microcontrollers (.c, "
+      "with its .h), an ARX model with inputs as a linear system for Octave or MATLAB (.m), SciPy (.py), as .json, or "
+      "as its difference equation in C.",
       {{"MODEL", "the model, a .wisp file"}},
       {
           {"output",
            Kind::kOutput,
            "OUT",
            "",
-           "what to write: OUT.glb, .json, .png, .vat.png, .apng, .webm or .c",
+           "what to write: OUT.glb, .json, .png, .vat.png, .apng, .webm, .c, .m or .py",
            {},
            true,
            {},
@@ -251,6 +280,7 @@ Command export_command() {
           {"wisp export flame.wisp --loop 4 -o flame.vat.png",
            "A vertex animation texture for crowds, and flame.vat.json"},
           {"wisp export flame.wisp --loop 3 -o flame.json", "The outline as a Lottie animation"},
+          {"wisp export dryer.wisp -o dryer.m", "An ARX model as state space and transfer functions for Octave"},
           {"wisp export light.wisp -o candle.c", "A lamp that flickers, in fixed point, for a microcontroller"},
       },
       run_export,

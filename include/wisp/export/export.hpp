@@ -90,6 +90,22 @@ struct FirmwareSource {
 /// that C does not take.
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
 
+/// Languages of a plant.
+enum class PlantLanguage { kOctave, kPython, kJson, kC };
+
+/// One file, and for C the one that declares it.
+struct PlantText {
+  std::string text;
+  std::string header;  ///< NAME.h; empty but for C
+};
+
+/// An ARX model with inputs as a linear system for another tool, on deviations from its operating point, without noise.
+/// Octave and MATLAB, and Python with SciPy: state space, transfer functions of one output, both discrete, and
+/// continuous ones under a zero-order hold where there are such. JSON: polynomials and state space. C99: the difference
+/// equation in double precision, whose names begin with `name`.
+/// Errors: another model; an input that does not enter linearly; a name that C does not take.
+Result<PlantText> plant_text(const Model& model, PlantLanguage language, std::string_view name);
+
 /// The outline of one instance in one frame as a polyline: `points` × (x, y), at equal steps of the spline's parameter.
 ///
 /// Precondition: the view is an outline, the take is of this model, and points >= 2.

@@ -47,28 +47,18 @@ void add_products_of(const double* x, const double* const* y, std::size_t rows, 
   }
 }
 
+// Of fewer than kMore series.
+template <std::size_t kMore>
+void add_products_of_rest(const double* x, std::span<const double* const> y, std::size_t rows, double* sums) {
+  if (y.size() + 1 == kMore) return add_products_of<kMore - 1>(x, y.data(), rows, sums);
+  if constexpr (kMore > 2) add_products_of_rest<kMore - 1>(x, y, rows, sums);
+}
+
 /// sums[s] += Σ_t x[t]·y[s][t] for every series s.
 inline void add_products(const double* x, std::span<const double* const> y, std::size_t rows, double* sums) {
   std::size_t s = 0;
   for (; s + 8 <= y.size(); s += 8) add_products_of<8>(x, y.data() + s, rows, sums + s);
-  switch (y.size() - s) {
-    case 7:
-      return add_products_of<7>(x, y.data() + s, rows, sums + s);
-    case 6:
-      return add_products_of<6>(x, y.data() + s, rows, sums + s);
-    case 5:
-      return add_products_of<5>(x, y.data() + s, rows, sums + s);
-    case 4:
-      return add_products_of<4>(x, y.data() + s, rows, sums + s);
-    case 3:
-      return add_products_of<3>(x, y.data() + s, rows, sums + s);
-    case 2:
-      return add_products_of<2>(x, y.data() + s, rows, sums + s);
-    case 1:
-      return add_products_of<1>(x, y.data() + s, rows, sums + s);
-    default:
-      return;
-  }
+  add_products_of_rest<8>(x, y.subspan(s), rows, sums + s);
 }
 
 /// out[t] = start[t] + Σ_s weight[s]·x[s][t].

@@ -1,4 +1,4 @@
-#include "draw/flame/flame_layers.hpp"
+#include "draw/flame/light_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,11 +16,8 @@
 
 #include "model/sample_chain.hpp"
 #include "model/sample_switched.hpp"
-#include "paths.hpp"
 #include "run/flame_model.hpp"
-#include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
-#include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/run/switched_facet.hpp"
@@ -97,9 +94,6 @@ struct Stage {
     states.resize(kCapacity);
     polylines.resize(kCapacity * 2 * bank->polyline_points());
     saved.resize(bank->save_bytes());
-    if (!bank->body()) return;
-    rings.resize(kCapacity * static_cast<std::size_t>(bank->body()->rings()) * kRingNumbers);
-    mesh.resize(static_cast<std::size_t>(bank->body()->vertices(12)) * kVertexNumbers);
   }
 
   // Every function of the frame path. `own` runs in the middle of it.
@@ -131,11 +125,6 @@ struct Stage {
       chain->steer(b.at(0), {.position = {1, 0, -1}, .in = std::chrono::seconds(2)});
       chain->release(b.at(1));
     }
-    if (BodyFacet* body = b.body()) {
-      body->look(0.6f, -0.8f);
-      body->read_rings(rings);
-      body->write_mesh(next, 12, mesh);
-    }
     if (const SwitchedFacet* switched = b.switched()) switched->mode_of(next);
     if (ExtinctionFacet* extinction = b.extinction()) {
       extinction->extinguish(next);
@@ -158,16 +147,13 @@ struct Stage {
   }
 
   // One of every kind of dynamics, and of every way to switch.
-  static std::vector<Model> models() {
-    const auto shaped = read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
-    return {mortal_flame(), still_flame_model(), windy_chain(), sample_switched(), *in_the_round(*shaped)};
-  }
+  static std::vector<Model> models() { return {mortal_flame(), still_flame_model(), windy_chain(), sample_switched()}; }
 
   Model model;
   std::vector<std::byte> memory;
   std::optional<Bank> bank;
   std::vector<LitState> states;
-  std::vector<float> wind, outputs, polylines, rings, mesh;
+  std::vector<float> wind, outputs, polylines;
   std::vector<std::byte> saved;
 };
 

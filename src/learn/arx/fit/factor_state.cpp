@@ -1,7 +1,7 @@
 // The bytes of a factor: magic, version, payload size and 64-bit FNV-1a hash of the payload, then the payload's numbers
 // in little-endian order.
 
-#include "learn/arx/fit/factor_state.hpp"
+#include "learn/arx/fit/triangular_factor.hpp"
 
 #include <algorithm>
 #include <bit>

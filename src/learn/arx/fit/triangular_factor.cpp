@@ -7,7 +7,6 @@
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/fit/arx_estimate.hpp"
 #include "learn/arx/fit/arx_report.hpp"
-#include "learn/arx/fit/factor_state.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"

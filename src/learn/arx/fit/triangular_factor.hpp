@@ -127,4 +127,14 @@ class TriangularFactor {
   FactorState state_;
 };
 
+Result<void> check_factor_options(const FactorOptions& options);
+
+/// Errors: the parts are of different models; which of channels, orders, first sample or rate differs.
+Result<void> check_same_model(const FactorState& state, const FactorState& other);
+
+std::vector<std::byte> factor_bytes(const FactorState& state);
+
+/// Errors: as TriangularFactor::from_bytes.
+Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes);
+
 }  // namespace wisp

@@ -1,0 +1,30 @@
+#pragma once
+// Texts that are written with words filled in. Each is a file NAME.in of this folder, which the build makes a string
+// of.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wisp::exporting {
+
+extern const char *const lamp_h, *const lamp_c, *const plant_h, *const plant_c, *const plant_m, *const plant_py;
+
+/// Replaces every @KEY@.
+inline std::string filled(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {
+  for (const auto& [key, word] : words) {
+    const std::string mark = "@" + key + "@";
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + word.size())) {
+      text.replace(at, mark.size(), word);
+    }
+  }
+  return text;
+}
+
+/// Whether all four languages take it as the beginning of a name.
+bool is_name(std::string_view name);
+
+/// Without what would end a comment or a line.
+std::string comment_text(std::string text);
+
+}  // namespace wisp::exporting
