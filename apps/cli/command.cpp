@@ -1,5 +1,6 @@
 #include "command.hpp"
 
+#include <cstdio>
 #include <cstdlib>
 
 namespace wisp::cli {
@@ -47,6 +48,14 @@ std::vector<std::string> Arguments::names(std::string_view flag) const {
   }
   if (!name.empty()) names.push_back(std::move(name));
   return names;
+}
+
+bool is_sample_range(const std::string& text) {
+  SampleRange range{0, 0};
+  int end = -1;
+  const bool read = std::sscanf(text.c_str(), "%zu:%zu%n", &range.first, &range.last, &end) == 2;
+  return read && text.find_first_not_of("0123456789:") == std::string::npos && end == std::ssize(text) &&
+         range.first >= 1 && range.first <= range.last;
 }
 
 SampleRange Arguments::samples(std::string_view flag) const {

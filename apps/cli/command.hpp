@@ -64,6 +64,9 @@ struct SampleRange {
   std::size_t last = 0;
 };
 
+/// Whether a text is one: A:B with 1 <= A <= B.
+bool is_sample_range(const std::string& text);
+
 /// The user's values and the defaults. The parser has checked values against their Kind.
 class Arguments {
  public:

@@ -30,14 +30,6 @@ bool is_number(const std::string& text) {
   return !text.empty() && *end == '\0' && std::isfinite(value);
 }
 
-bool is_sample_range(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) return false;
-  const std::string first = text.substr(0, colon), last = text.substr(colon + 1);
-  return is_whole(first) && is_whole(last) && std::atol(first.c_str()) >= 1 &&
-         std::atol(first.c_str()) <= std::atol(last.c_str());
-}
-
 bool is_word(const Flag& flag, const std::string& text) {
   return std::find(flag.words.begin(), flag.words.end(), text) != flag.words.end();
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """How often the verdict of `wisp learn arx` is wrong, over made systems of many kinds and public data sets.
 
-    studies/focus/verdicts.py WISP [DATA [SEED]]
+    studies/focus/verdicts.py WISP [FOLDER… [SEED]]
 
-Every model is judged on rows that it was not learned from. Wrong and usable: the verdict is usable, and free simulation
+FOLDERs hold tables of inputs u… and outputs y…, as the public data or what package_sets.py makes. Every model is judged on rows that it was not learned from. Wrong and usable: the verdict is usable, and free simulation
 fits less than 30 %. Right and refused: not usable, and free simulation fits at least 60 %.
 """
 import json
@@ -44,6 +44,59 @@ def made(kind, rows, draw):
     return us, ys
 
 
+# Ways of spoiling a recording, and words of the sentence that names each.
+SPOILED = {
+    "sentinel": "stands for a missing sample", "outliers": "outlier", "redundant input": "tells nothing new",
+    "feedback": "closes the loop", "long delay": "acts on", "drift": "drifts", "input that hardly moves": "moves only",
+    "few rows": "too few", "acts at once": "in the same sample",
+}
+
+
+def spoiled(way, draw):
+    """Columns of a system of one to three poles that a model of order 2 to 4 describes, but for what spoils it."""
+    rows = 60 if way == "few rows" else draw.choice([400, 1000, 2000])
+    poles = [draw.uniform(0.3, 0.93) for _ in range(draw.choice([1, 2]))]
+    gain, noise, level = draw.uniform(0.5, 20), draw.uniform(0.01, 0.15), draw.uniform(-50, 50)
+    delay = draw.randint(8, 80) if way == "long delay" else 0 if way == "acts at once" else 1
+    hold, u, us, ys, states = draw.choice([1, 5, 20]), 0.0, [], [], [0.0] * len(poles)
+    jumps = sorted(draw.sample(range(rows // 4, rows), draw.choice([1, 2, 3])))
+    walk = 0.0
+    for t in range(rows):
+        if way == "input that hardly moves":
+            u = draw.uniform(-1, 1) if t in jumps else u
+        elif way == "feedback":
+            u = -draw.uniform(0.4, 0.6) * (ys[-1] / gain if ys else 0) + 0.1 * draw.gauss(0, 1)
+        elif t % hold == 0:
+            u = draw.gauss(0, 1)
+        us.append(u)
+        drive = us[t - delay] if t >= delay else 0.0
+        if way == "acts at once":
+            drive = 0.2 * drive
+        for k, pole in enumerate(poles):
+            states[k] = pole * states[k] + (1 - pole) * (drive if k == 0 else states[k - 1])
+        walk += draw.gauss(0, 0.02)
+        size = 0.5 if way == "feedback" else noise
+        ys.append(gain * (states[-1] + (2 * u if way == "acts at once" else 0) + size * draw.gauss(0, 0.5)))
+    columns = {"u1": us, "y1": ys}
+    spread = math.sqrt(sum(y * y for y in ys) / rows)
+    if way == "drift":
+        slope = draw.choice([-1, 1]) * draw.uniform(5, 15) * spread / rows
+        columns["y1"] = [y + slope * t + spread * 0.1 * walk * t / rows for t, y in enumerate(ys)]
+    if way == "sentinel":
+        value, share = draw.choice([-999.0, -9999.0, 9999.0]), draw.uniform(0.003, 0.03)
+        columns["y1"] = [value if draw.random() < share else y for y in ys]
+        columns["y1"][rows // 3] = value
+    if way == "outliers":
+        count = draw.randint(6, 15)
+        for t in draw.sample(range(rows), count):
+            columns["y1"][t] += draw.choice([-1, 1]) * spread * draw.uniform(15, 60)
+    if way == "redundant input":
+        scale, offset = draw.uniform(0.5, 3), draw.uniform(-40, 40)
+        columns["u2"] = [round(scale * u + offset, 6) for u in us]
+    columns["y1"] = [y if way == "sentinel" and abs(y) > 990 else y + level for y in columns["y1"]]
+    return columns
+
+
 def judge(wisp, folder, path, rows, cut, names, more):
     model = folder / "m.wisp"
     learned = subprocess.run([wisp, "learn", "arx", str(path), "-o", str(model), "--rate", "1", "--inputs",
@@ -61,10 +114,35 @@ def judge(wisp, folder, path, rows, cut, names, more):
     return fit["usable"]["verdict"], worst, fit["usable"]["reason"]
 
 
+def name_causes(wisp, folder, seed):
+    print("| spoiled by | models | refused | the sentence names it |")
+    print("| --- | --- | --- | --- |")
+    sums = [0, 0, 0]
+    for way, words in SPOILED.items():
+        row = [0, 0, 0]
+        for k in range(12):
+            columns = spoiled(way, random.Random(f"{seed} {way} {k}"))
+            names, rows = sorted(columns), len(columns["y1"])
+            path = folder / "spoiled.csv"
+            path.write_text(",".join(names) + "\n" +
+                            "".join(",".join(repr(x) for x in row) + "\n" for row in zip(*(columns[n] for n in names))))
+            order = "6" if way == "few rows" else random.Random(f"{seed} order {k}").choice(["2", "4"])
+            found = judge(wisp, folder, path, rows, round(0.7 * rows), names, ["--na", order, "--nb", order])
+            if found is None:
+                continue
+            usable, fit, reason = found
+            row = [row[0] + 1, row[1] + (not usable), row[2] + (not usable and words in reason)]
+            if not usable and words not in reason:
+                print(f"# {way}, simulation {fit:.0f} %: {reason}", file=sys.stderr)
+        sums = [a + b for a, b in zip(sums, row)]
+        print(f"| {way} | " + " | ".join(str(value) for value in row) + " |", flush=True)
+    print("| all | " + " | ".join(str(value) for value in sums) + " |\n")
+
+
 def main():
     wisp = sys.argv[1]
-    data = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
-    seed = int(sys.argv[3]) if len(sys.argv) > 3 else 1
+    seed = int(sys.argv[-1]) if sys.argv[-1].isdigit() else 1
+    data = [pathlib.Path(one) for one in sys.argv[2:] if not one.isdigit()]
     totals = {}
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -90,14 +168,15 @@ def main():
                 path.write_text("u1,y1\n" + "".join(f"{u!r},{y!r}\n" for u, y in zip(us, ys)))
                 order = str(draw.choice([2, 4]))
                 count(kind, judge(wisp, folder, path, 2 * rows, rows, ["u1", "y1"], ["--na", order, "--nb", order]))
-        for one in sorted(data.glob("*.csv")) if data else []:
+        for one in [path for where in data for path in sorted(where.glob("*.csv"))]:
             with open(one) as table:
                 names = table.readline().strip().split(",")
                 rows = sum(1 for _ in table)
             for output in [n for n in names if n[0] == "y"]:
                 for share in (0.5, 0.7):
                     used = [n for n in names if n[0] == "u"] + [output]
-                    count("public data", judge(wisp, folder, one, rows, round(share * rows), used, []))
+                    count(one.parent.name, judge(wisp, folder, one, rows, round(share * rows), used, []))
+        name_causes(wisp, folder, seed)
     print("| systems | models | usable | wrong and usable | right and refused |")
     print("| --- | --- | --- | --- | --- |")
     for kind, row in totals.items():

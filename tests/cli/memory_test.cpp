@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "capture/support/clip_files.hpp"
 #include "capture/support/made_clip.hpp"
@@ -76,6 +78,33 @@ TEST_F(Memory, ATableIsLearnedInAGigabyte) {
   }
   EXPECT_EQ(fails_within(1000, "learn arx dryer.csv --rate 12.5 --inputs u --outputs y --na 4 --nb 4 -o dryer.wisp"),
             "");
+}
+
+TEST_F(Memory, LearningTakesAtMostATenthMoreThanItIsAllowed) {
+  constexpr int kRows = 1'000'000;
+  {
+    std::ofstream table(at("long.csv"));
+    table << "u,v,y\n";
+    double y = 0;
+    for (int k = 0; k < kRows; ++k) {
+      const int u = k / 7 % 3, v = k / 11 % 5;
+      y = 0.9 * y + 0.1 * u + 0.05 * v + 0.01 * static_cast<double>(k * 7919LL % 101 - 50);
+      table << u << ',' << v << ',' << y << '\n';
+    }
+  }
+  for (const auto& [flags, allowed] : std::vector<std::pair<std::string, int>>{
+           {"--inputs u", 115}, {"--inputs u,v", 160}, {"--inputs u,v", 60}, {"--inputs u,v", 45}}) {
+    const std::string line = "exec " WISP_PROGRAM " learn arx " + at("long.csv") + " --rate 1 --outputs y " + flags +
+                             " --memory " + std::to_string(allowed) + " -o " + at("m.wisp") + " --quiet >" +
+                             at("said") + " 2>&1";
+    const pid_t child = fork();
+    if (child == 0) _exit(execl("/bin/sh", "sh", "-c", line.c_str(), nullptr));
+    int status = 0;
+    rusage used{};
+    ASSERT_EQ(wait4(child, &status, 0, &used), child);
+    EXPECT_EQ(status, 0) << file_text(at("said"));
+    EXPECT_LE(static_cast<double>(used.ru_maxrss) / 1024, 1.1 * allowed) << flags;
+  }
 }
 
 // Red on a wrong budget.

@@ -62,7 +62,8 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
     options.rate_hz = 1 / seconds;
   }
   if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
-  if (options.rate_hz != 0 && !(options.rate_hz >= kMinRate && options.rate_hz <= kMaxRate)) {
+  if ((options.rate_hz != 0 || arguments.has("rate")) &&
+      !(options.rate_hz >= kMinRate && options.rate_hz <= kMaxRate)) {
     return Error{std::string(arguments.has("rate") ? "--rate" : "--dt") + ": " + shown(options.rate_hz) +
                  " samples a second, expected 1e-6 to 1e7"};
   }

@@ -8,7 +8,7 @@ namespace wisp::cli {
 namespace {
 
 Error bad_grid(std::string_view text) {
-  return {"--search: found \"" + std::string(text) + "\", expected such as na=1:10,nb=1:10,nk=0:3"};
+  return {"--search: found \"" + std::string(text) + "\", expected such as na=1:10,nb=1:10,nk=0:3, up to 4096"};
 }
 
 // "1:10" or "3".
@@ -23,7 +23,7 @@ Result<OrderRange> parse_range(std::string_view text, std::string_view whole) {
     const auto [last, last_code] = std::from_chars(next + 1, end, range.last);
     if (last_code != std::errc() || last != end) return bad_grid(whole);
   }
-  if (range.first < 0 || range.last < range.first) return bad_grid(whole);
+  if (range.first < 0 || range.last < range.first || range.last > 4096) return bad_grid(whole);
   return range;
 }
 
@@ -71,7 +71,7 @@ std::vector<Flag> search_flags() {
        "fpe",
        "what the best candidate is best at",
        {"fpe", "aic", "aicc", "bic", "validation"}},
-      {"validate", Kind::kSamples, "A:B", "", "rows to validate on, 1-based and inclusive"},
+      {"validate", Kind::kNames, "A:B|REC,…", "", "rows to validate on, 1-based and inclusive, or other recordings"},
       {"steps", Kind::kIntegerOrWord, "K", "1", "for validation: steps ahead, or inf for free simulation", {"inf"}},
   };
 }
@@ -83,12 +83,13 @@ Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments
   search->steps = arguments.text("steps") == "inf" ? kFreeRun : arguments.integer("steps");
   if (arguments.text("steps") == "0") return Error{"--steps: found \"0\", expected a number from 1, or inf"};
   if (search->by == OrderCriterion::kValidation && !arguments.has("validate")) {
-    return Error{"--by validation needs --validate A:B, the rows to judge on"};
+    return Error{"--by validation needs --validate, the rows A:B or the recordings to judge on"};
   }
-  for (const Recording& recording : whole) {
-    if (!arguments.has("validate")) break;
-    auto part = in_range(recording, arguments, "validate");
-    if (!part) return part.error();
+  const auto validation = arguments.names("validate");
+  const bool rows = validation.size() == 1 && is_sample_range(validation.front());
+  for (std::size_t k = 0; k < (rows ? whole.size() : validation.size()); ++k) {
+    auto part = rows ? in_range(whole[k], arguments, "validate") : read_table(validation[k], arguments);
+    if (!part) return rows ? part.error() : Error{part.error().message + " (--validate)"};
     search->validation.push_back(std::move(*part));
   }
   return search;

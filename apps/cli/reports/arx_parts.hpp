@@ -14,7 +14,7 @@ namespace wisp::cli {
 /// --partial, --part, --merge, --expect.
 std::vector<Flag> arx_part_flags();
 
-/// Whether the named recordings together are larger than --memory.
+/// Whether learning from the named recordings at once would take more than --memory.
 bool too_large(const Arguments& arguments);
 
 /// A part, and the names of the files that are in it.

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "base/statistics.hpp"
@@ -114,7 +115,7 @@ std::vector<std::size_t> outliers_in(const Samples& all) {
   for (std::size_t k = 0; k < apart.size(); ++k) {
     if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 3);
   }
-  if (rows.size() * 50 > all.size()) rows.clear();  // too many: that is how it moves
+  if (rows.size() * 20 > all.size()) rows.clear();  // too many: that is how it moves
   return rows;
 }
 
@@ -244,7 +245,9 @@ void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
       const double own = squared_rest(x.leftCols(1 + kOwn), target), both = squared_rest(x, target);
       const double size = (target.array() - target.mean()).square().mean();
       if (!(own > 1e-8 * size) || both > (1 - kShare) * own) continue;
-      if (double(rows.size()) * std::log(own / both) < chi_squared_quantile(1 - kChance, kLags)) continue;
+      // Where an input stands still it tells nothing.
+      const auto moves = static_cast<double>((target.array() != x.col(1).array()).count());
+      if (moves * std::log(own / both) < chi_squared_quantile(1 - kChance, kLags)) continue;
       out.push_back({RemarkKind::kFeedback, input,
                      "input " + quoted(input) + " is set by " + quoted(output) + " (its past explains " +
                          number_text(100 * (1 - both / own), 2) +
@@ -258,7 +261,7 @@ void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
 void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
   constexpr int kLong = 4;
   const ChannelChoice channels{subject.inputs, subject.outputs};
-  const auto delays = estimate_delays(subject.recordings, channels);
+  const auto delays = estimate_delays(arx::middles_of(subject.recordings, kManyRows), channels);
   if (!delays) return;
   for (int i = 0; i < delays->nk.rows(); ++i) {
     for (int k = 0; k < delays->nk.columns(); ++k) {
@@ -272,27 +275,45 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-void look_for_drift(const Subject& subject, std::vector<Remark>& out) {
+// The output less its straight line; nothing where it has hardly one, or an input has one too.
+std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
   constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
-  const Recording& recording = subject.recordings.front();
+  Recording recording = subject.recordings.front();
   Samples time(recording.rows());
   for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);
-  const auto share = [&](const std::string& name) {
+  const auto share = [&](const Line& line) { return line.size > 0 ? 1 - std::pow(line.rest / line.size, 2) : 0.0; };
+  for (const std::string& name : subject.inputs) {
     const Samples* its = subject.find(recording, name);
-    if (!its) return 0.0;
-    const Line line = line_of(time, *its);
-    return line.size > 0 ? 1 - std::pow(line.rest / line.size, 2) : 0.0;
-  };
-  double inputs = 0;
-  for (const std::string& name : subject.inputs) inputs = std::max(inputs, share(name));
-  for (const std::string& name : subject.outputs) {
-    if (recording.rows() < 50 || subject.inputs.empty() || inputs > kLittle || share(name) < kMuch) continue;
-    const Line line = line_of(time, *subject.find(recording, name));
-    out.push_back(
-        {RemarkKind::kDrift, name,
-         quoted(name) + " drifts by " + number_text(line.slope * double(recording.rows()), 3) +
-             " from the first row to the last, and no input does",
-         "take the straight line off, add a channel that tells what drifts, or learn from a stretch with --range"});
+    if (its && share(line_of(time, *its)) > kLittle) return std::nullopt;
+  }
+  const auto channel = find_channel(recording, output);
+  if (!channel || time.size() < 50) return std::nullopt;
+  const Line line = line_of(time, recording.channels[*channel].samples);
+  if (share(line) < kMuch) return std::nullopt;
+  drift = line.slope * double(time.size());
+  for (std::size_t t = 0; t < time.size(); ++t) recording.channels[*channel].samples[t] -= line.slope * time[t];
+  return recording;
+}
+
+// An output that integrates does so without its straight line too; one that only drifts does not.
+void look_for_wandering(const Subject& subject, std::vector<Remark>& out) {
+  for (const std::string& output : subject.outputs) {
+    double drift = 0;
+    const auto level = without_drift(subject, output, drift);
+    const auto seen = level ? std::span(&*level, 1) : subject.recordings;
+    const int count = arx::integrators_in(seen, subject.inputs, output);
+    if (count > 0) {
+      out.push_back({RemarkKind::kIntegrates, output,
+                     quoted(output) + " integrates" + (count > 1 ? " twice" : "") +
+                         ": it sums what goes in, and has no level of its own",
+                     "--coupling diagonal keeps the integrator in the model"});
+    } else if (level) {
+      out.push_back(
+          {RemarkKind::kDrift, output,
+           quoted(output) + " drifts by " + number_text(drift, 3) +
+               " from the first row to the last, and no input does",
+           "take the straight line off, add a channel that tells what drifts, or learn from a stretch with --range"});
+    }
   }
 }
 
@@ -310,17 +331,6 @@ void look_at_table(const Subject& subject, std::vector<Remark>& out) {
     if (!one.rate_note.guessed) continue;
     out.push_back({RemarkKind::kClock, "", one.source + ": " + one.rate_note.text,
                    "say --rate HZ or --dt S where that is wrong"});
-  }
-}
-
-void look_for_integrators(const Subject& subject, std::vector<Remark>& out) {
-  for (const std::string& output : subject.outputs) {
-    const auto count = arx::integrators_in(subject.recordings, subject.inputs, output);
-    if (count == 0) continue;
-    out.push_back({RemarkKind::kIntegrates, output,
-                   quoted(output) + " integrates" + (count > 1 ? " twice" : "") +
-                       ": it sums what goes in, and has no level of its own",
-                   "--coupling diagonal keeps the integrator in the model"});
   }
 }
 
@@ -370,10 +380,7 @@ std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std:
     look_at_excitation(subject, out);
     look_for_feedback(subject, out);
     look_for_delays(subject, out);
-    look_for_integrators(subject, out);
-    const bool integrates =
-        std::any_of(out.begin(), out.end(), [](const Remark& one) { return one.kind == RemarkKind::kIntegrates; });
-    if (!integrates) look_for_drift(subject, out);
+    look_for_wandering(subject, out);
   }
   std::stable_sort(out.begin(), out.end(), [](const Remark& a, const Remark& b) { return a.kind < b.kind; });
   return out;

@@ -98,15 +98,17 @@ bool open_end(const Delays& delays) {
 
 Result<Delays> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
                                const DelayOptions& options) {
-  constexpr int kFirst = 20, kLast = 640, kRowsALag = 10;
+  constexpr int kFirst = 20, kLast = 640, kRowsALag = 4, kRowsACoefficient = 10;
   if (auto ok = check(options); !ok) return ok.error();
   const auto signals = gather_signals(recordings, channels, options.offset);
   if (!signals) return signals.error();
   std::size_t rows = 0;
   for (const Recording& one : recordings) rows += one.rows();
+  // The other inputs have all their lags in every candidate.
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
-  while (delays && !options.most && open_end(*delays) && 2 * delays->most <= kLast &&
-         rows >= static_cast<std::size_t>(kRowsALag * 2 * delays->most * std::max(1, signals->inputs))) {
+  while (delays && !options.most && open_end(*delays) && 2 * delays->most * std::max(1, signals->inputs) <= kLast &&
+         rows >= static_cast<std::size_t>(2 * delays->most) *
+                     static_cast<std::size_t>(kRowsALag + kRowsACoefficient * (signals->inputs - 1))) {
     delays = delays_up_to(2 * delays->most, *signals, options);
   }
   if (!delays) return delays;

@@ -219,7 +219,8 @@ class Search {
   }
 
   static Error no_validation(const OrderCandidate& candidate) {
-    return Error{name(candidate) + " cannot predict a single row of the validation recordings; give it more of them"};
+    return Error{name(candidate) +
+                 " cannot predict a single row of the validation recordings; give it more of them with --validate"};
   }
 
   const Signals& signals_;

@@ -74,7 +74,7 @@ std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriteri
 /// How to look for delays.
 struct DelayOptions {
   std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled while no delay or one
-                              ///< near the end is best, as far as there are ten rows a lag, at most 640
+                              ///< near the end is best, as far as rows allow, at most 640 over all inputs
   int na = 2;                 ///< lags of outputs beside it
   int nb = 2;                 ///< lags of the input from the delay on
   ArxOffset offset = ArxOffset::kMean;
