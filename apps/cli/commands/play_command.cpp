@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands/commands.hpp"
-#include "shipped_models.hpp"
 #include "terminal.hpp"
 #include "wisp/model/file.hpp"
 #ifdef WISP_HAS_PLAYER
@@ -17,9 +21,57 @@ namespace {
 
 #ifdef WISP_HAS_PLAYER
 
+namespace fs = std::filesystem;
 using window::PlayOptions;
 using window::PlayReport;
 using window::SceneKind;
+
+// The first flame is that of the default recipe, as on the page.
+constexpr const char* kFirst = "flame.wisp";
+
+// Order of the list: the first flame, other kinds, then flames of other orders.
+int rank(const fs::path& path, const View& view) {
+  if (path.filename() == kFirst) return 0;
+  if (std::holds_alternative<PlainView>(view)) return 3;
+  return std::holds_alternative<OutlineView>(view) ? 2 : 1;
+}
+
+std::vector<fs::path> models_in(const fs::path& folder) {
+  std::vector<std::pair<std::pair<int, fs::path>, fs::path>> found;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    if (entry.path().extension() != ".wisp") continue;
+    if (const auto model = read_model(entry.path()))
+      found.push_back({{rank(entry.path(), model->view), entry.path()}, entry.path()});
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<fs::path> paths;
+  paths.reserve(found.size());
+  for (auto& [order, path] : found) paths.push_back(path);
+  return paths;
+}
+
+// Folders searched, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the source tree that
+// it was built from; out/demo, where `wisp demo` leaves its model.
+std::vector<fs::path> model_folders() {
+  std::vector<fs::path> folders;
+  if (const char* named = std::getenv("WISP_MODELS")) folders.emplace_back(named);
+  std::error_code code;
+  const fs::path program = fs::read_symlink("/proc/self/exe", code);
+  if (!code) folders.push_back(program.parent_path().parent_path() / "share/wisp/models");
+  folders.emplace_back(WISP_MODELS_FOLDER);
+  folders.emplace_back("out/demo");
+  return folders;
+}
+
+// The models of the first folder that has any: flames, falling things, others, each by name. Skips files that are no
+// models.
+std::vector<fs::path> shipped_models() {
+  for (const fs::path& folder : model_folders()) {
+    if (auto models = models_in(folder); !models.empty()) return models;
+  }
+  return {};
+}
 
 // Asked to end by a signal: the frame is finished first, so that no picture is left half written.
 volatile int interrupted = 0;

@@ -1,9 +1,13 @@
 // `wisp validate`: a model judged on a recording or a clip.
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "commands/commands.hpp"
+#include "films/leaf_film.hpp"
 #include "films/validation_pictures.hpp"
 #include "flags/capture_flags.hpp"
 #include "flags/motion_flags.hpp"
@@ -11,8 +15,13 @@
 #include "flags/recordings.hpp"
 #include "flags/steps_flag.hpp"
 #include "reports/arx_validation.hpp"
-#include "reports/validate_chain.hpp"
+#include "reports/clip_figures.hpp"
+#include "wisp/base/report.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/draw/plot.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
+#include "wisp/run/bank.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -50,6 +59,190 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
 ValidationPictures wanted_pictures(const Arguments& arguments) {
   const auto path = [&](const char* flag) { return arguments.has(flag) ? arguments.text(flag) : std::string(); };
   return {path("overlay"), path("film-strip"), path("figures")};
+}
+
+// Plots of a chain's validation.
+
+constexpr Colour kModeColours[] = {{31, 119, 180}, {214, 96, 20},  {44, 140, 44},   {190, 40, 40},
+                                   {130, 90, 180}, {120, 80, 60},  {210, 100, 170}, {90, 90, 90},
+                                   {150, 150, 20}, {20, 160, 170}, {0, 0, 0},       {240, 170, 60}};
+constexpr Colour kStill{40, 60, 110};
+constexpr Colour kBlown{30, 140, 60};
+
+// Sets the style of a series by the last word of its id.
+void style(std::string_view what, PlotSeries& series) {
+  if (what == "events") {
+    series.shape = SeriesShape::kPoints;
+    series.colour = Colour{0, 0, 0};
+    series.marker = Marker::kRing;
+  } else if (what.starts_with("mode_")) {
+    series.width = 2;
+    series.colour = kModeColours[std::stoul(std::string(what.substr(5))) % std::size(kModeColours)];
+  } else if (what.starts_with("clones")) {
+    series.width = 0.6;
+    series.colour = what == "clones" ? Colour{205, 205, 205} : Colour{190, 222, 190};
+  } else if (what == "calm") {
+    series.width = 1.4;
+    series.colour = kStill;
+    series.dash = Dash::kDashed;
+  } else if (what.starts_with("mean")) {
+    series.width = 3;
+    series.colour = what == "mean" ? kStill : kBlown;
+  } else {
+    series.width = 1;
+  }
+}
+
+// A plot of the series whose id is `panel` or begins with `panel` and a dot.
+Plot plot_of(const Report& report, const std::string& panel, const std::string& title) {
+  Plot plot{.title = title, .equal_units = true};
+  for (const ReportSection& section : report.sections) {
+    for (const ReportSeries& series : section.series) {
+      if (series.id != panel && !series.id.starts_with(panel + ".")) continue;
+      plot.x.label = series.x_label;
+      plot.y.label = series.y_label;
+      plot.series.push_back({.label = series.label, .x = series.x, .y = series.y});
+      style(std::string_view(series.id).substr(std::min(series.id.size(), panel.size() + 1)), plot.series.back());
+    }
+  }
+  return plot;
+}
+
+void add_pair(const Report& report, const std::string& figure, const char* second, const std::string& before,
+              PlotSheet& sheet) {
+  Plot a = plot_of(report, figure + ".recorded", before + "recorded");
+  Plot b = plot_of(report, figure + "." + second, second);
+  share_axes(a, b);
+  sheet.plots.push_back(std::move(a));
+  sheet.plots.push_back(std::move(b));
+}
+
+// Draws the series of a chain's report, into a folder (made where it is missing), each sheet as PNG and SVG. Of falls:
+// recorded and synthesized ones side by side, seen from the side and from above, and one of each with its events
+// marked, the synthesized one's segments coloured by mode. Of gusts, the paper's figure 8: a row a gust, on the left
+// the recorded falls, on the right the model's; thin lines are clones, thick ones their means, green where the wind
+// blows; dashed is the mean without wind.
+// Errors: the folder cannot be made, a file cannot be written.
+Result<void> write_chain_figures(const std::filesystem::path& folder, const Report& report) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
+  const std::pair<const char*, const char*> figures[] = {{"falls-side", "Falls seen from the side"},
+                                                         {"falls-above", "Falls seen from above"},
+                                                         {"segments", "One fall, cut at its events"}};
+  for (const auto& [name, title] : figures) {
+    PlotSheet sheet{.title = title};
+    add_pair(report, name, "synthesized", "", sheet);
+    if (sheet.plots.front().series.empty()) continue;
+    if (auto ok = write_figure(folder, name, sheet); !ok) return ok;
+  }
+  PlotSheet gusts{
+      .title = "Gusts seen from above, from the onset to 0.3 s after the wind", .columns = 2, .plot_height = 340};
+  for (const ReportSection& section : report.sections) {
+    if (section.series.empty() || !section.series.front().id.starts_with("gusts-above.")) continue;
+    const std::string& id = section.series.front().id;
+    add_pair(report, id.substr(0, id.find('.', id.find('.') + 1)), "played", section.title + ": ", gusts);
+  }
+  return gusts.plots.empty() ? Result<void>() : write_figure(folder, "gusts-above", gusts);
+}
+
+// Plays falls of the model, one episode each.
+Result<Recording> played(const Model& model, std::size_t falls, std::size_t rows, std::uint64_t seed) {
+  auto bank = Bank::create(model, {.capacity = static_cast<int>(falls), .seed = seed});
+  if (!bank) return bank.error();
+  Recording all;
+  all.source = "synthesized";
+  all.rate_hz = model.rate_hz;
+  for (const Output& output : model.outputs) {
+    all.channels.push_back({output.name, output.unit, Role::kOutput, std::vector<double>(falls * rows)});
+  }
+  for (std::size_t fall = 0; fall < falls; ++fall) {
+    bank->spawn();
+    all.episode_ids.insert(all.episode_ids.end(), rows, static_cast<std::int64_t>(fall));
+  }
+  std::vector<float> outputs(falls * model.outputs.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (row > 0) bank->step();
+    bank->outputs(outputs);
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      all.channels[k % model.outputs.size()].samples[k / model.outputs.size() * rows + row] = outputs[k];
+    }
+  }
+  return all;
+}
+
+// Films recorded falls on the left, the model's on the right.
+Result<void> film(const Model& model, const Recording& real, const Arguments& arguments, Terminal& terminal) {
+  const auto* pose = std::get_if<PoseView>(&model.view);
+  if (!pose) return Error{"--film is for poses; this model has positions only"};
+  LeafFilmOptions options;
+  if (pose->half_width > 0 && pose->half_length > 0) {
+    options.style.length = static_cast<float>(2 * pose->half_width);
+    options.style.width = static_cast<float>(2 * pose->half_length);
+  }
+  const auto all = episodes(real);
+  std::size_t rows = 0;
+  for (const Episode& episode : all) rows = std::max(rows, episode.size());
+  const auto made = played(model, std::min(all.size(), static_cast<std::size_t>(options.max_leaves)), rows,
+                           static_cast<std::uint64_t>(arguments.integer("seed")));
+  if (!made) return made.error();
+  const LeafPanel panels[] = {{&real, "recorded"}, {&*made, "synthesized"}};
+  if (auto ok = write_leaf_films(arguments.text("film"), panels, options, terminal); !ok) return ok;
+  terminal.say("wrote " + arguments.text("film"));
+  return {};
+}
+
+Result<void> check_chain_flags(const Arguments& arguments) {
+  for (const char* flag : {"overlay", "film-strip", "clip"}) {
+    if (arguments.has(flag)) {
+      return Error{"--" + std::string(flag) + " is for outlines; this model is a segment chain (--film films falls)"};
+    }
+  }
+  return arguments.has("film") ? check_film_name(arguments.text("film")) : Result<void>();
+}
+
+// Reads the recording and its twin without wind, if it is one of a pair: the second argument, or REC.calm.csv beside
+// REC.csv.
+Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
+  const auto& paths = arguments.positionals();
+  auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));
+  if (!whole) return whole.error();
+  auto recording = in_range(std::move(*whole), arguments, "range");
+  if (!recording) return recording.error();
+  std::vector<Recording> all;
+  all.push_back(std::move(*recording));
+  std::string twin = paths.size() > 2 ? paths[2] : "";
+  if (find_attribute(all.front(), "pair") && twin.empty()) {
+    twin = std::filesystem::path(paths[1]).replace_extension(".calm.csv").string();
+    if (!std::filesystem::exists(twin)) {
+      return Error{all.front().source + ": is one of a pair, and there is no " + twin +
+                   ", expected its twin as a third argument"};
+    }
+  }
+  if (twin.empty()) return all;
+  auto other = read_table(twin, arguments, motion_table(arguments, rate_hz));
+  if (!other) return other.error();
+  all.push_back(std::move(*other));
+  return all;
+}
+
+// Compares a chain's falls with recorded ones, or its response to gusts with that of a pair of recordings, and draws
+// both. Errors: the recording can't be read or compared, a flag that only outlines have.
+Result<void> validate_chain(const Model& model, const Arguments& arguments, Terminal& terminal) {
+  if (auto ok = check_chain_flags(arguments); !ok) return ok;
+  const auto recordings = read_recordings(arguments, model.rate_hz);
+  if (!recordings) return recordings.error();
+  const ValidationOptions options{.seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  const auto report = validate(model, *recordings, options, terminal.progress());
+  if (!report) return report.error();
+  terminal.show(*report);
+  if (arguments.has("film")) {
+    if (auto ok = film(model, recordings->front(), arguments, terminal); !ok) return ok;
+  }
+  if (!arguments.has("figures")) return {};
+  if (auto ok = write_chain_figures(arguments.text("figures"), *report); !ok) return ok;
+  terminal.say("wrote figures to " + arguments.text("figures"));
+  return {};
 }
 
 Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
