@@ -1,11 +1,20 @@
 #pragma once
-// User input as plain values, from SDL or from a script.
+// What comes to a scene: user input as plain values, from SDL or from a script; wind of keys and of the pointer; sound.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "wisp/base/result.hpp"
 #include "wisp/draw/image.hpp"
+#include "wisp/record/wav.hpp"
+#include "wisp/sound/wind_level.hpp"
 
 namespace wisp::window {
 
@@ -63,5 +72,177 @@ struct MicrophoneLost {};
 struct Closed {};
 
 using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, FileDropped, MicrophoneLost, Closed>;
+
+/// Exponential approach of `from` to `to` after `seconds`, with time constant `within`.
+inline float towards(float from, float to, float seconds, float within) {
+  return to + (from - to) * std::exp(-seconds / within);
+}
+
+/// Wind from keys: the arrows blow as long as they are held, a puff is strong and short. Positive blows to the right;
+/// 1 is a strong gust.
+class KeyWind {
+ public:
+  /// Sets the direction of the held arrows: −1 left, 0 none or both, 1 right.
+  void hold(int direction) { direction_ = direction; }
+
+  /// A strong blow of `strength`, from the left unless the left arrow is held.
+  void puff(float strength) {
+    puff_peak_ = direction_ < 0 ? -strength : strength;
+    puff_age_ = 0;
+  }
+
+  void advance(float seconds) {
+    constexpr float kArrowWind = 0.75F, kArrowSeconds = 0.18F, kRise = 0.10F, kHold = 0.55F, kFall = 0.25F;
+    held_ = towards(held_, kArrowWind * static_cast<float>(direction_), seconds, kArrowSeconds);
+    puff_age_ += seconds;
+    const float rise = std::clamp(puff_age_ / kRise, 0.0F, 1.0F);
+    puff_ = puff_peak_ * std::min(rise, std::clamp((kRise + kHold + kFall - puff_age_) / kFall, 0.0F, 1.0F));
+  }
+
+  float wind() const { return held_ + puff_; }
+
+  /// Stops all wind at once.
+  void calm() { *this = {}; }
+
+ private:
+  int direction_ = 0;
+  float held_ = 0;
+  float puff_ = 0;
+  float puff_peak_ = 0;
+  float puff_age_ = 10;
+};
+
+/// The wind behind a moving pointer: the pointer's own speed, decaying when it rests. Lengths are in the scene's unit.
+class PointerWake {
+ public:
+  /// Moves the pointer to `at`.
+  void move(Point at) {
+    if (last_) moved_ = {moved_.x + at.x - last_->x, moved_.y + at.y - last_->y};
+    last_ = at;
+    at_ = at;
+  }
+
+  /// The pointer left the scene; its wake decays.
+  void leave() { last_.reset(); }
+
+  /// The wake follows the pointer at once and decays slowly.
+  void advance(float seconds) {
+    if (seconds <= 0) return;
+    const auto drag = [&](float speed, float pulled) {
+      const float resting = towards(speed, 0, seconds, 0.16F);
+      return std::abs(pulled) > std::abs(resting) ? towards(speed, pulled, seconds, 0.03F) : resting;
+    };
+    speed_ = {drag(speed_.x, moved_.x / seconds), drag(speed_.y, moved_.y / seconds)};
+    moved_ = {};
+  }
+
+  Point at() const { return at_; }
+
+  /// Lengths a second.
+  Point speed() const { return speed_; }
+
+ private:
+  std::optional<Point> last_;
+  Point at_{};
+  Point moved_{};
+  Point speed_{};
+};
+
+/// Where sound comes from.
+enum class EarState {
+  kOff,  ///< nobody asked for it, or it was switched off
+  kListening,
+  kMissing,  ///< there is no microphone, or it was lost
+};
+
+/// Wind frames a second: twice a screen's, so that waiting for the end of one costs half a frame at most.
+inline constexpr double kWindRate = 120;
+
+/// The wind in a stream of sound.
+class Ear {
+ public:
+  /// Begins with what was known of the microphone, if anything.
+  /// Errors: as WindLevel::create().
+  Result<void> open(const SoundFormat& format, std::optional<WindCalibration> known = {}) {
+    auto level = WindLevel::create(format, {.frame_rate_hz = kWindRate});
+    if (!level) return level.error();
+    level_.emplace(std::move(*level));
+    if (known) level_->set_calibration(*known);
+    return {};
+  }
+
+  /// Stops listening; its wind is 0 then.
+  void close(EarState state = EarState::kOff) {
+    level_.reset();
+    closed_ = state;
+  }
+
+  /// Takes interleaved samples. Ignored while closed.
+  void hear(std::span<const float> samples) {
+    if (!level_) return;
+    std::array<WindFrame, 64> frames;
+    while (!samples.empty()) {
+      const WindFed fed = level_->feed(samples, frames);
+      if (fed.samples == 0 && fed.frames == 0) return;
+      samples = samples.subspan(fed.samples);
+    }
+  }
+
+  /// The wind now, 1 a strong gust; 0 unless listening.
+  float wind() const { return level_ ? level_->latest().wind : 0.0F; }
+
+  /// How loud it is, 0 … 1, for the indicator.
+  float loudness() const {
+    if (!level_) return 0;
+    // 60 dB below full scale and less is an empty meter.
+    const float rms = std::max(level_->latest().rms, 1e-6F);
+    return std::clamp(1 + 20 * std::log10(rms) / 60, 0.0F, 1.0F);
+  }
+
+  EarState state() const { return level_ ? EarState::kListening : closed_; }
+
+  /// What was learned of the room, while open.
+  std::optional<WindCalibration> calibration() const {
+    return level_ ? std::optional(level_->calibration()) : std::nullopt;
+  }
+
+ private:
+  std::optional<WindLevel> level_;
+  EarState closed_ = EarState::kOff;
+};
+
+/// A WAV file in place of a microphone: its samples come as time passes, and end in silence.
+class SoundFile {
+ public:
+  /// Errors: as WavReader::open(), or an empty file.
+  static Result<SoundFile> open(const std::string& path) {
+    auto sound = read_wav(path);
+    if (!sound) return sound.error();
+    SoundFile file;
+    file.format_ = {.rate_hz = sound->format.rate_hz, .channels = sound->format.channels};
+    file.samples_ = std::move(sound->samples);
+    if (file.samples_.empty()) return Error{path + ": holds no samples; expected the sound of blowing"};
+    return file;
+  }
+
+  const SoundFormat& format() const { return format_; }
+
+  /// The samples up to that time since the start, as blocks of `block` samples a channel, which come only whole, as
+  /// from a microphone. The span is good until the next call.
+  std::span<const float> until(double seconds, int block) {
+    const auto channels = static_cast<std::size_t>(format_.channels);
+    const auto blocks = static_cast<std::size_t>(std::max(0.0, seconds * format_.rate_hz / block + 1e-9));
+    const std::size_t end = std::min(samples_.size(), blocks * static_cast<std::size_t>(block) * channels);
+    if (end <= taken_) return {};
+    const std::span<const float> fresh(samples_.data() + taken_, end - taken_);
+    taken_ = end;
+    return fresh;
+  }
+
+ private:
+  SoundFormat format_;
+  std::vector<float> samples_;
+  std::size_t taken_ = 0;  // of all channels
+};
 
 }  // namespace wisp::window

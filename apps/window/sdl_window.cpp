@@ -2,6 +2,12 @@
 
 #define SDL_MAIN_HANDLED
 #include <SDL.h>
+#include <fcntl.h>
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -10,13 +16,102 @@
 #include <memory>
 #include <string_view>
 
-#include "course.hpp"
-#include "sdl_microphone.hpp"
-#include "silence.hpp"
 #include "window.hpp"
 
 namespace wisp::window {
 namespace {
+
+// Keeps standard error quiet while it lives: where there is no sound card or no screen, the system's libraries write a
+// dozen lines there beside the error that they return.
+class Silence {
+ public:
+  Silence() : kept_(::dup(2)) {
+#ifdef _WIN32
+    const int nowhere = ::open("NUL", O_WRONLY);
+#else
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+#endif
+    if (nowhere < 0) return;
+    ::dup2(nowhere, 2);
+    ::close(nowhere);
+  }
+  ~Silence() {
+    if (kept_ < 0) return;
+    ::dup2(kept_, 2);
+    ::close(kept_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int kept_;
+};
+
+class Microphone {
+ public:
+  Microphone() = default;
+  ~Microphone() { close(); }
+  Microphone(const Microphone&) = delete;
+  Microphone& operator=(const Microphone&) = delete;
+
+  // Opens the system's default microphone and the ear for it. An ear that knew this room goes on with what it knew.
+  // Errors: there is none, or it may not be used.
+  Result<void> open(Ear& ear) {
+    close();
+    const Silence silence;
+    const auto none = [](const std::string& why) {
+      return Error{"no microphone: " + why + "; arrows, space and the pointer blow too"};
+    };
+    if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0) return none(SDL_GetError());
+    SDL_AudioSpec wanted{}, got{};
+    wanted.freq = 48000;
+    wanted.format = AUDIO_F32SYS;
+    wanted.channels = 1;
+    wanted.samples = kSoundBlock;
+    device_ = SDL_OpenAudioDevice(nullptr, 1, &wanted, &got, SDL_AUDIO_ALLOW_FREQUENCY_CHANGE);
+    if (device_ == 0) return none(SDL_GetError());
+    channels_ = std::max<int>(1, got.channels);
+    if (auto ok = ear.open({.rate_hz = static_cast<double>(got.freq), .channels = channels_}); !ok) {
+      close();
+      return none(ok.error().message);
+    }
+    SDL_PauseAudioDevice(device_, 0);
+    return {};
+  }
+
+  void close() {
+    if (device_ != 0) SDL_CloseAudioDevice(device_);
+    device_ = 0;
+  }
+
+  bool is_open() const { return device_ != 0; }
+  bool is(SDL_AudioDeviceID device) const { return device_ != 0 && device_ == device; }
+  SDL_AudioDeviceID device() const { return device_; }
+
+  // Passes on what came since the last call.
+  void pass_on(Ear& ear) {
+    if (device_ == 0) return;
+    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // what waits longer is old: the window slept
+    block_.resize(static_cast<std::size_t>(kSoundBlock) * channels_);
+    if (SDL_GetQueuedAudioSize(device_) > kMaxWaitingBytes) SDL_ClearQueuedAudio(device_);
+    for (;;) {
+      const Uint32 bytes = SDL_DequeueAudio(device_, block_.data(), static_cast<Uint32>(4 * block_.size()));
+      const std::size_t samples = bytes / 4 / channels_ * channels_;
+      if (samples == 0) return;
+      ear.hear(std::span(block_).first(samples));
+    }
+  }
+
+  // Drops what came since the last call.
+  void forget() {
+    if (device_ != 0) SDL_ClearQueuedAudio(device_);
+  }
+
+ private:
+  SDL_AudioDeviceID device_ = 0;
+  int channels_ = 1;
+  std::vector<float> block_;
+};
 
 // Larger pictures are drawn at this size and scaled up by the window, so that a frame is ready in time.
 constexpr double kMaxPixels = 1280.0 * 800.0;
@@ -125,9 +220,7 @@ class Window {
   PlayReport report_;
 };
 
-Error no_display() {
-  return {"no display was found; wisp play needs one, --headless-frames N --png DIR draws without"};
-}
+Error no_display() { return {"no display was found; wisp play needs one, --frames N --png DIR draws without"}; }
 
 Result<void> Window::open() {
   {

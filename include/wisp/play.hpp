@@ -7,6 +7,7 @@
 #include "wisp/model/file.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/run/extinction_facet.hpp"

@@ -48,6 +48,7 @@ void add_noise(const ResidualNoise& noise, ReportSection& section) {
   add(section, to + "margin", resampled.margin);
   add(section, to + "longest", resampled.longest);
   add(section, to + "mirror", list(resampled.mirror));
+  add(section, to + "across", resampled.across);
 }
 
 void add_contents(const ArxModel& arx, ReportSection& section) {
@@ -107,6 +108,10 @@ const char* form_of(InputShape shape) {
       return "split_sign";
     case InputShape::kSplitSignPowers:
       return "split_sign_powers";
+    case InputShape::kWindAlong:
+      return "wind_along";
+    case InputShape::kWindAcross:
+      return "wind_across";
   }
   return "";
 }

@@ -18,7 +18,7 @@ using arx::element;
 
 std::string shape_text(InputShape shape) {
   return std::string(splits_sign(shape) ? "split sign" : "linear") +
-         (has_powers(shape) ? ", its square root and its square" : "");
+         (has_powers(shape) ? ", its square root and its square" : "") + (is_vector(shape) ? ", of a vector" : "");
 }
 
 void add_inputs(const std::vector<Input>& inputs, ReportSection& section) {
@@ -84,6 +84,7 @@ void add_shape(const ShapeComponents& shape, ReportSection& section) {
   };
   add(section, "view.shape.symmetric", shape.symmetric);
   add(section, "view.shape.antisymmetric", shape.antisymmetric);
+  add(section, "view.shape.across", shape.across);
   add(section, "view.shape.rest", shape.rest);
   add(section, "view.shape.basis", shape.basis);
   add(section, "view.shape.coordinates", ends(shape.coordinates));
@@ -128,6 +129,10 @@ struct ViewFields {
     add(section, "view.points", model.outputs.size() / 2);
     add(section, "view.knots", outline.knots);
     add_shape(outline.shape, section);
+    add(section, "view.in_the_round", is_in_the_round(model) ? "recorded" : in_the_round(model) ? "symmetry" : "no");
+    if (!is_in_the_round(model) && in_the_round(model)) {
+      add(section, "", "a body by the assumption of rotational symmetry: one camera saw it", "in the round");
+    }
     add(section, "view.metres_per_unit", outline.metres_per_unit);
     add(section, "view.pixels_per_unit", outline.pixels_per_unit);
   }

@@ -90,11 +90,18 @@ Result<void> check_past(const ResampledResiduals& resampled) {
   return {};
 }
 
-Result<void> check_resampled(const ResampledResiduals& resampled, std::size_t ny, int nu) {
+Result<void> check_resampled(const ResampledResiduals& resampled, std::size_t outputs, int nu) {
   if (resampled.empty()) {
     return resampled.ends.empty() ? Result<void>() : Error{"the resampled residuals have stretches without rows"};
   }
   if (auto ok = check_ends(resampled); !ok) return ok;
+  const bool driven = resampled.toward >= 0;
+  if (resampled.across < 0 || 2 * static_cast<std::size_t>(resampled.across) > outputs ||
+      (resampled.across > 0 && driven &&
+       (resampled.mirror.empty() || resampled.against != resampled.toward + 3 || resampled.against + 6 >= nu))) {
+    return Error{"the resampled residuals are in the round, and not of outputs and an input that are"};
+  }
+  const std::size_t ny = outputs - static_cast<std::size_t>(resampled.across);
   if (resampled.rows.size() != resampled.row_count() * ny)
     return Error{"the resampled residuals are not one number an output"};
   if (auto ok = check_finite(resampled.scale, ny, "the resampled residuals' scale"); !ok) return ok;

@@ -30,6 +30,19 @@ Result<void> check_channels(const std::vector<Channel>& channels, const std::str
   return {};
 }
 
+Result<void> check_shapes(const std::vector<Input>& inputs) {
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const Input& input = inputs[k];
+    const std::size_t other = input.shape == InputShape::kWindAlong ? k + 1 : k - 1;
+    const bool paired = other < inputs.size() && is_vector(inputs[other].shape) && inputs[other].shape != input.shape;
+    if (!is_vector(input.shape) || (paired && input.lowest == -input.highest)) continue;
+    return Error{
+        "input " + input.name +
+        " is one of the two numbers of a vector, and the other is missing or its range not the same either way"};
+  }
+  return {};
+}
+
 Result<void> check_channels_of(const Model& model, const ArxOrders& orders) {
   const auto* outline = std::get_if<OutlineView>(&model.view);
   const bool shaped = outline != nullptr && !outline->shape.empty();
@@ -170,6 +183,7 @@ Result<void> check(const Model& model) {
   }
   if (model.outputs.empty()) return Error{"the model has no outputs"};
   if (auto ok = check_channels(model.inputs, "input"); !ok) return ok;
+  if (auto ok = check_shapes(model.inputs); !ok) return ok;
   if (auto ok = check_channels(model.outputs, "output"); !ok) return ok;
   if (auto ok = std::visit([&](const auto& dynamics) { return check_dynamics(model, dynamics); }, model.dynamics); !ok)
     return ok;

@@ -48,10 +48,10 @@ fb::Offset<file::ResampledResiduals> write_resampled(Builder& builder, const Res
   const auto mirror = sources.empty() ? 0 : builder.CreateVector(sources);
   const std::vector<std::uint16_t> past(resampled.lags.begin(), resampled.lags.end());
   const auto lags = past.empty() ? 0 : builder.CreateVector(past);
-  return file::CreateResampledResiduals(builder, scale, rows, ends, resampled.wind_scale, winds,
-                                        static_cast<std::int16_t>(resampled.toward),
-                                        static_cast<std::int16_t>(resampled.against), lags, resampled.tolerance,
-                                        resampled.margin, static_cast<std::uint32_t>(resampled.longest), mirror);
+  return file::CreateResampledResiduals(
+      builder, scale, rows, ends, resampled.wind_scale, winds, static_cast<std::int16_t>(resampled.toward),
+      static_cast<std::int16_t>(resampled.against), lags, resampled.tolerance, resampled.margin,
+      static_cast<std::uint32_t>(resampled.longest), mirror, static_cast<std::uint16_t>(resampled.across));
 }
 
 fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
@@ -209,6 +209,7 @@ ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
   resampled.margin = stored.margin();
   resampled.longest = static_cast<int>(std::min(stored.longest(), kLargest));
   for (std::int16_t from : integers(stored.mirror())) resampled.mirror.push_back(from);
+  resampled.across = stored.across();
   return resampled;
 }
 
@@ -333,28 +334,24 @@ Training read_training(const file::Training& stored) {
   return made;
 }
 
+constexpr std::pair<InputShape, file::InputShape> kShapes[] = {
+    {InputShape::kLinear, file::InputShape::Linear},
+    {InputShape::kSplitSign, file::InputShape::SplitSign},
+    {InputShape::kSplitSignPowers, file::InputShape::SplitSignPowers},
+    {InputShape::kWindAlong, file::InputShape::WindAlong},
+    {InputShape::kWindAcross, file::InputShape::WindAcross},
+};
+
 Result<InputShape> read_shape(file::InputShape shape) {
-  switch (shape) {
-    case file::InputShape::Linear:
-      return InputShape::kLinear;
-    case file::InputShape::SplitSign:
-      return InputShape::kSplitSign;
-    case file::InputShape::SplitSignPowers:
-      return InputShape::kSplitSignPowers;
+  for (const auto& [ours, stored] : kShapes) {
+    if (stored == shape) return ours;
   }
   return Error{"has an input shape that this program does not know; update Wisp"};
 }
 
 file::InputShape stored_shape(InputShape shape) {
-  switch (shape) {
-    case InputShape::kLinear:
-      return file::InputShape::Linear;
-    case InputShape::kSplitSign:
-      return file::InputShape::SplitSign;
-    case InputShape::kSplitSignPowers:
-      return file::InputShape::SplitSignPowers;
-  }
-  return file::InputShape::Linear;
+  return std::find_if(std::begin(kShapes), std::end(kShapes), [&](const auto& one) { return one.first == shape; })
+      ->second;
 }
 
 Result<void> read_channels(const file::Model& stored, Model& model) {
@@ -380,7 +377,8 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
   }
   const auto* outline = stored.view_as_Outline();
   const auto* shape = outline ? outline->shape() : nullptr;
-  const int ny = shape ? shape->symmetric() + shape->antisymmetric() : static_cast<int>(model.outputs.size());
+  const int ny =
+      shape ? shape->symmetric() + shape->antisymmetric() + shape->across() : static_cast<int>(model.outputs.size());
   const int nu = static_cast<int>(regressor_count(model.inputs));
   if (const auto* switched = stored.dynamics_as_SwitchedArx()) {
     auto read = read_switched(*switched, ny, nu);
@@ -407,7 +405,8 @@ std::vector<ValueRange> ranges(const fb::Vector<double>* stored) {
 ShapeComponents read_shape(const file::ShapeComponents* stored) {
   if (!stored) return {};
   return {stored->symmetric(),      stored->antisymmetric(),       numbers(stored->rest()),
-          numbers(stored->basis()), ranges(stored->coordinates()), ranges(stored->components())};
+          numbers(stored->basis()), ranges(stored->coordinates()), ranges(stored->components()),
+          stored->across()};
 }
 
 Result<void> read_view(const file::Model& stored, Model& model) {
@@ -482,7 +481,7 @@ fb::Offset<file::ShapeComponents> write_shape(Builder& builder, const ShapeCompo
   const std::vector<double> coordinates = flat(shape.coordinates), components = flat(shape.components);
   return file::CreateShapeComponentsDirect(builder, static_cast<std::uint16_t>(shape.symmetric),
                                            static_cast<std::uint16_t>(shape.antisymmetric), &shape.rest, &shape.basis,
-                                           &coordinates, &components);
+                                           &coordinates, &components, static_cast<std::uint16_t>(shape.across));
 }
 
 Member<file::View> write_view(Builder& builder, const OutlineView& outline) {

@@ -86,33 +86,39 @@ enum class InputShape : uint8_t {
   Linear = 0,
   SplitSign = 1,
   SplitSignPowers = 4,
+  WindAlong = 5,
+  WindAcross = 6,
   MIN = Linear,
-  MAX = SplitSignPowers
+  MAX = WindAcross
 };
 
-inline const InputShape (&EnumValuesInputShape())[3] {
+inline const InputShape (&EnumValuesInputShape())[5] {
   static const InputShape values[] = {
     InputShape::Linear,
     InputShape::SplitSign,
-    InputShape::SplitSignPowers
+    InputShape::SplitSignPowers,
+    InputShape::WindAlong,
+    InputShape::WindAcross
   };
   return values;
 }
 
 inline const char * const *EnumNamesInputShape() {
-  static const char * const names[6] = {
+  static const char * const names[8] = {
     "Linear",
     "SplitSign",
     "",
     "",
     "SplitSignPowers",
+    "WindAlong",
+    "WindAcross",
     nullptr
   };
   return names;
 }
 
 inline const char *EnumNameInputShape(InputShape e) {
-  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::SplitSignPowers)) return "";
+  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::WindAcross)) return "";
   const size_t index = static_cast<size_t>(e);
   return EnumNamesInputShape()[index];
 }
@@ -542,7 +548,8 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_TOLERANCE = 20,
     VT_MARGIN = 22,
     VT_LONGEST = 24,
-    VT_MIRROR = 26
+    VT_MIRROR = 26,
+    VT_ACROSS = 28
   };
   const flatbuffers::Vector<double> *scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_SCALE);
@@ -580,6 +587,9 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<int16_t> *mirror() const {
     return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_MIRROR);
   }
+  uint16_t across() const {
+    return GetField<uint16_t>(VT_ACROSS, 0);
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffsetRequired(verifier, VT_SCALE) &&
@@ -600,6 +610,7 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<uint32_t>(verifier, VT_LONGEST, 4) &&
            VerifyOffset(verifier, VT_MIRROR) &&
            verifier.VerifyVector(mirror()) &&
+           VerifyField<uint16_t>(verifier, VT_ACROSS, 2) &&
            verifier.EndTable();
   }
 };
@@ -644,6 +655,9 @@ struct ResampledResidualsBuilder {
   void add_mirror(flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror) {
     fbb_.AddOffset(ResampledResiduals::VT_MIRROR, mirror);
   }
+  void add_across(uint16_t across) {
+    fbb_.AddElement<uint16_t>(ResampledResiduals::VT_ACROSS, across, 0);
+  }
   explicit ResampledResidualsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -671,7 +685,8 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
     double tolerance = 0.0,
     double margin = 0.0,
     uint32_t longest = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0,
+    uint16_t across = 0) {
   ResampledResidualsBuilder builder_(_fbb);
   builder_.add_margin(margin);
   builder_.add_tolerance(tolerance);
@@ -683,6 +698,7 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
   builder_.add_ends(ends);
   builder_.add_rows(rows);
   builder_.add_scale(scale);
+  builder_.add_across(across);
   builder_.add_against(against);
   builder_.add_toward(toward);
   return builder_.Finish();
@@ -706,7 +722,8 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
     double tolerance = 0.0,
     double margin = 0.0,
     uint32_t longest = 0,
-    const std::vector<int16_t> *mirror = nullptr) {
+    const std::vector<int16_t> *mirror = nullptr,
+    uint16_t across = 0) {
   auto scale__ = scale ? _fbb.CreateVector<double>(*scale) : 0;
   auto rows__ = rows ? _fbb.CreateVector<int8_t>(*rows) : 0;
   auto ends__ = ends ? _fbb.CreateVector<uint32_t>(*ends) : 0;
@@ -726,7 +743,8 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
       tolerance,
       margin,
       longest,
-      mirror__);
+      mirror__,
+      across);
 }
 
 struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
@@ -1743,7 +1761,8 @@ struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_REST = 8,
     VT_BASIS = 10,
     VT_COORDINATES = 12,
-    VT_COMPONENTS = 14
+    VT_COMPONENTS = 14,
+    VT_ACROSS = 16
   };
   uint16_t symmetric() const {
     return GetField<uint16_t>(VT_SYMMETRIC, 0);
@@ -1763,6 +1782,9 @@ struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *components() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_COMPONENTS);
   }
+  uint16_t across() const {
+    return GetField<uint16_t>(VT_ACROSS, 0);
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyField<uint16_t>(verifier, VT_SYMMETRIC, 2) &&
@@ -1775,6 +1797,7 @@ struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(coordinates()) &&
            VerifyOffsetRequired(verifier, VT_COMPONENTS) &&
            verifier.VerifyVector(components()) &&
+           VerifyField<uint16_t>(verifier, VT_ACROSS, 2) &&
            verifier.EndTable();
   }
 };
@@ -1801,6 +1824,9 @@ struct ShapeComponentsBuilder {
   void add_components(flatbuffers::Offset<flatbuffers::Vector<double>> components) {
     fbb_.AddOffset(ShapeComponents::VT_COMPONENTS, components);
   }
+  void add_across(uint16_t across) {
+    fbb_.AddElement<uint16_t>(ShapeComponents::VT_ACROSS, across, 0);
+  }
   explicit ShapeComponentsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -1823,12 +1849,14 @@ inline flatbuffers::Offset<ShapeComponents> CreateShapeComponents(
     flatbuffers::Offset<flatbuffers::Vector<double>> rest = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> basis = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> coordinates = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> components = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<double>> components = 0,
+    uint16_t across = 0) {
   ShapeComponentsBuilder builder_(_fbb);
   builder_.add_components(components);
   builder_.add_coordinates(coordinates);
   builder_.add_basis(basis);
   builder_.add_rest(rest);
+  builder_.add_across(across);
   builder_.add_antisymmetric(antisymmetric);
   builder_.add_symmetric(symmetric);
   return builder_.Finish();
@@ -1846,7 +1874,8 @@ inline flatbuffers::Offset<ShapeComponents> CreateShapeComponentsDirect(
     const std::vector<double> *rest = nullptr,
     const std::vector<double> *basis = nullptr,
     const std::vector<double> *coordinates = nullptr,
-    const std::vector<double> *components = nullptr) {
+    const std::vector<double> *components = nullptr,
+    uint16_t across = 0) {
   auto rest__ = rest ? _fbb.CreateVector<double>(*rest) : 0;
   auto basis__ = basis ? _fbb.CreateVector<double>(*basis) : 0;
   auto coordinates__ = coordinates ? _fbb.CreateVector<double>(*coordinates) : 0;
@@ -1858,7 +1887,8 @@ inline flatbuffers::Offset<ShapeComponents> CreateShapeComponentsDirect(
       rest__,
       basis__,
       coordinates__,
-      components__);
+      components__,
+      across);
 }
 
 struct Outline FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

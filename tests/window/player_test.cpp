@@ -1,6 +1,6 @@
 // What the window shows, without a window: scenes, sound, events and files, looked at as pictures.
 
-#include "window/player.hpp"
+#include "window/window.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "paths.hpp"
 #include "sound/wind_sounds.hpp"
-#include "window/course.hpp"
+#include "window/window.hpp"
 
 namespace wisp::window::player_test {
 namespace {

@@ -56,18 +56,18 @@ class Play : public InFolder {
 int lines_of(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
 TEST_F(Play, RefusesWrongFlagsWithStatus2) {
-  for (const char* arguments : {"--scene pond", "--size big", "--size 10x10", "--size 800", "--headless-frames many",
-                                "--headless-frames 0", "--png out", "--nonsense", "--seed x"}) {
+  for (const char* arguments : {"--scene pond", "--size big", "--size 10x10", "--size 800", "--frames many",
+                                "--frames 0", "--png out", "--nonsense", "--seed x"}) {
     EXPECT_EQ(play(kFlame + " " + arguments).status, 2) << arguments;
   }
-  EXPECT_EQ(play(kFlame + " --scene leaves --headless-frames 1").status, 2);
+  EXPECT_EQ(play(kFlame + " --scene leaves --frames 1").status, 2);
 }
 
 TEST_F(Play, NamesABadFileInOneLineWithStatus1) {
   std::ofstream(at("broken.wisp")) << "WISP";
   std::ofstream(at("broken.wav")) << "RIFF";
   script("0 dance\n");
-  const std::string frames = " --headless-frames 2";
+  const std::string frames = " --frames 2";
   for (const auto& [arguments, named] :
        {std::pair{at("broken.wisp") + frames, "broken.wisp"}, std::pair{at("absent.wisp") + frames, "absent.wisp"},
         std::pair{kFlame + frames + " --sound " + at("broken.wav"), "broken.wav"},
@@ -81,14 +81,14 @@ TEST_F(Play, NamesABadFileInOneLineWithStatus1) {
 }
 
 TEST_F(Play, WithoutAModelPlaysThoseThatComeWithWisp) {
-  const Said said = play("--headless-frames 2 --size 64x64 --scene leaves --json");
+  const Said said = play("--frames 2 --size 64x64 --scene leaves --json");
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_THAT(said.json()["model"].get<std::string>(), HasSubstr("leaf.wisp"));
 }
 
 TEST_F(Play, WritesTheSamePicturesForTheSameSeed) {
   for (const char* folder : {"a", "b"}) {
-    const Said said = play(kFlame + " --headless-frames 3 --size 128x128 --seed 5 --png " + at(folder));
+    const Said said = play(kFlame + " --frames 3 --size 128x128 --seed 5 --png " + at(folder));
     ASSERT_EQ(said.status, 0) << said.err;
   }
   EXPECT_THAT(files("a"), testing::ElementsAre("frame-00001.png", "frame-00002.png", "frame-00003.png"));
@@ -100,7 +100,7 @@ TEST_F(Play, WritesTheSamePicturesForTheSameSeed) {
 
 TEST_F(Play, LeavesWholePicturesOrNoneWhenItIsInterrupted) {
   const std::string first = at("frames") + "/frame-00003.png";
-  const std::string line = WISP_PROGRAM " play " + kFlame + " --headless-frames 100000 --png " + at("frames") +
+  const std::string line = WISP_PROGRAM " play " + kFlame + " --frames 100000 --png " + at("frames") +
                            " >/dev/null 2>&1 & pid=$!; until [ -e " + first +
                            " ]; do sleep 0.01; done; kill -TERM $pid; wait $pid; test $? = 143";  // 128 + SIGTERM
   EXPECT_EQ(std::system(line.c_str()), 0);
@@ -208,7 +208,7 @@ TEST_F(PlayInAWindow, ShowsWhatPicturesWithoutAWindowShow) {
   ASSERT_EQ(shown.status, 0) << shown.err;
   EXPECT_EQ(shown.json()["went_out"], 1);
   EXPECT_EQ(shown.json()["relit"], 1);
-  const Said drawn = play(arguments + " --json --headless-frames 400 --png " + at("drawn"));
+  const Said drawn = play(arguments + " --json --frames 400 --png " + at("drawn"));
   ASSERT_EQ(drawn.status, 0) << drawn.err;
   EXPECT_EQ(shown.json()["pictures"], drawn.json()["pictures"]);
   ASSERT_EQ(files("shown").size(), 7U);

@@ -121,17 +121,17 @@ Result<PlayOptions> options_of(const Arguments& arguments) {
   options.player.scene = scene_of(arguments);
   options.player.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
   if (auto ok = set_size(arguments.text("size"), options.player); !ok) return ok.error();
-  if (arguments.has("sound")) options.sound = arguments.text("sound");
+  options.microphone = !arguments.has("sound") || arguments.text("sound") != "none";
+  if (arguments.has("sound") && options.microphone) options.sound = arguments.text("sound");
   if (arguments.has("script")) options.script = arguments.text("script");
   if (arguments.has("png")) options.pictures = arguments.text("png");
-  options.microphone = !arguments.on("no-microphone");
   options.interrupted = &interrupted;
-  options.player.hints = !options.script && !arguments.has("headless-frames");
-  if (arguments.has("headless-frames")) {
-    options.frames = arguments.integer("headless-frames");
-    if (options.frames < 1) return Error{"--headless-frames: found \"0\", expected at least 1"};
+  options.player.hints = !options.script && !arguments.has("frames");
+  if (arguments.has("frames")) {
+    options.frames = arguments.integer("frames");
+    if (options.frames < 1) return Error{"--frames: found \"0\", expected at least 1"};
   } else if (options.pictures && !options.script) {
-    return Error{"--png: pictures are taken by --headless-frames N, or by a --script that says when"};
+    return Error{"--png: pictures are taken by --frames N, or by a --script that says when"};
   }
   if (!arguments.positionals().empty()) {
     options.player.models = {arguments.positional()};
@@ -208,9 +208,9 @@ Command play_command() {
            "candle, cake or leaves; default: what the model is",
            {"candle", "cake", "leaves"}},
           {"size", Kind::kText, "WxH", "1280x800", "of the window, or of pictures without one"},
-          {"sound", Kind::kPath, "FILE.wav", "", "a sound file in place of the microphone"},
-          {"no-microphone", Kind::kSwitch, "", "", "begin with the microphone off; M turns it on"},
-          {"headless-frames", Kind::kInteger, "N", "", "no window: N frames of 1/60 s, the same for the same seed"},
+          {"sound", Kind::kPath, "FILE.wav", "",
+           "a sound file in place of the microphone; none: it is off, M turns it on"},
+          {"frames", Kind::kInteger, "N", "", "no window: N frames of 1/60 s, the same for the same seed"},
           {"png", Kind::kOutput, "DIR", "", "the folder for pictures: every frame, or those that --script takes"},
           {"script", Kind::kPath, "FILE", "",
            "events with times, as docs/reference/window.md describes, in place of a person"},
@@ -219,7 +219,7 @@ Command play_command() {
       {
           {"wisp play", "A candle that you blow out; Tab: leaves"},
           {"wisp play out/demo/flame.wisp --scene cake", "A cake, its flames learned from your clip"},
-          {"wisp play flame.wisp --sound breath.wav --headless-frames 300 --png frames",
+          {"wisp play flame.wisp --sound breath.wav --frames 300 --png frames",
            "What a recorded breath does to it, as 300 pictures, without a window"},
       },
       run_play,

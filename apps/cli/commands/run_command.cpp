@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -14,6 +15,7 @@
 #include "reports/chain_walk.hpp"
 #include "terminal.hpp"
 #include "wisp/describe/text.hpp"
+#include "wisp/draw/flame.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/model/file.hpp"
@@ -31,6 +33,9 @@ struct Play {
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
+  Camera camera;                   // of a model in the round
+  double orbit = 0;                // seconds in which the camera goes once round; 0: it stands
+  double toward = 0;               // degrees, of the wind
   std::vector<std::size_t> relit;  // frames before which everything that is out is lit again, ascending
 };
 
@@ -45,7 +50,7 @@ class Player {
     if (extinction && std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
       for (int slot = 0; slot < bank_.slots(); ++slot) extinction->relight(bank_.at(slot));
     }
-    std::vector<float> inputs = play_.input.at(frame_);
+    std::vector<float> inputs = turned(play_.input.at(frame_));
     bank_.set_common_inputs(inputs);
     bank_.step();
     for (int slot = 0; extinction && slot < bank_.slots(); ++slot) note(*extinction, slot);
@@ -58,13 +63,27 @@ class Player {
   // The wind that carries smoke: of the input that blows flames out.
   float wind(const std::vector<float>& inputs) const {
     const auto& rule = play_.model.extinction;
-    return rule ? inputs[rule->input] : 0.0F;
+    if (!rule) return 0.0F;
+    return bank_.body() ? to_the_right(camera(), inputs[0], inputs[1]) : inputs[rule->input];
+  }
+
+  Camera camera() const {
+    Camera camera = play_.camera;
+    if (play_.orbit > 0) camera.azimuth += 360 * static_cast<double>(frame_) / (play_.orbit * play_.model.rate_hz);
+    return camera;
   }
 
   // When instances went out, for programs.
   const ReportTable& deaths() const { return deaths_; }
 
  private:
+  // A wind of one number blows along the picture, or towards where it was said to.
+  std::vector<float> turned(std::vector<float> inputs) const {
+    if (inputs.size() != 1 || bank_.input_count() != 2) return inputs;
+    const double angle = play_.toward * 3.14159265358979323846 / 180;
+    return {static_cast<float>(inputs[0] * std::cos(angle)), static_cast<float>(-inputs[0] * std::sin(angle))};
+  }
+
   void note(const ExtinctionFacet& extinction, int slot) {
     const bool lit = extinction.state_of(bank_.at(slot))->lit;
     if (burnt_[slot] && !lit) deaths_.rows.push_back({slot, frame_});
@@ -115,7 +134,7 @@ Result<void> write_film(const Play& play, const Bank& bank, Player& player, cons
   if (!film) return film.error();
   for (std::size_t frame = 0; frame < play.frames; ++frame) {
     pictures.blow(bank, player.wind(player.step()));
-    if (auto ok = film->write(pictures.draw(bank)); !ok) return ok;
+    if (auto ok = film->write(pictures.draw(bank, player.camera())); !ok) return ok;
     terminal.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(play.frames));
   }
   return film->finish();
@@ -125,7 +144,7 @@ Result<void> write_picture(const Play& play, const Bank& bank, Player& player, c
   if (std::holds_alternative<OutlineView>(play.model.view)) {
     CandlePictures pictures(play.model, bank);
     for (std::size_t frame = 0; frame < play.frames; ++frame) pictures.blow(bank, player.wind(player.step()));
-    return write_png(path, pictures.draw(bank));
+    return write_png(path, pictures.draw(bank, player.camera()));
   }
   const Recording recording = record_run(play, bank, player);
   Plot plot{.title = play.model.name, .x = {.label = "time, s"}, .y = {}};
@@ -226,6 +245,25 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
+// What --camera, --orbit and --toward ask for: the model in the round.
+Result<void> go_round(const Arguments& arguments, Play& play) {
+  if (!arguments.has("camera") && arguments.number("orbit") == 0) return {};
+  auto round = in_the_round(play.model);
+  if (!round) return round.error();
+  play.model = *std::move(round);
+  play.toward = arguments.number("wind-direction");
+  play.orbit = arguments.number("orbit");
+  if (!arguments.has("camera")) return {};
+  Camera& camera = play.camera;
+  char comma = ',', end = 0;
+  const int found =
+      std::sscanf(arguments.text("camera").c_str(), "%lf%c%lf%c", &camera.azimuth, &comma, &camera.elevation, &end);
+  const bool good = (found == 1 || found == 3) && comma == ',' && std::abs(camera.azimuth) <= 3600;
+  if (good && std::abs(camera.elevation) <= 80) return {};
+  return Error{"--camera: found \"" + arguments.text("camera") +
+               "\", expected degrees round the flame, and degrees above the level up to 80, as 45 or 45,20"};
+}
+
 Result<Play> prepare(const Arguments& arguments) {
   auto model = read_model(arguments.positional());
   if (!model) return model.error();
@@ -234,8 +272,9 @@ Result<Play> prepare(const Arguments& arguments) {
   if (!input) return input.error();
   auto relit = relit_frames(*model, arguments);
   if (!relit) return relit.error();
-  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")),
+  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")), {}, 0, 0,
             std::move(*relit)};
+  if (auto ok = go_round(arguments, play); !ok) return ok.error();
   play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
   if (play.frames == 0)
     return Error{"--frames is 0 or not given: give at least 1, or --input with a recording that says how many"};
@@ -309,6 +348,11 @@ std::vector<Flag> all_flags() {
        "the residual noise; off, a chain goes on with what is likeliest and joins best, and says how it repeats "
        "itself",
        {"on", "off"}},
+      {"camera", Kind::kNames, "AZIMUTH,ELEVATION", "",
+       "see it from so many degrees round it, and above the level: a flame in the round, by rotational symmetry"},
+      {"orbit", Kind::kNumber, "S", "0", "the camera goes once round it in so many seconds"},
+      {"wind-direction", Kind::kNumber, "DEG", "0",
+       "in the round: the wind blows to the right of a camera at that azimuth"},
       {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
       {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
       {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},

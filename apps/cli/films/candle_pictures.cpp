@@ -44,19 +44,32 @@ void CandlePictures::blow(const Bank& bank, float wind) {
   }
 }
 
-const Image& CandlePictures::draw(const Bank& bank) {
-  bank.polylines(polylines_);
+const Image& CandlePictures::draw(const Bank& bank, const Camera& camera) {
   const ExtinctionFacet* extinction = bank.extinction();
   for (std::size_t k = 0; k < scenes_.size(); ++k) {
     const LitState state =
         extinction ? extinction->state_of(bank.at(static_cast<int>(k))).value_or(LitState{}) : LitState{};
     show_state(state, scenes_[k]);
   }
-  return draw(polylines_);
+  if (!bank.body()) {
+    bank.polylines(polylines_);
+    return draw(polylines_);
+  }
+  std::vector<float> rings(static_cast<std::size_t>(bank.body()->rings()) * kRingNumbers);
+  const std::size_t each = points_.size() / scenes_.size();
+  for (std::size_t k = 0; k < scenes_.size(); ++k) {
+    bank.body()->read_rings(bank.at(static_cast<int>(k)), rings);
+    see_body(rings, camera, std::span(points_).subspan(k * each, each));
+  }
+  return draw_points();
 }
 
 const Image& CandlePictures::draw(std::span<const float> outlines) {
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = {outlines[2 * k], outlines[2 * k + 1]};
+  return draw_points();
+}
+
+const Image& CandlePictures::draw_points() {
   const std::size_t each = points_.size() / scenes_.size();
   std::vector<Flame> flames;
   for (std::size_t k = 0; k < scenes_.size(); ++k) {

@@ -28,13 +28,15 @@ class CandlePictures {
   /// Takes the wind of one step of the bank, in the model's units, which carries the smoke.
   void blow(const Bank& bank, float wind);
 
-  /// Draws the bank's present state. The picture is valid until the next call.
-  const Image& draw(const Bank& bank);
+  /// Draws the bank's present state, bodies as the camera sees them. The picture is valid until the next call.
+  const Image& draw(const Bank& bank, const Camera& camera = {});
 
   /// Draws burning flames from outlines one after the other, count × points × (x, y).
   const Image& draw(std::span<const float> outlines);
 
  private:
+  const Image& draw_points();
+
   int width_;
   int height_;
   std::vector<FlameScene> scenes_;

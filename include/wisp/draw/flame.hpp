@@ -13,6 +13,7 @@
 #include <span>
 
 #include "wisp/draw/image.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
@@ -110,5 +111,21 @@ void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& st
 /// A scene that frames one candle well in a picture of that size: the flame in the upper middle with room to lean and
 /// grow to twice its mean height, the candle standing on the table of draw_room().
 FlameScene framed(int width, int height);
+
+/// Where a camera stands that looks at the base of a flame from afar: degrees anticlockwise round it, from above, from
+/// where it was filmed; and degrees above the level, from −80 to 80.
+struct Camera {
+  double azimuth = 0;
+  double elevation = 0;
+};
+
+/// The outline of a body in model units, from the base's left over the tip to the base's right: two points a ring. From
+/// a level camera it is the outline that the model says; from a raised one the outer edge of its rings.
+///
+/// Precondition: `rings` are those of one instance (BodyFacet::read_rings()), twice as many points as rings.
+void see_body(std::span<const float> rings, const Camera& camera, std::span<Point> outline);
+
+/// How much of a level vector, the wind's x and z, is to the camera's right.
+float to_the_right(const Camera& camera, float x, float z);
 
 }  // namespace wisp

@@ -26,6 +26,9 @@ enum class InputShape {
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
   kSplitSignPowers,  ///< as six: max(u, 0), its square root and its square, then those of max(−u, 0)
+  kWindAlong,        ///< one of two that are a level vector, its x: as twelve; six powers of the vector's length, which
+                     ///< are 0 but on the side to which it points, then those of the length times its direction's x
+  kWindAcross,       ///< the other one, its z, right after kWindAlong: as six, those of the length times direction's z
 };
 
 /// An input as the world gives it.
@@ -84,10 +87,19 @@ struct Model {
   std::optional<Extinction> extinction;  ///< none: it never goes out
 };
 
+/// The same flame in the round, by rotational symmetry: symmetric components are numbers, antisymmetric ones are
+/// vectors of the level plane, and the wind is one, in two inputs. Wind along x gives the numbers of `plane`, seen from
+/// its camera, to the bit. One that is in the round already is returned as it is. Errors: it is no outline of symmetric
+/// and antisymmetric components with residuals of its own, or has an input that has no direction.
+Result<Model> in_the_round(const Model& plane);
+
+/// Whether a model is in the round: its outputs are its outline as it is seen from one side.
+bool is_in_the_round(const Model& model);
+
 /// Number of regressors that the inputs make: the number of inputs that the dynamics see.
 std::size_t regressor_count(const std::vector<Input>& inputs);
 
-/// Regressors that one input of that shape makes: 1, 2 or 6.
+/// Regressors that one input of that shape makes: 1, 2, 6 or 12.
 int regressor_count(InputShape shape);
 
 /// Whether the sign is carried by regressors of their own.
@@ -95,5 +107,8 @@ bool splits_sign(InputShape shape);
 
 /// Whether square roots and squares are regressors too.
 bool has_powers(InputShape shape);
+
+/// Whether an input is one of the two numbers of a vector.
+bool is_vector(InputShape shape);
 
 }  // namespace wisp

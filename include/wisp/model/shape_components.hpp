@@ -6,6 +6,9 @@
 // Shape coordinates pair the control points of the left flank with those of the right one: half their distance and
 // their mean height are the same in the mirror image, their mean x and half the difference of their heights change
 // sign. Of N points the first N coordinates are the symmetric ones, the next N the antisymmetric ones.
+//
+// In the round, turned about the vertical, symmetric coordinates are numbers and antisymmetric ones vectors of the
+// level plane: the first N of these are their x, in the plane of the picture, and N more their z, towards who looks.
 
 #include <cstddef>
 #include <span>
@@ -28,14 +31,16 @@ struct ValueRange {
 struct ShapeComponents {
   std::size_t symmetric = 0;            ///< components that are the same in the mirror image; they come first
   std::size_t antisymmetric = 0;        ///< components that change sign there
-  std::vector<double> rest;             ///< 2N shape coordinates
+  std::vector<double> rest;             ///< 2N shape coordinates; 3N in the round
   std::vector<double> basis;            ///< N × symmetric, then N × antisymmetric, row-major
-  std::vector<ValueRange> coordinates;  ///< 2N
+  std::vector<ValueRange> coordinates;  ///< one a coordinate
   std::vector<ValueRange> components;   ///< one a component: to this and half of it more a component is clamped
+  std::size_t across = 0;               ///< in the round as many more as are antisymmetric: the z of vectors whose x
+                                        ///< these are
 
   bool empty() const { return rest.empty(); }
-  std::size_t count() const { return symmetric + antisymmetric; }
-  std::size_t points() const { return rest.size() / 2; }
+  std::size_t count() const { return symmetric + antisymmetric + across; }
+  std::size_t points() const { return rest.size() / (across > 0 ? 3 : 2); }
 
   friend bool operator==(const ShapeComponents&, const ShapeComponents&) = default;
 };
@@ -46,7 +51,8 @@ struct ShapeComponents {
 std::vector<double> shape_coordinates(std::span<const double> control_points);
 std::vector<double> control_points(std::span<const double> shape_coordinates);
 
-/// The control points of a shape whose components have these values.
+/// The control points of a shape whose components have these values; in the round as they are seen in the plane of the
+/// picture.
 ///
 /// Precondition: the shape has passed check(); one value a component.
 std::vector<double> control_points(const ShapeComponents& shape, std::span<const double> components);

@@ -22,6 +22,7 @@
 
 namespace wisp {
 
+class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
 class SwitchedFacet;
@@ -171,6 +172,8 @@ class Bank {
   const ChainFacet* chain() const;
   ExtinctionFacet* extinction();  ///< where there is a rule of extinction (wisp/run/extinction_facet.hpp)
   const ExtinctionFacet* extinction() const;
+  BodyFacet* body();  ///< of a model in the round (wisp/run/body_facet.hpp)
+  const BodyFacet* body() const;
   const SwitchedFacet* switched() const;  ///< of a switched ARX model (wisp/run/switched_facet.hpp)
 
   /// Puts one instance, or all that live and the bank's time, back to where they were when spawned, lit; streams and

@@ -1,13 +1,81 @@
 #pragma once
+// Linear, unbounded light that is added to a picture, one value a pixel and channel.
+//
 // The layers of a picture of candles: flame, wick, wax, smoke and glow. draw_flames() and LiveFlames compose them.
+//
+// The dark room in which candles stand: a wall and a table, lit by the flames and a little by the moon. Soft light is
+// computed on a grid of cells of 4 × 4 pixels and interpolated, a sixteenth of the work.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
+#include <vector>
 
-#include "draw/flame/light_field.hpp"
+#include "draw/tone.hpp"
 #include "wisp/draw/flame.hpp"
+#include "wisp/draw/image.hpp"
 
 namespace wisp::drawing {
+
+/// One channel of floats over a grid.
+struct Plane {
+  Plane() = default;
+  Plane(int columns, int rows) : width(columns), height(rows), values(static_cast<std::size_t>(columns) * rows) {}
+
+  float* row(int y) { return values.data() + static_cast<std::size_t>(y) * width; }
+  const float* row(int y) const { return values.data() + static_cast<std::size_t>(y) * width; }
+
+  int width = 0;
+  int height = 0;
+  std::vector<float> values;
+};
+
+/// Emission over the pixels of a picture.
+struct LightField {
+  LightField(int width, int height) : red(width, height), green(width, height), blue(width, height) {}
+
+  int width() const { return red.width; }
+  int height() const { return red.height; }
+  void add(int x, int y, Light light) {
+    red.row(y)[x] += light.red;
+    green.row(y)[x] += light.green;
+    blue.row(y)[x] += light.blue;
+  }
+
+  Plane red;
+  Plane green;
+  Plane blue;
+};
+
+/// One ring of the halo: its width, and its light for each unit of luminance.
+struct HaloRing {
+  float sigma = 1;  ///< standard deviation of the Gaussian, pixels
+  Light tint;
+};
+
+/// Adds the field's own luminance, blurred by each ring's Gaussian and tinted, to the field.
+void add_halo(LightField& field, std::span<const HaloRing> rings);
+
+/// The same from a given luminance; `field` may be coarser than a picture.
+///
+/// Precondition: luminance and field have one size.
+void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field);
+
+/// Returns the finest grid that the rings need, as a number of halvings of the picture's size.
+int finest_level(std::span<const HaloRing> rings);
+
+/// Halves the size in both directions, rounded up, about the middle. Outside is dark.
+Plane halved(const Plane& fine);
+
+/// Returns the share of the background that stays visible behind light of that strength, about e^(−light).
+float transmitted(float light);
+
+/// Adds the light to the picture by the exposure curve 1 − (1 − there)·e^(−light), approximately. Pixels without light
+/// keep their bytes.
+///
+/// Precondition: the field has the picture's size.
+void add_light(Image& image, const LightField& field);
 
 /// A flame laid over a picture. Positions are the picture's pixels; `thickness` and `coverage` hold only the box.
 struct FlameShape {
@@ -101,5 +169,69 @@ void add_own_light(LightField& field, const Candle& candle, const FlameStyle& st
 
 /// Returns the rings of the glow around flames whose model unit is `unit` pixels.
 std::array<HaloRing, 4> glow_rings(const FlameStyle& style, float unit);
+
+inline constexpr int kHalvings = 2;
+inline constexpr int kCell = 1 << kHalvings;
+
+inline int cells(int pixels) { return (pixels + kCell - 1) / kCell; }
+
+/// Interpolation position of a picture's row between two rows of the grid.
+struct Between {
+  Between(int pixel, int count) {
+    const float at = (static_cast<float>(pixel) + 0.5F) / kCell - 0.5F;
+    const int below = static_cast<int>(std::floor(at));
+    share = at - static_cast<float>(below);
+    first = std::clamp(below, 0, count - 1);
+    second = std::clamp(below + 1, 0, count - 1);
+  }
+  int first = 0, second = 0;
+  float share = 0;
+};
+
+/// The three channels of a row of a picture, with a margin for groups of pixels that extend over the edges.
+struct Row {
+  explicit Row(int width) {
+    for (auto& channel : channels) channel.resize(static_cast<std::size_t>(width) + 2 * kCell);
+  }
+  const float* operator[](int channel) const { return channels[channel].data() + kCell / 2; }
+  std::array<std::vector<float>, 3> channels;
+};
+
+/// Spreads a row of cells over pixels, linear between the middles of cells. `scratch` has two values more than the grid
+/// has columns.
+void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
+
+/// Writes codes with their fraction as pixels, rounded by `dither`.
+void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
+
+/// A flame and its candle, which shades the table.
+struct Stand {
+  Lamp lamp;
+  Point foot;        ///< pixel of the middle of the candle's foot, on the table
+  float unit = 1;    ///< pixels of the mean flame height
+  float half = 0;    ///< half the candle's width, model units
+  float height = 0;  ///< of the candle, model units; 0: there is none
+};
+
+Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lamp);
+
+class Room {
+ public:
+  /// Of a picture of that size.
+  Room(int width, int height);
+
+  /// Returns the light from the room, in cells.
+  const LightField& lit(std::span<const Stand> stands);
+
+ private:
+  void light_wall(std::span<const Stand> stands);
+  void light_table(const Stand& stand);
+
+  int width_, height_;
+  LightField wood_;  // reflectance for a flame's light
+  LightField moon_;  // light without flames
+  Plane flames_;     // light of all flames, on a grid twice as coarse
+  LightField light_;
+};
 
 }  // namespace wisp::drawing

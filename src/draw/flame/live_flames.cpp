@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "draw/flame/flame_layers.hpp"
-#include "draw/flame/room.hpp"
 
 namespace wisp {
 

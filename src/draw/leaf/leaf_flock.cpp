@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "draw/flame/light_field.hpp"
+#include "draw/flame/flame_layers.hpp"
 #include "draw/leaf/leaf_view.hpp"
 #include "draw/textured.hpp"
 

@@ -8,6 +8,10 @@
 // Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016, are its kin in
 // animation): one way down a k-d tree to a leaf, whose rows are compared. It is done only in steps in which going on
 // costs more than the tolerance.
+//
+// In the round the input is a level vector. A row is played along the direction from which it came when the row was
+// jumped to; what there is across it is another row's of like strength, to the one side or the other by chance: a
+// second life of the same kind, and of the same past.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,6 +21,7 @@
 #include "run/arx/lookup_lanes.hpp"
 #include "run/arx/resampled_program.hpp"
 #include "run/lanes/columns.hpp"
+#include "run/state/channels.hpp"
 #include "run/state/moment.hpp"
 #include "run/state/sample_ring.hpp"
 
@@ -29,10 +34,15 @@ class ResampledLanes {
   static constexpr int kLanes = N::kLanes;
 
   ResampledLanes(const ResampledProgram& program, int blocks, Arena& arena)
-      : program_(program), lookup_(program.lookup, blocks, arena) {
+      : program_(program), lookup_(program.lookup, blocks * (program.across > 0 ? 2 : 1), arena), blocks_(blocks) {
     if (program.empty()) return;
-    state_ = arena.take<Real>(static_cast<std::size_t>(blocks) * kStateValues * kLanes);
-    past_ = SampleRing<N>(blocks, program.depth, 1, arena);
+    const auto lives = static_cast<std::size_t>(blocks * this->lives());
+    state_ = arena.take<Real>(lives * kStateValues * kLanes);
+    past_ = SampleRing<N>(blocks, program.depth, this->lives(), arena);
+    if (program.across == 0) return;
+    from_ = arena.take<Real>(lives * 2 * kLanes);
+    stride_ = (static_cast<std::size_t>(program.outputs) + 3) / 4 * 4;  // they are read four at a time
+    turned_ = arena.take<float>(static_cast<std::size_t>(blocks) * kLanes * stride_);
   }
 
   bool empty() const { return program_.empty(); }
@@ -45,10 +55,17 @@ class ResampledLanes {
 
   /// A newborn jumps in its first step; nothing blew before.
   void start(int block, int lane) {
-    for (int value = 0; value < kStateValues; ++value) state(block, value)[lane] = Real(0.0f);
-    if (program_.driven()) state(block, kAge)[lane] = Real(static_cast<float>(program_.longest));
-    if (!lookup_.empty()) lookup_.start(block, lane);
-    for (int lag = 0; lag < past_.depth(); ++lag) past(block, static_cast<std::uint32_t>(lag))[lane] = Real(0.0f);
+    for (int k = 0; k < lives(); ++k) {
+      const int life = k * blocks_ + block;
+      for (int value = 0; value < kStateValues; ++value) state(life, value)[lane] = Real(0.0f);
+      if (program_.driven()) state(life, kAge)[lane] = Real(static_cast<float>(program_.longest));
+      if (!lookup_.empty()) lookup_.start(life, lane);
+      for (int lag = 0; lag < past_.depth(); ++lag) past(block, lag)[k * kLanes + lane] = Real(0.0f);
+      if (program_.across == 0) continue;
+      from(life, 0)[lane] = Real(1.0f);
+      from(life, 1)[lane] = Real(0.0f);
+    }
+    if (program_.across > 0) std::fill_n(turned_.data() + (block * kLanes + lane) * stride_, stride_, 0.0f);
   }
 
   /// Moves every block's past by so many samples.
@@ -57,32 +74,20 @@ class ResampledLanes {
   /// Takes in the input of a block's step, whether there is noise or not: [regressor][lane].
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
-    auto wind = load<Reals<N>>(regressors + program_.toward * kLanes);
-    if (program_.against >= 0) wind = wind - load<Reals<N>>(regressors + program_.against * kLanes);
-    store(wind, past(block, 0));
+    for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {
+      auto wind = load<Reals<N>>(regressors + program_.toward * kLanes);
+      if (program_.against >= 0) wind = wind - load<Reals<N>>(regressors + program_.against * kLanes);
+      store(wind, past(block, 0) + k * kLanes);
+    }
   }
 
   /// Moves every lane of a block that is in use on.
   void step(int block, const Moment<N>& moment) {
-    if (!lookup_.empty()) return step_by_state(block, moment);
-    Places places;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t at = whole(state(block, kPlace)[lane]);
-      const bool used = lane < moment.lanes(), last = program_.left[at / 2] == 0;
-      places.next[lane] = used ? at + 2 : at;
-      places.forced[lane] = used && (last || whole(state(block, kAge)[lane]) >= program_.longest);
+    for (int k = 0; k < lives(); ++k) {
+      const Life life{block, k * blocks_ + block, k};
+      lookup_.empty() ? step_life(life, moment) : step_by_state(life, moment);
     }
-    search(block, moment, places);
-    for (int lane = 0; lane < moment.lanes(); ++lane) {
-      const std::uint32_t at = whole(state(block, kPlace)[lane]), next = places.next[lane];
-      if (next == at + 2 && !places.forced[lane]) {
-        state(block, kAge)[lane] = Real(static_cast<float>(whole(state(block, kAge)[lane]) + 1));
-      } else {
-        remember(block, lane);
-        state(block, kAge)[lane] = Real(1.0f);
-      }
-      state(block, kPlace)[lane] = Real(static_cast<float>(next));
-    }
+    for (int lane = 0; program_.across > 0 && lane < moment.lanes(); ++lane) turn_row(block, lane);
   }
 
   /// Puts what is added to the outputs of a block, [output][lane], into `shocks`.
@@ -100,12 +105,16 @@ class ResampledLanes {
   }
 
   /// What a lane plays, one number an output, and what it is multiplied with.
-  const float* played(int block, int lane) const { return program_.played(whole(state(block, kPlace)[lane])); }
+  const float* played(int block, int lane) const {
+    if (program_.across > 0) return turned_.data() + (block * kLanes + lane) * stride_;
+    return program_.played(whole(state(block, kPlace)[lane]));
+  }
   float scale() const { return scale_; }
 
   std::size_t lane_values() const {
     const auto depth = static_cast<std::size_t>(past_.depth());
-    return empty() ? 0 : static_cast<std::size_t>(kStateValues) + depth + lookup_.lane_values();
+    const std::size_t one = static_cast<std::size_t>(kStateValues) + depth + lookup_.lane_values();
+    return empty() ? 0 : program_.across > 0 ? 2 * (one + 2) : one;
   }
 
   /// `low` and `high` bound the input.
@@ -115,27 +124,43 @@ class ResampledLanes {
     const std::size_t places = 2 * program_.left.size();
     const bool mirrors = program_.mirrors();
     const auto last = static_cast<float>(places - (mirrors ? 1 : 2));
-    for (int value = 0; value < kStateValues; value += 2) {
-      visit(state(block, value + kPlace)[lane], 0.0f, last, mirrors ? 1.0f : 2.0f);
-      visit(state(block, value + kAge)[lane], 0.0f, static_cast<float>(program_.longest), 1.0f);
+    for (int k = 0; k < lives(); ++k) {
+      const int life = k * blocks_ + block;
+      for (int value = 0; value < kStateValues; value += 2) {
+        visit(state(life, value + kPlace)[lane], 0.0f, last, mirrors ? 1.0f : 2.0f);
+        visit(state(life, value + kAge)[lane], 0.0f, static_cast<float>(program_.longest), 1.0f);
+      }
+      for (int lag = 0; lag < past_.depth(); ++lag) visit(past(block, lag)[k * kLanes + lane], low, high);
+      lookup_.visit_lane(life, lane, visit);
+      for (int axis = 0; program_.across > 0 && axis < 2; ++axis) visit(from(life, axis)[lane], -1.0f, 1.0f);
     }
-    for (int lag = 0; lag < past_.depth(); ++lag) {
-      visit(past(block, static_cast<std::uint32_t>(lag))[lane], low, high);
-    }
-    lookup_.visit_lane(block, lane, visit);
+    if (program_.across > 0) turn_row(block, lane);  // it may be restored
   }
 
  private:
   // Twice the row, and one more where its mirror image is played; steps since the jump; and the same of the last row of
   // every block before, the newest first.
+  static constexpr float kMostSum = 1e15f;  // no input is as large in units of its range
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;
   static constexpr int kAge = 1;
   static constexpr int kStateValues = 2 * (1 + kRecentBlocks);
 
-  Real* state(int block, int value) { return state_.data() + (block * kStateValues + value) * kLanes; }
-  const Real* state(int block, int value) const { return state_.data() + (block * kStateValues + value) * kLanes; }
-  Real* past(int block, std::uint32_t lag) { return past_.sample(block, lag); }
+  static constexpr int kVectorRegressors = 6;  // of each part of a vector
+
+  // Where a life's states lie: those of blocks, and in the round once more those of what is played across.
+  struct Life {
+    int block;
+    int at;
+    int number;
+  };
+  int lives() const { return program_.across > 0 ? 2 : 1; }
+
+  Real* state(int life, int value) { return state_.data() + (life * kStateValues + value) * kLanes; }
+  const Real* state(int life, int value) const { return state_.data() + (life * kStateValues + value) * kLanes; }
+  Real* from(int life, int axis) { return from_.data() + (2 * life + axis) * kLanes; }
+  const Real* from(int life, int axis) const { return from_.data() + (2 * life + axis) * kLanes; }
+  Real* past(int block, int lag) { return past_.sample(block, static_cast<std::uint32_t>(lag)); }
   const Real* past(int block, std::uint32_t lag) const { return past_.sample(block, lag); }
   static std::uint32_t whole(const Real& value) { return static_cast<std::uint32_t>(value_of(value)); }
 
@@ -143,7 +168,47 @@ class ResampledLanes {
     for (int value = kStateValues - 1; value >= 2; --value) state(block, value)[lane] = state(block, value - 2)[lane];
   }
 
-  void step_by_state(int block, const Moment<N>& moment) {
+  void step_life(const Life& life, const Moment<N>& moment) {
+    Places places;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t at = whole(state(life.at, kPlace)[lane]);
+      const bool used = lane < moment.lanes(), last = program_.left[at / 2] == 0;
+      places.next[lane] = used ? at + 2 : at;
+      places.forced[lane] = used && (last || whole(state(life.at, kAge)[lane]) >= program_.longest);
+    }
+    search(life, moment, places);
+    for (int lane = 0; lane < moment.lanes(); ++lane) {
+      const std::uint32_t at = whole(state(life.at, kPlace)[lane]), next = places.next[lane];
+      if (next == at + 2 && !places.forced[lane]) {
+        state(life.at, kAge)[lane] = Real(static_cast<float>(whole(state(life.at, kAge)[lane]) + 1));
+      } else {
+        remember(life.at, lane);
+        state(life.at, kAge)[lane] = Real(1.0f);
+      }
+      state(life.at, kPlace)[lane] = Real(static_cast<float>(next));
+    }
+  }
+
+  // What a lane plays in the round: what a row has along the wind and another one across it, each from where the wind
+  // came when it was jumped to.
+  void turn_row(int block, int lane) {
+    const std::uint32_t other = whole(state(blocks_ + block, kPlace)[lane]);
+    const float *along = program_.played(whole(state(block, kPlace)[lane]) / 2 * 2), *across = program_.played(other);
+    const auto vectors = static_cast<std::size_t>(program_.across);
+    const std::size_t numbers = static_cast<std::size_t>(program_.outputs) - 2 * vectors;
+    float* out = turned_.data() + (block * kLanes + lane) * stride_;
+    std::copy_n(along, numbers, out);
+    const Real x = from(block, 0)[lane], z = from(block, 1)[lane];
+    const Real other_x = from(blocks_ + block, 0)[lane], other_z = from(blocks_ + block, 1)[lane];
+    for (std::size_t k = numbers; k < numbers + vectors; ++k) {
+      const Real a(along[k]), b(across[k]), unit(program_.unit[k - numbers]);
+      out[k] = value_of(a * x - b * other_z);
+      out[k + vectors] = value_of((a * z + b * other_x) * unit);
+    }
+  }
+
+  void step_by_state(const Life& life, const Moment<N>& moment) {
+    const int block = life.at;
     bool jumps[kLanes], any = false;
     for (int lane = 0; lane < moment.lanes(); ++lane) {
       PlayedRows played[1 + kRecentBlocks];
@@ -161,7 +226,8 @@ class ResampledLanes {
       Real &place = state(block, kPlace)[lane], &age = state(block, kAge)[lane];
       std::uint32_t row = whole(place) / 2 + 1, count = whole(age) + 1;
       if (jumps[lane]) {
-        row = lookup_.jump(block, lane, {row - 1, count - 1}, words[0][lane], words[1][lane], program_.left);
+        const auto *where = words[2 * life.number], *how_long = words[2 * life.number + 1];
+        row = lookup_.jump(block, lane, {row - 1, count - 1}, where[lane], how_long[lane], program_.left);
         remember(block, lane);
         count = 1;
       }
@@ -181,6 +247,7 @@ class ResampledLanes {
   struct Heard {
     Real wind[kMaxResampledLags][kLanes];
     bool right[kLanes];
+    Real from[2][kLanes];  // in the round: where it blew to, and the past is along it
   };
 
   // Lanes that may jump: of all that follows each does one thing at a time for all of them, since one alone would wait
@@ -192,10 +259,10 @@ class ResampledLanes {
   };
 
   // Lets those jump that must, or that go on in an input too far from what it was there.
-  void search(int block, const Moment<N>& moment, Places& places) const {
+  void search(const Life& life, const Moment<N>& moment, Places& places) {
     Seekers seekers;
     Real ahead[kLanes];
-    go_on(block, places, ahead);
+    go_on(life, places, ahead);
     for (int lane = 0; lane < moment.lanes(); ++lane) {
       const bool seeks = places.forced[lane] || value_of(ahead[lane]) > program_.tolerance;
       seekers.lane[seekers.count] = lane;
@@ -205,27 +272,27 @@ class ResampledLanes {
     std::uint32_t words[4][kLanes];
     draw(moment, words);
     Heard heard;
-    hear_past(block, heard);
-    descend(heard, words[0], seekers);
+    program_.across > 0 ? hear_vector(life.block, heard) : hear_past(life.block, heard);
+    descend(heard, words[2 * life.number], seekers);
     Nearest nearest;
-    find_nearest(block, heard, seekers, nearest);
+    find_nearest(life.at, heard, seekers, nearest);
     for (int k = 0; k < seekers.count; ++k) {
       const int lane = seekers.lane[k];
       const Real* on = places.forced[lane] ? nullptr : &ahead[lane];
-      places.next[lane] = jump(block, k, seekers, heard, nearest, words[1][lane], on);
+      places.next[lane] = jump(life, k, seekers, heard, nearest, words[2 * life.number + 1][lane], on);
     }
   }
 
   // How far the input's past is from what it was at the next places: the sum over lags of the differences' sizes, as
   // good a choice as their squares make for half the operations.
-  void go_on(int block, const Places& places, Real (&ahead)[kLanes]) const {
+  void go_on(const Life& life, const Places& places, Real (&ahead)[kLanes]) const {
     const float* wind[kLanes];
     Real mirrored[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t next = places.next[lane];
       // What must jump does not go on, and there may be nothing to go on to.
       wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
-      mirrored[lane] = Real(next % 2 != 0 ? 1.0f : 0.0f);
+      mirrored[lane] = Real(next % 2 != 0 && program_.across == 0 ? 1.0f : 0.0f);
     }
     const auto turned = load<Reals<N>>(mirrored);
     const auto zero = all<Reals<N>>(0.0f);
@@ -236,7 +303,9 @@ class ResampledLanes {
       const auto apart = [](const auto& x, const auto& y, const auto& side, const auto& none) {
         return side > none ? x + y : x - y;
       };
-      sum = sum + magnitude(each(apart, load<Reals<N>>(then), load<Reals<N>>(past(block, lag)), turned, zero));
+      const auto now = program_.across > 0 ? along(life.block, lag, from(life.at, 0), from(life.at, 1))
+                                           : load<Reals<N>>(past(life.block, lag));
+      sum = sum + magnitude(each(apart, load<Reals<N>>(then), now, turned, zero));
     }
     store(sum, ahead);
   }
@@ -249,6 +318,30 @@ class ResampledLanes {
       typename N::Word lanes[kLanes];
       store(words_drawn[k], lanes);
       for (int lane = 0; lane < kLanes; ++lane) words[k][lane] = value_of(lanes[lane]);
+    }
+  }
+
+  // The part along a direction of the vector that was the input so many steps ago.
+  Reals<N> along(int block, std::uint32_t lag, const Real* x, const Real* z) const {
+    const Real* vector = past(block, lag);
+    return load<Reals<N>>(vector) * load<Reals<N>>(x) + load<Reals<N>>(vector + kLanes) * load<Reals<N>>(z);
+  }
+
+  // The direction is that of the sum; of none it is x.
+  void hear_vector(int block, Heard& heard) const {
+    auto x = all<Reals<N>>(0.0f), z = x, one = all<Reals<N>>(1.0f);
+    for (const std::uint32_t lag : program_.lags) {
+      x = x + load<Reals<N>>(past(block, lag));
+      z = z + load<Reals<N>>(past(block, lag) + kLanes);
+    }
+    const LevelVector<N> sum(x, z, kMostSum);
+    const auto if_none = [](const auto& length, const auto& none, const auto& yes, const auto& no) {
+      return length > none ? no : yes;
+    };
+    store(each(if_none, sum.length, all<Reals<N>>(0.0f), one, sum.x), heard.from[0]);
+    store(sum.z, heard.from[1]);
+    for (std::size_t k = 0; k < program_.lags.size(); ++k) {
+      store(along(block, program_.lags[k], heard.from[0], heard.from[1]), heard.wind[k]);
     }
   }
 
@@ -385,15 +478,25 @@ class ResampledLanes {
 
   // Where to go from a leaf: on, where `ahead` says what that costs and it is not worse than the best by more than the
   // tolerance, else to one of the nearest.
-  std::uint32_t jump(int block, int seeker, const Seekers& seekers, const Heard& heard, const Nearest& nearest,
-                     std::uint32_t word, const Real* ahead) const {
+  std::uint32_t jump(const Life& life, int seeker, const Seekers& seekers, const Heard& heard, const Nearest& nearest,
+                     std::uint32_t word, const Real* ahead) {
     const int lane = seekers.lane[seeker];
     const Candidates& rows = program_.leaves[seekers.leaf[seeker]];
-    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = heard.right[lane] ? 1 : 0;
+    const std::uint32_t on = whole(state(life.at, kPlace)[lane]) + 2;
     const std::uint32_t count = nearest.count(seeker);
-    if (count == 0) return ahead ? on : rows.place[rows.count - 1] ^ about;
+    if (count == 0) return ahead ? on : arrive(life, lane, heard, rows.place[rows.count - 1], word);
     if (ahead && value_of(*ahead - Real(nearest.apart[0][seeker])) <= program_.tolerance) return on;
-    return rows.place[static_cast<std::uint32_t>(nearest.candidate[scaled(word, count)][seeker])] ^ about;
+    const auto which = static_cast<std::uint32_t>(nearest.candidate[scaled(word, count)][seeker]);
+    return arrive(life, lane, heard, rows.place[which], word);
+  }
+
+  // The place that a jump to one of the tree leads to: its mirror image where the past was turned about. In the round
+  // its direction is turned about, and what is played across is mirrored by chance.
+  std::uint32_t arrive(const Life& life, int lane, const Heard& heard, std::uint32_t place, std::uint32_t word) {
+    if (program_.across == 0) return place ^ (heard.right[lane] ? 1 : 0);
+    const Real side(place % 2 != 0 ? -1.0f : 1.0f);
+    for (int axis = 0; axis < 2; ++axis) from(life.at, axis)[lane] = side * heard.from[axis][lane];
+    return place / 2 * 2 + (life.number == 0 ? 0 : word % 2);
   }
 
   // A word as a whole number below `count`.
@@ -404,8 +507,12 @@ class ResampledLanes {
   ResampledProgram program_;
   LookupLanes<N> lookup_;
   std::span<Real> state_;
-  SampleRing<N> past_;  // of the input
-  float scale_ = 0;     // of the noise
+  SampleRing<N> past_;       // of the input
+  std::span<Real> from_;     // in the round [life][x, z][lane]: along which direction a row is played
+  std::span<float> turned_;  // [block][lane][output]: what that makes of rows
+  std::size_t stride_ = 0;
+  int blocks_ = 0;
+  float scale_ = 0;  // of the noise
 };
 
 }  // namespace wisp

@@ -33,6 +33,7 @@ struct Candidates {
 
 struct ResampledProgram {
   int outputs = 0;  ///< 0: nothing is resampled
+  int across = 0;   ///< in the round, outputs at the end that take across the input what as many before take along it
   int sides = 1;    ///< 2: an input from the other side plays mirror images
   int toward = -1;
   int against = -1;
@@ -41,7 +42,7 @@ struct ResampledProgram {
   std::uint32_t longest = 1;
   int depth = 1;  ///< steps of the input that are looked back at, the present one included
   std::span<std::uint32_t> lags;
-  std::span<float> rows;           ///< side × rows × outputs, in the outputs' channel units
+  std::span<float> rows;           ///< side × rows × columns, in the outputs' channel units
   std::span<std::uint32_t> left;   ///< per row, how many follow it in its stretch
   std::span<float> wind;           ///< of every stretch, first what was before it; empty where nothing drives it
   std::span<std::uint32_t> now;    ///< per row, its place in `wind`
@@ -50,18 +51,20 @@ struct ResampledProgram {
   std::span<Candidates> leaves;    ///< child k of the tree is leaf k − nodes
   std::span<float> leaf_wind;  ///< leaf × lag × candidate: its past as it lies in the tree, infinite where none is
   std::span<std::uint32_t> order;  ///< rows, leaf after leaf: to build the tree
-  std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
-  std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
+  std::span<std::uint16_t> from;   ///< side × columns: whose residual an output takes
+  std::span<float> factor;         ///< side × columns, of what is taken: 1, on the mirrored side −1 where it negates
+  std::span<float> unit;           ///< per output across: what its residual is multiplied with for units of its own
   LookupProgram lookup;            ///< where nothing drives it
 
   bool empty() const { return outputs == 0; }
   bool driven() const { return toward >= 0; }
   bool mirrors() const { return sides == 2; }
+  int columns() const { return outputs - across; }
 
   /// The residuals of a place: twice the row, and 1 more where its mirror image is played.
   const float* played(std::uint32_t place) const {
     const std::size_t side = place % 2 != 0 ? left.size() : 0;
-    return rows.data() + (side + place / 2) * static_cast<std::size_t>(outputs);
+    return rows.data() + (side + place / 2) * static_cast<std::size_t>(columns());
   }
 };
 

@@ -98,6 +98,8 @@ ChainFacet* Bank::chain() { return state_->chain_stepper() ? &state_->chain_face
 const ChainFacet* Bank::chain() const { return const_cast<Bank*>(this)->chain(); }
 ExtinctionFacet* Bank::extinction() { return state_->extinction.present ? &state_->extinction_facet : nullptr; }
 const ExtinctionFacet* Bank::extinction() const { return const_cast<Bank*>(this)->extinction(); }
+BodyFacet* Bank::body() { return state_->shape.across > 0 ? &state_->body_facet : nullptr; }
+const BodyFacet* Bank::body() const { return const_cast<Bank*>(this)->body(); }
 const SwitchedFacet* Bank::switched() const { return state_->switched_stepper() ? &state_->switched_facet : nullptr; }
 
 InstanceId Bank::at(int slot) const {

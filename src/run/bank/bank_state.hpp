@@ -7,6 +7,7 @@
 #include "run/bank/shape_lanes.hpp"
 #include "run/bank/stepper.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/run/switched_facet.hpp"
@@ -51,6 +52,8 @@ struct Bank::State {
   void relight(int slot);
   void extinguish(int slot);
   LitState lit_state(int slot) const;
+  template <class LanesOf>
+  void take_inputs(int block, const LanesOf& lanes_of);
   void set_inputs(int block, const float* all_rows);
   void set_common_inputs(int block, const float* values);
   void set_lane_inputs(int slot, const float* values);  // null: zeros
@@ -70,25 +73,31 @@ struct Bank::State {
   void go_out(int slot, const float* newest, std::uint64_t moment);
   void begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at);
   void grow(int slot);
-  float* last_shape_of(int block) { return last_shape.data() + block * visible * kLanes; }
-  float* components_of(int block) { return components.data() + block * shape.components() * kLanes; }
+  std::size_t moved() const { return shape.empty() ? visible : shape.components(); }  // by the dynamics
+  float* last_shape_of(int block) { return last_shape.data() + block * moved() * kLanes; }
+  float* components_of(int block) const { return components.data() + block * shape.components() * kLanes; }
   void show();
   void show_block(int block);
   template <int kBlocks, class Dynamics>
   void show_blocks(const Dynamics& dynamics, int first);
   bool is_whole(int block) const;
-  void show_life(int block, float share);
+  void show_last(int block);
+  void show_shape(int block, LevelView from, float* points) const;
+  void show_life(int block, std::size_t count, float* values) const;
+  void see_round(int block) const;
   void set_noise(float scale);
   void set_chain(const ChainSettings& settings);  // where it is a chain
   void read_outputs(int slot, float* values) const;
   template <class Show>
-  void polyline_of(int block, const Show& show) const {  // show(2 · point + coordinate, [lane])
+  void polyline_of(int block, const Show& show,
+                   const float* points = nullptr) const {  // show(2 · point + coordinate, [lane])
     for (int coordinate : {0, 1}) {
-      polyline_lanes<LiveNumbers>(polyline, coordinate, shown_of(block), [&](int point, const auto& values) {
-        float lanes[kLanes];
-        store(values, lanes);
-        show(2 * point + coordinate, lanes);
-      });
+      polyline_lanes<LiveNumbers>(polyline, coordinate, points ? points : shown_of(block),
+                                  [&](int point, const auto& values) {
+                                    float lanes[kLanes];
+                                    store(values, lanes);
+                                    show(2 * point + coordinate, lanes);
+                                  });
     }
   }
 
@@ -114,6 +123,9 @@ struct Bank::State {
   std::span<float> shown;         // [block][output][lane]: outputs as a host reads them
   std::span<float> components;    // [block][component][lane]: the components behind `shown`, where there is a shape
 
+  std::span<float> round_points;  // [x, z][output][lane]: scratch, control points of a block seen from two sides
+  std::span<float> round_lines;   // [x, z][2 · point + coordinate][lane]: and their polylines
+
   // Per slot; empty for a model without extinction.
   std::span<float> wind;  // strength of the wind in the next step
   std::span<float> harm;
@@ -122,7 +134,7 @@ struct Bank::State {
   std::span<float> previous_size;   // before the last step
   std::span<float> event;           // where in the extinction's sizes the next step's is, or kNoEvent
   std::span<float> carried;         // the size that it went out with, or what is left of that which it was lit with
-  std::span<float> last_shape;      // [block][output][lane]: outputs at the moment at which an instance went out
+  std::span<float> last_shape;      // [block][moved][lane]: what the dynamics moved when an instance went out
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
   std::span<std::uint64_t> out_at;  // and when it last went out
 
@@ -132,6 +144,7 @@ struct Bank::State {
   std::uint64_t spawned = 0;
   std::uint64_t steps = 0;  // of the bank
   std::int64_t passed = 0;  // nanoseconds since the last step
+  LevelView view;           // of what is in the round
   bool between = false;     // whether `shown` lies between the last two steps, in proportion to `passed`
   float noise = 0.0f;
   ChainSettings chain;
@@ -140,6 +153,7 @@ struct Bank::State {
   ChainFacet chain_facet{*this};
   ExtinctionFacet extinction_facet{*this};
   SwitchedFacet switched_facet{*this};
+  BodyFacet body_facet{*this};
 };
 
 }  // namespace wisp

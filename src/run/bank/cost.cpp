@@ -26,11 +26,11 @@ OperationCount count(Work work) {
 // Regressors for inputs at their highest values: strong wind from one side.
 std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
   std::vector<CountingReal> values(channels.regressors.size());
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const RegressorChannel& channel = channels.regressors[k];
-    const auto highest = static_cast<float>(model.inputs[channel.input].highest);
-    store(regress<CountingNumbers>(channel, all<Reals<CountingNumbers>>(highest)), &values[k]);
-  }
+  const auto highest = [&](int input) {
+    return all<Reals<CountingNumbers>>(static_cast<float>(model.inputs[static_cast<std::size_t>(input)].highest));
+  };
+  Regressing<CountingNumbers, decltype(highest)> regressing(highest);
+  for (std::size_t k = 0; k < values.size(); ++k) store(regressing(channels.regressors[k]), &values[k]);
   return values;
 }
 
@@ -125,7 +125,7 @@ ExtinctionCount count_extinction(const Model& model) {
   CountingReal wind, harm, lit(1.0f), size(1.0f), carried;
   std::vector<CountingReal> shown(model.outputs.size());
   const OperationCount burning = count([&] {
-    blowing<CountingNumbers>(rule, {});
+    blowing<CountingNumbers>(rule, [](int) { return Reals<CountingNumbers>{}; });
     live<CountingNumbers>(rule, {&wind, &harm, &lit});
   });
   const OperationCount shrinking = count([&] {

@@ -9,6 +9,7 @@
 
 #include "run/lanes/lanes.hpp"
 #include "run/state/arena.hpp"
+#include "run/state/channels.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
@@ -17,6 +18,7 @@ namespace wisp {
 struct ExtinctionProgram {
   bool present = false;  ///< false: nothing ever goes out, and nothing below is used
   std::int32_t input = 0;
+  bool vector = false;  ///< the input is the first of a vector's two
   float level = 0;
   float most = 0;  ///< stronger wind counts as this
   float base = 0;  ///< harm of a step at or above the level is base + slope · wind
@@ -40,11 +42,12 @@ ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
 /// Combines the program with the hash `before`. Returns `before` where there is no rule.
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
 
-/// The strength of the input that the rule reads. NaN counts as calm.
-template <class N>
-inline Reals<N> blowing(const ExtinctionProgram& rule, const Reals<N>& input) {
+/// The strength of the input that the rule reads, lanes_of(input). NaN counts as calm.
+template <class N, class LanesOf>
+inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) {
   const auto zero = all<Reals<N>>(0.0f);
-  const auto wind = number_or(input, zero);
+  if (rule.vector) return LevelVector<N>(lanes_of(rule.input), lanes_of(rule.input + 1), rule.most).length;
+  const auto wind = number_or(lanes_of(rule.input), zero);
   return smaller(larger(wind, zero - wind), all<Reals<N>>(rule.most));
 }
 

@@ -35,6 +35,18 @@ inline void copy_lanes(const float* from, std::size_t count, float* to) {
 
 }  // namespace
 
+template <class LanesOf>
+void Bank::State::take_inputs(int block, const LanesOf& lanes_of) {
+  float* out = regressors_of(block);
+  Regressing<LiveNumbers, LanesOf> regressing(lanes_of);
+  for (const RegressorChannel& channel : channels.regressors) {
+    store(regressing(channel), out);
+    out += kLanes;
+  }
+  if (!extinction.present) return;
+  store(blowing<LiveNumbers>(extinction, lanes_of), wind.data() + block * kLanes);
+}
+
 // Reads rows of all slots. Lanes beyond the last slot get numbers too; spawning an instance there clears them.
 void Bank::State::set_inputs(int block, const float* all_rows) {
   const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
@@ -47,24 +59,11 @@ void Bank::State::set_inputs(int block, const float* all_rows) {
     for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
     return load<Reals<LiveNumbers>>(lanes);
   };
-  float* out = regressors_of(block);
-  for (const RegressorChannel& channel : channels.regressors) {
-    store(regress<LiveNumbers>(channel, lanes_of(channel.input)), out);
-    out += kLanes;
-  }
-  if (!extinction.present) return;
-  store(blowing<LiveNumbers>(extinction, lanes_of(extinction.input)), wind.data() + block * kLanes);
+  take_inputs(block, lanes_of);
 }
 
 void Bank::State::set_common_inputs(int block, const float* values) {
-  float* out = regressors_of(block);
-  for (const RegressorChannel& channel : channels.regressors) {
-    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(values[channel.input])), out);
-    out += kLanes;
-  }
-  if (!extinction.present) return;
-  const auto input = all<Reals<LiveNumbers>>(values[extinction.input]);
-  store(blowing<LiveNumbers>(extinction, input), wind.data() + block * kLanes);
+  take_inputs(block, [&](int input) { return all<Reals<LiveNumbers>>(values[input]); });
 }
 
 Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahead) const {
@@ -238,20 +237,11 @@ void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   begin_event(slot, extinction.dying, moment);
   carried[slot] = size[slot];
   using Values = Reals<LiveNumbers>;
-  const auto take = [&](std::size_t i, const Values& shown_values) {
-    float values[kLanes];
-    store(shown_values, values);
-    last_shape_of(block)[i * kLanes + lane] = values[lane];
-  };
   for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    const auto values = Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes));
-    if (shape.empty()) {
-      take(i, values);
-    } else {
-      store(values, components_of(block) + i * kLanes);
-    }
+    float values[kLanes];
+    store(Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes)), values);
+    last_shape_of(block)[i * kLanes + lane] = values[lane];
   }
-  if (!shape.empty()) shape_lanes<LiveNumbers>(shape, components_of(block), take);
 }
 
 void Bank::State::read_block(int block, float* rows_of_all) const {
@@ -309,13 +299,27 @@ void Bank::State::show_blocks(const Dynamics& dynamics, int first) {
   } else {
     dynamics.template show<kBlocks>(first, out);
   }
-  for (int block = first; !shape.empty() && block < first + kBlocks; ++block) {
-    float* points = shown_of(block);
-    shape_lanes<LiveNumbers>(shape, components_of(block),
-                             [&](std::size_t i, const auto& values) { store(values, points + i * kLanes); });
-  }
+  for (int block = first; extinction.present && block < first + kBlocks; ++block) show_last(block);
+  for (int block = first; !shape.empty() && block < first + kBlocks; ++block) show_shape(block, view, shown_of(block));
   if (!extinction.present) return;
-  for (int block = first; block < first + kBlocks; ++block) show_life(block, share);
+  for (int block = first; block < first + kBlocks; ++block) show_life(block, visible, shown_of(block));
+}
+
+// The control points of a block's shapes, [output][lane], from the components that it shows.
+void Bank::State::show_shape(int block, LevelView from, float* points) const {
+  shape_lanes<LiveNumbers>(
+      shape, components_of(block), [&](std::size_t i, const auto& values) { store(values, points + i * kLanes); },
+      from);
+}
+
+// What is out shows what it was last.
+void Bank::State::show_last(int block) {
+  if (is_whole(block)) return;
+  float* out = shape.empty() ? shown_of(block) : components_of(block);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (lit[block * kLanes + lane] != 0.0f) continue;
+    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) out[k] = last_shape_of(block)[k];
+  }
 }
 
 // Whether every instance of a block burns at full size, so that scaling would change no bit.
@@ -327,19 +331,15 @@ bool Bank::State::is_whole(int block) const {
   return whole;
 }
 
-void Bank::State::show_life(int block, float share) {
+// Scales `count` numbers of a block, [number][lane], by the sizes of its instances.
+void Bank::State::show_life(int block, std::size_t count, float* values) const {
   if (is_whole(block)) return;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    if (lit[block * kLanes + lane] != 0.0f) continue;
-    for (std::size_t k = lane; k < visible * kLanes; k += kLanes) {
-      shown_of(block)[k] = last_shape_of(block)[k];
-    }
-  }
+  const float share = static_cast<float>(passed) / static_cast<float>(step_time);
   auto seen = load<Reals<LiveNumbers>>(size.data() + block * kLanes);
   if (between) {
     seen = size_between<LiveNumbers>(load<Reals<LiveNumbers>>(previous_size.data() + block * kLanes), seen, share);
   }
-  shrink<LiveNumbers>(seen, visible, shown_of(block));
+  shrink<LiveNumbers>(seen, count, values);
 }
 
 namespace {

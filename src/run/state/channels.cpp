@@ -1,6 +1,7 @@
 #include "run/state/channels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -54,6 +55,12 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorForm for
   channel.mean = static_cast<float>(power ? mean / regressor_unit(input, form.power) : mean);
   channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
   // The history of a new instance is z = 0, whatever the range is.
+  if (form.part >= RegressorPart::kLengthPositive) {
+    channel.part = RegressorPart::kPositive;  // as large as a wind along its direction makes it
+    channel.most = regress(channel, channel.high);
+    channel.part = form.part;
+    return channel;
+  }
   const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
   channel.least = *std::min_element(std::begin(ends), std::end(ends));
   channel.most = *std::max_element(std::begin(ends), std::end(ends));
@@ -89,6 +96,16 @@ std::span<const RegressorForm> regressor_forms(InputShape shape) {
   static constexpr RegressorForm kSplit[] = {{kPositive}, {kNegative}};
   static constexpr RegressorForm kPowers[] = {{kPositive, kOne}, {kPositive, kRoot}, {kPositive, kSquare},
                                               {kNegative, kOne}, {kNegative, kRoot}, {kNegative, kSquare}};
+  static constexpr auto kVector = [] {
+    std::array<RegressorForm, 18> forms{};
+    for (std::size_t k = 0; k < forms.size(); ++k) {
+      const auto part = static_cast<std::size_t>(kLengthPositive) + k / 3;
+      forms[k] = {static_cast<RegressorPart>(part), static_cast<RegressorPower>(k % 3)};
+    }
+    return forms;
+  }();
+  if (shape == InputShape::kWindAlong) return std::span(kVector).first(12);
+  if (shape == InputShape::kWindAcross) return std::span(kVector).last(6);
   if (has_powers(shape)) return kPowers;
   if (splits_sign(shape)) return kSplit;
   return kLinear;
@@ -137,7 +154,8 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     const Input& input = model.inputs[k];
     for (const RegressorForm form : regressor_forms(input.shape)) {
-      channels.regressors[next] = make_regressor(input, static_cast<int>(k), form, point.regressors[next]);
+      const int first = static_cast<int>(k) - (input.shape == InputShape::kWindAcross ? 1 : 0);
+      channels.regressors[next] = make_regressor(input, first, form, point.regressors[next]);
       ++next;
     }
   }
@@ -154,8 +172,12 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point) {
   std::size_t next = 0;
   for (const Input& input : model.inputs) {
     const double mean = point.regressors[next];
+    const auto means = point.regressors.subspan(next, static_cast<std::size_t>(regressor_count(input.shape)));
+    if (is_vector(input.shape) && std::any_of(means.begin(), means.end(), [](double one) { return one != 0; })) {
+      return Error{"input " + input.name + " is of a vector and has a mean, expected 0"};
+    }
     if (auto ok = check_channel("input " + input.name, input.lowest, input.highest, mean); !ok) return ok;
-    next += static_cast<std::size_t>(regressor_count(input.shape));
+    next += means.size();
   }
   return {};
 }

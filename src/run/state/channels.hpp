@@ -26,8 +26,19 @@ struct OutputChannel {
   std::int32_t mirrors = -1;  ///< index of an earlier output whose negative this always is, or −1
 };
 
-/// How a regressor is made from its input.
-enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative };
+/// How a regressor is made from its input; of a vector, from its length on the one side of x or the other, or from that
+/// times a part of its direction's x or z.
+enum class RegressorPart : std::uint8_t {
+  kWhole,
+  kPositive,
+  kNegative,
+  kLengthPositive,
+  kLengthNegative,
+  kAlongPositive,
+  kAlongNegative,
+  kAcrossPositive,
+  kAcrossNegative
+};
 
 /// The power of a part that a regressor is.
 enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
@@ -44,7 +55,7 @@ std::span<const RegressorForm> regressor_forms(InputShape shape);
 /// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. A power is
 /// power(part(u) · inverse_scale) − mean · inverse_scale, so that a square can't overflow.
 struct RegressorChannel {
-  std::int32_t input;
+  std::int32_t input;  ///< of a vector the first of two
   RegressorPart part;
   RegressorPower power;
   float low;
@@ -116,6 +127,59 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
   return settle(part);
 }
+
+/// A level vector by its length, which is clamped, and its direction. Where z is 0, both are those of x to the bit.
+template <class N>
+struct LevelVector {
+  LevelVector(const Reals<N>& along, const Reals<N>& across, float most) {
+    const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), high = all<Reals<N>>(most);
+    const auto clamped = [&](const Reals<N>& part) { return settle(hold(number_or(part, zero), zero - high, high)); };
+    x = clamped(along), z = clamped(across);
+    // By the larger part, so that no square is too small or too large.
+    const auto least_one = [](const auto& a, const auto& none, const auto& b) { return a > none ? a : b; };
+    const auto scale = larger(magnitude(x), magnitude(z)), divisor = each(least_one, scale, zero, one);
+    x = x / divisor, z = z / divisor;
+    const auto length_of = square_root(x * x + z * z), unit = each(least_one, length_of, zero, one);
+    length = smaller(scale * length_of, high);
+    x = settle(hold(x / unit, zero - one, one)), z = settle(hold(z / unit, zero - one, one));
+  }
+
+  Reals<N> length, x, z;
+};
+
+/// Makes regressors of a block's inputs, lanes_of(input): each vector is taken apart once for all of its regressors.
+template <class N, class LanesOf>
+class Regressing {
+ public:
+  explicit Regressing(const LanesOf& lanes_of) : lanes_of_(lanes_of) {}
+
+  Reals<N> operator()(const RegressorChannel& channel) {
+    if (channel.part < RegressorPart::kLengthPositive) return regress<N>(channel, lanes_of_(channel.input));
+    if (channel.part == RegressorPart::kLengthPositive && channel.power == RegressorPower::kOne) take(channel);
+    return settle(power_[static_cast<int>(channel.power)] * side_[static_cast<int>(channel.part) - kFirst]);
+  }
+
+ private:
+  static constexpr int kFirst = static_cast<int>(RegressorPart::kLengthPositive), kSides = 6;
+
+  void take(const RegressorChannel& channel) {
+    const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f);
+    const LevelVector<N> vector(lanes_of_(channel.input), lanes_of_(channel.input + 1), channel.high);
+    power_[0] = vector.length * all<Reals<N>>(channel.inverse_scale);
+    power_[1] = square_root(power_[0]);
+    power_[2] = power_[0] * power_[0];
+    const auto below = [](const auto& a, const auto& none, const auto& yes, const auto& no) {
+      return a < none ? yes : no;
+    };
+    side_[0] = each(below, vector.x, zero, zero, one);
+    side_[1] = each(below, vector.x, zero, one, zero);
+    side_[2] = larger(vector.x, zero), side_[3] = larger(zero - vector.x, zero);
+    side_[4] = larger(vector.z, zero), side_[5] = larger(zero - vector.z, zero);
+  }
+
+  const LanesOf& lanes_of_;
+  Reals<N> power_[3], side_[kSides];
+};
 
 /// Converts an output's deviations to its own unit. Holds its constants, so that they are loaded once for many values.
 template <class Values>

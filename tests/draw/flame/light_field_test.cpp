@@ -1,4 +1,4 @@
-#include "draw/flame/light_field.hpp"
+#include "draw/flame/flame_layers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,8 +16,11 @@
 
 #include "model/sample_chain.hpp"
 #include "model/sample_switched.hpp"
+#include "paths.hpp"
 #include "run/flame_model.hpp"
+#include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/run/switched_facet.hpp"
@@ -94,6 +97,8 @@ struct Stage {
     states.resize(kCapacity);
     polylines.resize(kCapacity * 2 * bank->polyline_points());
     saved.resize(bank->save_bytes());
+    if (!bank->body()) return;
+    rings.resize(kCapacity * static_cast<std::size_t>(bank->body()->rings()) * kRingNumbers);
   }
 
   // Every function of the frame path. `own` runs in the middle of it.
@@ -125,6 +130,10 @@ struct Stage {
       chain->steer(b.at(0), {.position = {1, 0, -1}, .in = std::chrono::seconds(2)});
       chain->release(b.at(1));
     }
+    if (BodyFacet* body = b.body()) {
+      body->look(0.6f, -0.8f);
+      body->read_rings(rings);
+    }
     if (const SwitchedFacet* switched = b.switched()) switched->mode_of(next);
     if (ExtinctionFacet* extinction = b.extinction()) {
       extinction->extinguish(next);
@@ -147,13 +156,16 @@ struct Stage {
   }
 
   // One of every kind of dynamics, and of every way to switch.
-  static std::vector<Model> models() { return {mortal_flame(), still_flame_model(), windy_chain(), sample_switched()}; }
+  static std::vector<Model> models() {
+    const auto shaped = read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+    return {mortal_flame(), still_flame_model(), windy_chain(), sample_switched(), *in_the_round(*shaped)};
+  }
 
   Model model;
   std::vector<std::byte> memory;
   std::optional<Bank> bank;
   std::vector<LitState> states;
-  std::vector<float> wind, outputs, polylines;
+  std::vector<float> wind, outputs, polylines, rings;
   std::vector<std::byte> saved;
 };
 
