@@ -59,7 +59,8 @@ constexpr int kWalks = 64;       // side by side
 constexpr double kSeconds = 80;  // of each walk, in addition to the loop
 constexpr double kSettled =
     4;  // seconds until a walk is independent of its start and has reached its response to the wind
-constexpr int kMaxRounds = 64;  // a tenth of a second each; of a leaf learned from sixty falls one in twenty loops needs 35
+constexpr int kMaxRounds =
+    64;  // a tenth of a second each; of a leaf learned from sixty falls one in twenty loops needs 35
 
 using Vector = std::array<double, 3>;
 

@@ -161,8 +161,8 @@ Result<Take> walk_take(const Model& model, const TakeOptions& options, Take take
   for (std::size_t k = 0; k < taken.instances; ++k) {
     const auto loop = find_walk_loop(model, taken.frames, options.seed + k, inputs_of(model, options));
     if (!loop) {
-      return Error{"none of thousands of walks came back to where it was after exactly " + std::to_string(taken.frames) +
-                   " frames; ask for a few frames more or less, or a longer loop"};
+      return Error{"none of thousands of walks came back to where it was after exactly " +
+                   std::to_string(taken.frames) + " frames; ask for a few frames more or less, or a longer loop"};
     }
     taken.travel.push_back(loop->travel);
     for (std::size_t frame = 0; frame < taken.frames; ++frame) {

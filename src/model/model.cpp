@@ -195,7 +195,7 @@ Result<void> check_mode(const SwitchedArxModel& model, std::size_t k) {
 Result<void> check_quantiles(const std::vector<double>& quantiles) {
   if (quantiles.empty()) return {};
   if (auto ok = check_numbers(quantiles, kShockQuantiles, "the list of a shock's quantiles"); !ok) return ok;
-  if (std::ranges::is_sorted(quantiles)) return {};
+  if (std::is_sorted(quantiles.begin(), quantiles.end())) return {};
   return Error{"a shock's quantiles do not ascend"};
 }
 

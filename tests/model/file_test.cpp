@@ -371,8 +371,14 @@ TEST(ModelFile, NumbersOnTheBoundsAreTaken) {
       {"no least length", [](Model& m) { m.training.motion->min_seconds = 0; }},
       {"no debounce", [](Model& m) { m.training.motion->debounce = 0; }},
       {"no cost", [](Model& m) { m.training.multiply_adds_per_frame = m.training.operations_per_frame = 0; }},
-      {"smallest rule", [](Model& m) { m.extinction = Extinction{0, 1e-6, 1e-3, 0, 1e-3}; }},
-      {"largest rule", [](Model& m) { m.extinction = Extinction{0, 1e6, 3600, 100, 3600}; }},
+      {"smallest rule",
+       [](Model& m) {
+         m.extinction = Extinction{0, 1e-6, 1e-3, 0, 1e-3};
+       }},
+      {"largest rule",
+       [](Model& m) {
+         m.extinction = Extinction{0, 1e6, 3600, 100, 3600};
+       }},
   };
   for (const auto& [what, change] : bounds) {
     Model model = mortal_model();

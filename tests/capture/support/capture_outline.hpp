@@ -16,7 +16,7 @@ struct ClipCaptureOptions {
 
 /// Captures an outline from a video file or a folder of numbered images; `progress` is told after each frame.
 inline Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const ClipCaptureOptions& options,
-                                        const Progress& progress = {}) {
+                                               const Progress& progress = {}) {
   auto reader = VideoReader::open(path, options.video);
   if (!reader) return reader.error();
   OutlineCaptureOptions outline = options.outline;

@@ -29,8 +29,8 @@ double seconds_to_death(const Extinction& rule, double wind) {
 
 TEST(LearnedExtinction, IsTheRuleThatTheRecordingWasMadeBy) {
   for (const Extinction& rule : {Extinction{.level = 1.8, .seconds = 0.3, .haste = 2, .recovery = 0.4},
-                                Extinction{.level = 1.5, .seconds = 0.4, .haste = 3, .recovery = 0.4},
-                                Extinction{.level = 2.2, .seconds = 0.15, .haste = 0, .recovery = 0.3}}) {
+                                 Extinction{.level = 1.5, .seconds = 0.4, .haste = 3, .recovery = 0.4},
+                                 Extinction{.level = 2.2, .seconds = 0.15, .haste = 0, .recovery = 0.3}}) {
     const auto first = blow_out_recording({.rule = rule, .rows = 7200, .seed = 1});
     const auto other = blow_out_recording({.rule = rule, .rows = 7200, .seed = 2});
     const ExtinctionEvidence seen[] = {evidence_of(first.recording), evidence_of(other.recording)};

@@ -16,7 +16,7 @@ function(run what)
 endfunction()
 
 run("amalgamating" ${SOURCE}/script/amalgamate .)
-set(exact -std=c++20 -ffp-contract=off -Wall -Wextra)
+set(exact -std=c++20 -ffp-contract=off -Wall -Wextra -Wno-missing-field-initializers)
 set(avx2 -mavx2)
 set(avx512 -mavx512f -mavx512vl -mavx512dq -mavx512bw)
 

@@ -1,5 +1,5 @@
-// WLED usermod: LEDs flicker like candles. Each LED is a candle of its own, or each segment, as the settings say; the dial
-// goes from calm (0) over as recorded (128) to breezy (255). Put candle.c and candle.h into this folder.
+// WLED usermod: LEDs flicker like candles. Each LED is a candle of its own, or each segment, as the settings say; the
+// dial goes from calm (0) over as recorded (128) to breezy (255). Put candle.c and candle.h into this folder.
 #include "candle.h"
 #include "wled.h"
 
