@@ -45,8 +45,10 @@ def merged(folder, name, *parts):
     return str(both)
 
 
-def finished(part, model, count):
-    wisp("learn", "arx", "--merge", part, "--expect", count, "-o", model)
+def finished(part, model, count, flags):
+    """The operating point is decided here, from the sums of all rows."""
+    offset = flags[flags.index("--offset") :][:2] if "--offset" in flags else []
+    wisp("learn", "arx", "--merge", part, "--expect", count, "-o", model, *offset)
     return str(model)
 
 
@@ -70,7 +72,7 @@ def graph(do, kind, folder, model, clips, flags):
             do(merged, folder, f"level{level}_{k}", *pair) if len(pair) == 2 else pair[0]
             for k, pair in enumerate(pairs)
         ]
-    return do(finished, parts[0], model, len(clips))
+    return do(finished, parts[0], model, len(clips), flags)
 
 
 def on_cluster(client, *task):
