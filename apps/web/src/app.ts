@@ -349,8 +349,8 @@ export class App {
   private duck(seconds: number): void {
     const before = this.duckFrom;
     this.duckFrom += seconds;
-    if (before < 0 && this.duckFrom >= 0) this.breath.keys.press('ArrowUp');
-    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.release('ArrowUp');
+    if (before < 0 && this.duckFrom >= 0) this.breath.keys.press('arrival');
+    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.release('arrival');
   }
 
   /** Says, once for each model, that it has never felt wind, and what can be done about it. */

@@ -6,6 +6,8 @@ const BREATHS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-0.85, 0.22],
   ArrowUp: [0.4, 0.3],
   Space: [3, 0.12],
+  /** no key: a visitor's arrival */
+  arrival: [0.4, 0.3],
 };
 
 export class KeyBreath {
