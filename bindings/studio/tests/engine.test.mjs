@@ -224,7 +224,7 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
   for (const [name, format, settings, flags] of [
     ['flame-4', 'glb', { loop: 4 }, ['--loop', '4']],
     ['flame-4', 'glb', { seconds: 2, instances: 3, wind: 0.2, seed: 9 }, ['--seconds', '2', '--instances', '3', '--wind', '0.2', '--seed', '9']],
-    ['flame-4', 'json', { loop: 4, height: 300 }, ['--loop', '4', '--height', '300']],
+    ['flame-4', 'json', { loop: 4, height: 300 }, ['--loop', '4', '--size', '300']],
     ['leaf', 'glb', { loop: 6, instances: 4 }, ['--loop', '6', '--instances', '4']],
     ['dryer', 'c', {}, []],
   ]) {

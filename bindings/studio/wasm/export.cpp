@@ -15,7 +15,7 @@ enum class Format { kGltf, kLottie, kC };
 // The file; of C the source, and its header as the text.
 Result<void> write(const Model& model, Format format, const TakeOptions& options, int height, const char* name) {
   // A lamp has no input, a linear system has one.
-  if (format == Format::kC && !model.inputs.empty()) {
+  if (format == Format::kC && std::holds_alternative<PlainView>(model.view) && !model.inputs.empty()) {
     auto plant = plant_text(model, PlantLanguage::kC, name);
     if (!plant) return plant.error();
     hand_over(std::as_bytes(std::span(plant->text)));
