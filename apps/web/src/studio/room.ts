@@ -494,8 +494,8 @@ export class Room {
 
   private backToLook(): void {
     const [last] = this.session.takes.slice(-1);
-    if (last === undefined) this.gather();
-    else if (this.session.learned !== null) this.showResult();
+    if (this.session.learned !== null && last !== undefined) this.showResult();
+    else if (last === undefined || thingOf(this.session) === 'table') this.gather();
     else this.showLook(last);
   }
 
