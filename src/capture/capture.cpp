@@ -9,6 +9,7 @@
 
 #include "capture/capture_clip.hpp"
 #include "capture/clip/clip_ear.hpp"
+#include "record/number_text.hpp"
 #include "record/verdict.hpp"
 #include "wisp/capture/media/sound.hpp"
 
@@ -31,17 +32,16 @@ ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   return times;
 }
 
-// Hands a clip's sound on. Returns whether there was any.
+// Hands a clip's sound on. Returns what it was, nothing where there was none.
 template <class Hear>
-Result<bool> hear_sound(const std::filesystem::path& path, Hear hear) {
+Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, Hear hear) {
   Result<void> heard;
   const auto info = stream_sound(path, [&](const SoundInfo& sound, std::span<const float> samples) {
     heard = hear(SoundFormat{.rate_hz = sound.rate_hz, .channels = sound.channels}, sound.begin, samples);
     return static_cast<bool>(heard);
   });
   if (!heard) return heard.error();
-  if (!info) return info.error();
-  return info->has_value();
+  return info;
 }
 
 // The camera's curve is undone as ITU-R BT.709-6, item 1.2, says that it was applied.
@@ -146,6 +146,9 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
     return Result<void>();
   });
   if (!heard) return heard.error();
+  if (!frames && *heard && (*heard)->cut) {
+    return unusable(Error{"it was cut off after " + number_text(seconds, 3) + " s; copy or record it again"});
+  }
   if (!ear) {
     ClipWind none;
     none.note = "not heard: the clip has no sound track";

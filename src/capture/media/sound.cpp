@@ -90,6 +90,7 @@ bool drain(SoundTrack& track, const SoundBlock& block) {
 void decode_all(SoundTrack& track, const SoundBlock& block) {
   while (with_memory(av_read_frame, track.format.get(), track.packet.get()) >= 0) {
     if (track.packet->stream_index == track.track) {
+      track.info.cut = (track.packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
       with_memory(avcodec_send_packet, track.codec.get(), track.packet.get());
     }
     av_packet_unref(track.packet.get());

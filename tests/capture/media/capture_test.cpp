@@ -93,6 +93,10 @@ TEST(CaptureWind, ASoundFileHasAsManyRowsAsItLasts) {
   EXPECT_LT(wind->channels.front().samples[100], 1e-3);
   const auto none = capture_wind(folder / "none.wav", 50);
   EXPECT_FALSE(none);
+  std::filesystem::resize_file(folder / "breath.wav", std::filesystem::file_size(folder / "breath.wav") / 2 + 1);
+  const auto half = capture_wind(folder / "breath.wav", 50);
+  ASSERT_FALSE(half);
+  EXPECT_NE(half.error().message.find("it was cut off after 4 s"), std::string::npos) << half.error().message;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct SoundInfo {
   std::size_t samples = 0;  ///< a channel, as decoded
   double begin = 0;         ///< seconds after the clip's first frame at which it, or a block, begins; may be negative
   float peak = 0;           ///< largest absolute sample, full scale 1
+  bool cut = false;         ///< the last block is not whole: the file was cut off
 
   /// Nothing can be heard: below −80 dB of full scale.
   bool silent() const { return peak < 1e-4F; }
