@@ -1,4 +1,4 @@
-#include "window.hpp"
+#include "course.hpp"
 
 #include <algorithm>
 #include <array>

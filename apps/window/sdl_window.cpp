@@ -16,7 +16,7 @@
 #include <memory>
 #include <string_view>
 
-#include "window.hpp"
+#include "course.hpp"
 
 namespace wisp::window {
 namespace {

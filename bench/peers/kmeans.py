@@ -36,19 +36,16 @@ def clouds():
 
 
 def ours(program):
-    """Milliseconds (by the clock, and of all processors together) and inertia, by threads."""
+    """Milliseconds (by the clock, and of all processors together) and inertia."""
     said = subprocess.run([program, f"--benchmark_repetitions={REPEATS}", "--benchmark_format=json"], check=True,
                           capture_output=True, text=True).stdout
-    found = {}
-    for run in json.loads(said)["benchmarks"]:
-        if run.get("aggregate_name") == "median":
-            found[int(run["run_name"].split("/")[1])] = ((run["real_time"], run["cpu_time"]), run["inertia"])
-    return found
+    run = next(run for run in json.loads(said)["benchmarks"] if run.get("aggregate_name") == "median")
+    return (run["real_time"], run["cpu_time"]), run["inertia"]
 
 
-def theirs(rows, algorithm, threads):
+def theirs(rows, algorithm):
     clock, processors, inertias = [], [], []
-    with threadpool_limits(limits=threads):
+    with threadpool_limits(limits=1):
         for seed in range(REPEATS):
             start, work = time.perf_counter(), time.process_time()
             found = sklearn.cluster.KMeans(6, n_init=10, algorithm=algorithm, random_state=seed).fit(rows)
@@ -61,14 +58,13 @@ def theirs(rows, algorithm, threads):
 def main():
     rows = clouds()
     print(f"k-means of {ROWS} × {COLUMNS}, 6 clusters, 10 starts; medians of {REPEATS}; scikit-learn {sklearn.__version__}")
-    for threads, (own, inertia) in sorted(ours(sys.argv[1]).items()):
-        print(f"  {threads} thread{'s' if threads > 1 else ''}: wisp {own[0]:.0f} ms ({own[1]:.0f} of processors), "
-              f"inertia {inertia:.9g}")
-        for algorithm in ("lloyd", "elkan"):
-            peer, peer_inertia = theirs(rows, algorithm, threads)
-            print(f"    scikit-learn, {algorithm}: {peer[0]:.0f} ms ({peer[1]:.0f}), inertia {peer_inertia:.9g}: wisp is "
-                  f"{peer[0] / own[0]:.1f} times as fast ({peer[1] / own[1]:.1f} by processors' time), "
-                  f"its inertia {inertia / peer_inertia:.8f} of theirs")
+    own, inertia = ours(sys.argv[1])
+    print(f"  one thread: wisp {own[0]:.0f} ms ({own[1]:.0f} of processors), inertia {inertia:.9g}")
+    for algorithm in ("lloyd", "elkan"):
+        peer, peer_inertia = theirs(rows, algorithm)
+        print(f"    scikit-learn, {algorithm}: {peer[0]:.0f} ms ({peer[1]:.0f}), inertia {peer_inertia:.9g}: wisp is "
+              f"{peer[0] / own[0]:.1f} times as fast ({peer[1] / own[1]:.1f} by processors' time), "
+              f"its inertia {inertia / peer_inertia:.8f} of theirs")
 
 
 if __name__ == "__main__":

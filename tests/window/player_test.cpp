@@ -1,6 +1,6 @@
 // What the window shows, without a window: scenes, sound, events and files, looked at as pictures.
 
-#include "window/window.hpp"
+#include "window/course.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 
 #include "paths.hpp"
 #include "sound/wind_sounds.hpp"
-#include "window/window.hpp"
 
 namespace wisp::window::player_test {
 namespace {

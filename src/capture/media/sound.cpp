@@ -9,8 +9,6 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMaxSamples = std::size_t{1} << 30;
-
 // One sound track on its way from the file to blocks of floats.
 struct SoundTrack {
   FormatOwner format;
@@ -127,21 +125,6 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
   decode_all(track, block);
   track.info.begin = begin;
   return std::optional<SoundInfo>(track.info);
-}
-
-Result<std::optional<Sound>> read_sound(const std::filesystem::path& path) {
-  Sound sound;
-  bool too_long = false;
-  const auto info = stream_sound(path, [&](const SoundInfo&, std::span<const float> samples) {
-    too_long = sound.samples.size() + samples.size() > kMaxSamples;
-    if (!too_long) sound.samples.insert(sound.samples.end(), samples.begin(), samples.end());
-    return !too_long;
-  });
-  if (!info) return info.error();
-  if (!info->has_value()) return std::optional<Sound>();
-  if (too_long) return Error{path.string() + ": more than 2^30 samples of sound; cut the clip into parts"};
-  sound.info = **info;
-  return std::optional<Sound>(std::move(sound));
 }
 
 }  // namespace wisp

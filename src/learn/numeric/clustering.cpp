@@ -1,13 +1,11 @@
 #include "learn/numeric/clustering.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
 #include <string>
-#include <thread>
 
 namespace wisp {
 namespace {
@@ -176,8 +174,8 @@ Result<void> check_options(std::size_t rows, const KMeansOptions& options) {
     return Error{"there are " + std::to_string(rows) + " rows for " + std::to_string(options.clusters) +
                  " clusters, expected at least as many rows: ask for fewer clusters"};
   }
-  if (options.restarts < 1 || options.max_iterations < 1 || options.threads < 0 || !(options.tolerance >= 0)) {
-    return Error{"restarts, rounds, threads or tolerance of k-means are out of range"};
+  if (options.restarts < 1 || options.max_iterations < 1 || !(options.tolerance >= 0)) {
+    return Error{"restarts, rounds or tolerance of k-means are out of range"};
   }
   return {};
 }
@@ -187,21 +185,12 @@ Result<void> check_options(std::size_t rows, const KMeansOptions& options) {
 Result<KMeans> k_means(std::span<const double> values, std::size_t columns, const KMeansOptions& options) {
   const Rows rows{values.data(), values.size() / columns, columns};
   if (auto ok = check_options(rows.count, options); !ok) return ok.error();
-  // Each start has its own chance and its own place for the outcome, so threads can't change either.
-  std::vector<KMeans> found(static_cast<std::size_t>(options.restarts));
   const double variance = mean_variance(rows);
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int start = next++; start < options.restarts; start = next++) {
-      const std::uint64_t seed = options.seed * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(start);
-      found[static_cast<std::size_t>(start)] = one_start(rows, options, variance, seed);
-    }
-  };
-  const int most = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
-  std::vector<std::thread> threads;
-  for (int k = 1; k < std::min(most, options.restarts); ++k) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  std::vector<KMeans> found;
+  for (int start = 0; start < options.restarts; ++start) {
+    const std::uint64_t seed = options.seed * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(start);
+    found.push_back(one_start(rows, options, variance, seed));
+  }
   const auto less = [](const KMeans& a, const KMeans& b) { return a.inertia < b.inertia; };
   KMeans best = std::move(*std::min_element(found.begin(), found.end(), less));
   alternate(rows, options.max_iterations, 0, best);  // until no row changes sides: only the best start is worth it

@@ -19,7 +19,6 @@ struct KMeansOptions {
   int max_iterations = 300;  ///< ≥ 1, of each
   double tolerance = 1e-4;   ///< ≥ 0: a round that moves the centroids by less than this share of the variance is the
                              ///< last of a start; the best of them is then run on until no row changes sides
-  int threads = 0;           ///< 0: as many as the machine has; the result is the same for any number
   std::uint64_t seed = 1;
 };
 

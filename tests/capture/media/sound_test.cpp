@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "capture/support/clip_files.hpp"
+#include "capture/support/whole_sound.hpp"
 
 namespace wisp::sound_test {
 namespace {
 
 using support::Plane;
+using support::read_sound;
 using support::ScratchFolder;
 using testing::HasSubstr;
 

@@ -75,18 +75,6 @@ TEST(KMeans, TheBestStartIsRunUntilNothingChangesSides) {
   EXPECT_NEAR(plain_inertia(rows, found->centroids), found->inertia, 1e-9 * found->inertia);
 }
 
-TEST(KMeans, TheSameOnAnyNumberOfThreads) {
-  const auto rows = corners(100, 1.2);
-  const auto one = k_means(rows, 3, {.clusters = 5, .threads = 1});
-  for (int threads : {2, 3, 16}) {
-    const auto many = k_means(rows, 3, {.clusters = 5, .threads = threads});
-    ASSERT_TRUE(one && many);
-    EXPECT_EQ(one->centroids, many->centroids);
-    EXPECT_EQ(one->cluster, many->cluster);
-    EXPECT_EQ(one->inertia, many->inertia);
-  }
-}
-
 TEST(KMeans, NoClusterIsEmptyEvenWhereRowsCoincide) {
   std::vector<double> rows(30, 1.0);
   rows[0] = 2;

@@ -1,11 +1,10 @@
 #pragma once
-// Sound of a WAV file or of a video's track, as samples.
+// Sound of a WAV file or of a video's track, block by block.
 
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "wisp/base/result.hpp"
 
@@ -24,12 +23,6 @@ struct SoundInfo {
   bool silent() const { return peak < 1e-4F; }
 };
 
-/// A whole sound track.
-struct Sound {
-  SoundInfo info;
-  std::vector<float> samples;  ///< channels interleaved, full scale 1
-};
-
 /// Takes one block of interleaved samples; returns whether to go on.
 using SoundBlock = std::function<bool(const SoundInfo& info, std::span<const float> samples)>;
 
@@ -37,9 +30,5 @@ using SoundBlock = std::function<bool(const SoundInfo& info, std::span<const flo
 /// track. While blocks are handed out, `info` holds rate, channels and begin.
 /// Errors: missing, not a sound or video file, a codec that FFmpeg cannot decode.
 Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path, const SoundBlock& block);
-
-/// Reads a sound track whole. Returns it, or nothing where the file has no sound track.
-/// Errors: as stream_sound(), and a track of more than 2^30 samples.
-Result<std::optional<Sound>> read_sound(const std::filesystem::path& path);
 
 }  // namespace wisp

@@ -1,17 +1,43 @@
 #include "learn/chain/gusts/gust_response.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
 
 #include "base/statistics.hpp"
-#include "learn/numeric/normal_equations.hpp"
 
 namespace wisp::chain {
 namespace {
 
 constexpr double kStill = 1e-3;  // m/s: wind below it is none
+// Least squares of a handful of coefficients by the normal equations: for well-scaled regressors only.
+class NormalEquations {
+ public:
+  explicit NormalEquations(std::size_t size)
+      : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(size), Eigen::Index(size))),
+        right_(Eigen::VectorXd::Zero(Eigen::Index(size))) {}
+
+  void add(const std::vector<double>& row, double value) {
+    const Eigen::Map<const Eigen::VectorXd> x(row.data(), right_.size());
+    matrix_ += x * x.transpose();
+    right_ += value * x;
+  }
+
+  // The coefficients, with a ridge as a share of each diagonal element; what no row has is 0.
+  std::vector<double> solved(double ridge) const {
+    Eigen::MatrixXd a = matrix_;
+    for (double& own : a.diagonal()) own += own == 0 ? 1 : ridge * own;
+    const Eigen::VectorXd x = a.ldlt().solve(right_);
+    return {x.begin(), x.end()};
+  }
+
+ private:
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd right_;
+};
+
 constexpr const char* kWinds[] = {"wind.x", "wind.y", "wind.z"};
 
 void add(Triple& sum, const Triple& value, double factor) {
