@@ -219,6 +219,7 @@ struct VerdictCurve {
   std::array<double, kVerdictKnots> against_right;
 };
 
+// One fact a row, with its name behind it.
 // clang-format off""")
     print(f"inline constexpr double kFlameOdds = {both['flame'][0]:.4g};\ninline constexpr double kRightOdds = {both['right'][0]:.4g};\n")
     print(f"inline constexpr std::array<VerdictCurve, {len(FACTS)}> kVerdictCurves{{{{")

@@ -150,7 +150,7 @@ class PointerWake {
 
 /// Where sound comes from.
 enum class EarState {
-  kOff,  ///< nobody asked for it, or it was switched off
+  kOff,  ///< not switched on, or switched off again
   kListening,
   kMissing,  ///< there is no microphone, or it was lost
 };

@@ -262,7 +262,7 @@ SizeEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::ui
   for (const std::uint32_t end : ends) {
     const auto rows = static_cast<double>(end - begin);
     const auto steps = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(rows * rate_hz / kBorrowedHz)), 1,
-                                               SizeEvents::kMostSizes / SizeEvents::kMost);
+                                               SizeEvents::kMaxSizes / SizeEvents::kMaxEvents);
     for (std::size_t k = 0; k < steps; ++k) {
       const double at = std::min(rows - 1, static_cast<double>(k) * kBorrowedHz / rate_hz), share = at - std::floor(at);
       const std::size_t row = begin + static_cast<std::size_t>(at);
@@ -277,7 +277,7 @@ SizeEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::ui
 
 Result<void> check(const SizeEvents& events, const std::string& what) {
   const bool counted =
-      events.ends.size() <= SizeEvents::kMost && events.sizes.size() <= SizeEvents::kMostSizes &&
+      events.ends.size() <= SizeEvents::kMaxEvents && events.sizes.size() <= SizeEvents::kMaxSizes &&
       (events.empty() ? 0 : events.ends.back()) == events.sizes.size() && (events.empty() || events.ends.front() > 0) &&
       std::adjacent_find(events.ends.begin(), events.ends.end(), std::greater_equal<>()) == events.ends.end();
   if (counted) return {};

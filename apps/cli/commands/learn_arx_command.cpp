@@ -242,7 +242,7 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   }
   const std::string output = model_path(arguments);
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
-  // With --keep-unstable alone: the report is what was asked for, and complete.
+  // Only --keep-unstable leads here: the report is complete, so the status is 0 although no model is written.
   terminal.show(fit->report);
   terminal.add("output", {});
   if (output.empty()) return {};

@@ -77,7 +77,7 @@ class Player {
   const ReportTable& deaths() const { return deaths_; }
 
  private:
-  // A wind of one number blows along the picture, or towards where it was said to.
+  // A wind that is one number blows towards --wind-direction, by default to the right in the picture.
   std::vector<float> turned(std::vector<float> inputs) const {
     if (inputs.size() != 1 || bank_.input_count() != 2) return inputs;
     const double angle = play_.toward * 3.14159265358979323846 / 180;

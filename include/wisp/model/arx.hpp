@@ -77,9 +77,9 @@ struct ResampledResiduals {
   int longest = 1;        ///< where an input drives it, steps from one jump to the next at most, 1 to 1 000 000
   std::vector<int> mirror;  ///< per output ±(1 + the output whose residual it takes in an input from the other side);
                             ///< empty: that side is no mirror image
-  int across = 0;  ///< in the round, so many outputs are the z of vectors whose x are as many before them: rows have
-                   ///< the x alone, which is along the input, and another row's is played across it. The input is a
-                   ///< vector then: `toward` and `against` are its x, 6 after them is its z
+  int across = 0;  ///< in the round: the last `across` outputs are the z parts of level vectors, the `across` before
+                   ///< them the x parts. A row stores one number a vector, its part along the wind; the part across
+                   ///< is taken from a second row. Regressors `toward + 6` and `against + 6` are then the wind's z
 
   bool empty() const { return rows.empty(); }
   std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }

@@ -20,8 +20,8 @@ namespace wisp {
 
 /// The sizes of what is seen through recorded events, step after step: a stored 255 is the full size.
 struct SizeEvents {
-  static constexpr std::size_t kMost = 64;          ///< events
-  static constexpr std::size_t kMostSizes = 65536;  ///< of all together
+  static constexpr std::size_t kMaxEvents = 64;    ///< events
+  static constexpr std::size_t kMaxSizes = 65536;  ///< of all events
 
   std::vector<std::uint8_t> sizes;
   std::vector<std::uint32_t> ends;  ///< one past the last size of each event, ascending

@@ -26,9 +26,9 @@ enum class InputShape {
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
   kSplitSignPowers,  ///< as six: max(u, 0), its square root and its square, then those of max(−u, 0)
-  kWindAlong,        ///< one of two that are a level vector, its x: as twelve; six powers of the vector's length, which
-                     ///< are 0 but on the side to which it points, then those of the length times its direction's x
-  kWindAcross,       ///< the other one, its z, right after kWindAlong: as six, those of the length times direction's z
+  kWindAlong,        ///< the x of a level wind vector: as twelve regressors. Six as kSplitSignPowers of the vector's
+                     ///< length with the sign of x, then the same six times the x of its direction
+  kWindAcross,       ///< the z of that vector, the input after kWindAlong: as six, the powers times its direction's z
 };
 
 /// An input as the world gives it.

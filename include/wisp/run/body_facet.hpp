@@ -1,9 +1,9 @@
 #pragma once
-// What only a bank of a model in the round has (Bank::body(), in_the_round()): bodies. A flame that one camera filmed
-// is one by the assumption that it is the same from all sides.
+// Three-dimensional bodies, which a bank of a model in the round plays (in_the_round(), Bank::body()). A flame that one
+// camera filmed becomes a body by assuming that it looks alike from all sides.
 //
 // x is to the right of the camera that filmed it, y up, z towards that camera. The inputs of its wind are the wind's x
-// and z: it blows towards them.
+// and z components.
 
 #include <cstddef>
 #include <span>
@@ -19,9 +19,9 @@ inline constexpr std::size_t kRingNumbers = 6;
 /// The bodies of a bank. It lives as long as the bank, and moves with it. Nothing here allocates.
 class BodyFacet {
  public:
-  /// Outputs and polylines are the outline as it is seen, level, by a camera whose right is (x, z), a vector of length
-  /// 1: (1, 0) is the camera that filmed it, (0, −1) one that went a quarter round it, anticlockwise from above. It is
-  /// no part of what save() writes.
+  /// Sets the level camera whose view Bank::outputs() and polylines() return. (right_x, right_z), of length 1, points
+  /// to the camera's right: (1, 0) for the camera that filmed the flame, (0, −1) for one a quarter turn further,
+  /// anticlockwise from above. save() does not write it.
   void look(float right_x, float right_z);
 
   /// Rings of a body, from the base to the tip: half of the polyline's points.

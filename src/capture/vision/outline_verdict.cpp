@@ -32,7 +32,7 @@ constexpr const char* kShape =
 constexpr const char* kGlare =
     "it is clipped flat, {clipped} of it as bright as the camera shows anything, and its shape is not a flame's; lower "
     "the exposure";
-constexpr double kMostlyFlat = 0.5;  // share that is clipped: then a shape is the camera's
+constexpr double kClippedShape = 0.5;  // a shape of which more is clipped is overexposed, whatever it is
 
 constexpr std::array<FactRow, 21> kFacts{{
     {"movement", Of::kMotion, kStill},
@@ -126,7 +126,7 @@ std::string sentence_of(std::size_t fact, R r) {
       {"{frames}", std::to_string(f.seen_from + 1) + " to " + std::to_string(f.seen_from + f.rows)},
       {"{clipped}", percent(f.clipped)},
   }};
-  const bool flat = kFacts[fact].sentence == kShape && f.clipped > kMostlyFlat;
+  const bool flat = kFacts[fact].sentence == kShape && f.clipped > kClippedShape;
   std::string out = flat ? kGlare : kFacts[fact].sentence;
   for (const auto& [name, text] : names) {
     const auto at = out.find(name);

@@ -15,6 +15,7 @@ struct VerdictCurve {
   std::array<double, kVerdictKnots> against_right;
 };
 
+// One fact a row, with its name behind it.
 // clang-format off
 inline constexpr double kFlameOdds = 4.912;
 inline constexpr double kRightOdds = 3.127;

@@ -10,12 +10,12 @@
 namespace wisp {
 namespace {
 
-constexpr double kDyingSeen = 0.3;                      // seconds before it is gone; earlier changes belong to the gust
-constexpr double kShrinks = 0.97;                       // of what it was; less has begun to go out
-constexpr double kDim = 0.05;                           // seconds in which it glows without an outline
-constexpr double kCatching = 1, kLeastCatching = 0.25;  // seconds after it is seen again
-constexpr double kFading = 0.3;                         // share of catching, its end
-constexpr std::size_t kMostEvents = 8;
+constexpr double kDyingSeen = 0.3;  // seconds before it is gone; earlier changes belong to the gust
+constexpr double kShrinks = 0.97;   // of what it was; less has begun to go out
+constexpr double kDim = 0.05;       // seconds in which it glows without an outline
+constexpr double kMaxCatching = 1, kMinCatching = 0.25;  // seconds after it is seen again
+constexpr double kFading = 0.3;                          // share of catching, its end
+constexpr std::size_t kMaxEvents = 8;
 
 using Sizes = std::vector<double>;
 
@@ -30,7 +30,7 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
   return std::sqrt(std::abs(twice) / 2);
 }
 
-// What is seen of a death in the rows from `lit` on, in shares of what the flame was before it.
+// The sizes that the camera saw while the flame died, as shares of its size before: rows from `lit` on.
 Sizes seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
   const std::size_t rows = rows_of(kDyingSeen, rate_hz), first = std::max(lit + rows, gone) - rows;
   Sizes before;
@@ -54,8 +54,8 @@ void glow_on(Sizes& dying, double rate_hz) {
 }
 
 Sizes seen_catching(const Sizes& sizes, std::size_t back, std::size_t next, double rate_hz) {
-  const std::size_t end = std::min(next, back + rows_of(kCatching, rate_hz));
-  if (end < back + rows_of(kLeastCatching, rate_hz)) return {};
+  const std::size_t end = std::min(next, back + rows_of(kMaxCatching, rate_hz));
+  if (end < back + rows_of(kMinCatching, rate_hz)) return {};
   Sizes out;
   const auto rows = static_cast<double>(end - back);
   for (std::size_t row = back; row < end; ++row) {
@@ -68,7 +68,7 @@ Sizes seen_catching(const Sizes& sizes, std::size_t back, std::size_t next, doub
 
 SizeEvents stored(const std::vector<Sizes>& events) {
   SizeEvents out;
-  const std::size_t count = std::min(events.size(), kMostEvents);
+  const std::size_t count = std::min(events.size(), kMaxEvents);
   for (std::size_t k = 0; k < count; ++k) {
     for (const double size : events[k * events.size() / count]) {
       out.sizes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(size, 0.0, 1.0))));

@@ -148,7 +148,7 @@ class ResampledLanes {
 
   static constexpr int kVectorRegressors = 6;  // of each part of a vector
 
-  // Where a life's states lie: those of blocks, and in the round once more those of what is played across.
+  // One search for rows: of the residuals along the wind, and in the round a second one of those across it.
   struct Life {
     int block;
     int at;
@@ -189,8 +189,8 @@ class ResampledLanes {
     }
   }
 
-  // What a lane plays in the round: what a row has along the wind and another one across it, each from where the wind
-  // came when it was jumped to.
+  // The residuals of a lane in the round: one row along the wind, another across it, each turned to where the wind blew
+  // when the search jumped to that row.
   void turn_row(int block, int lane) {
     const std::uint32_t other = whole(state(blocks_ + block, kPlace)[lane]);
     const float *along = program_.played(whole(state(block, kPlace)[lane]) / 2 * 2), *across = program_.played(other);

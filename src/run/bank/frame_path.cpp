@@ -312,7 +312,7 @@ void Bank::State::show_shape(int block, LevelView from, float* points) const {
       from);
 }
 
-// What is out shows what it was last.
+// An instance that is out keeps the shape of its last step.
 void Bank::State::show_last(int block) {
   if (is_whole(block)) return;
   float* out = shape.empty() ? shown_of(block) : components_of(block);

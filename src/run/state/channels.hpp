@@ -26,8 +26,8 @@ struct OutputChannel {
   std::int32_t mirrors = -1;  ///< index of an earlier output whose negative this always is, or −1
 };
 
-/// How a regressor is made from its input; of a vector, from its length on the one side of x or the other, or from that
-/// times a part of its direction's x or z.
+/// How a regressor is made from its input. Of a wind vector: from its length, by the sign of its x (kLength…), or from
+/// that times the x (kAlong…) or the z (kAcross…) of its direction.
 enum class RegressorPart : std::uint8_t {
   kWhole,
   kPositive,
