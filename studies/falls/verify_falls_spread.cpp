@@ -48,9 +48,9 @@ void spread(Bounds& bounds) {
     std::printf(
         "  seed %d: energy distance %.4f (floor %.4f, ceiling %.3f), jumps above the 99th percentile %.1f %% "
         "and %.1f %% (at recorded stalls %.1f %% and %.1f %%)\n",
-        static_cast<int>(seed), energy.value, energy.floor, energy.ceiling,
-        100 * play->join_defect.position.share_above, 100 * play->join_defect.rotation.share_above,
-        100 * play->join_defect.position_floor.share_above, 100 * play->join_defect.rotation_floor.share_above);
+        static_cast<int>(seed), energy.value, energy.floor, energy.ceiling, 100 * play->join_defect.position,
+        100 * play->join_defect.rotation, 100 * play->join_defect.position_floor,
+        100 * play->join_defect.rotation_floor);
     bounds.at_most("energy distance", energy.value, 0.03);
   }
   for (const Row& row :

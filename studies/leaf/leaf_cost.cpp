@@ -66,20 +66,14 @@ std::int64_t count(Work work) {
 
 }  // namespace
 
-LeafCost count_leaf_operations(const Leaf& leaf, LeafMethod method) {
+LeafCost count_leaf_operations(const Leaf& leaf) {
   const leaf::Constants<Counted> constants = counting(leaf::constants_of(leaf));
   const leaf::State<Counted> state = some_state();
   const auto rate = [&](const leaf::State<Counted>& s, double) { return leaf::rate_of(constants, s, {}); };
   LeafCost cost;
   cost.evaluation = count([&] { rate(state, 0); });
   const Counted h(1.0 / 60);
-  switch (method) {
-    case LeafMethod::kClassical:
-      cost.step = count([&] { leaf::classical_step(state, h, rate); });
-      break;
-    case LeafMethod::kStiff:
-      break;
-  }
+  cost.step = count([&] { leaf::classical_step(state, h, rate); });
   return cost;
 }
 

@@ -27,20 +27,20 @@ class Estimate {
 
 /// How an ensemble of falls goes, each figure an estimate over its falls.
 struct FallFigures {
-  Estimate descent;           ///< m/s
-  Estimate flips;             ///< a second: the upper side comes up or goes under by more than 6°
-  Estimate stalls;            ///< a second
-  Estimate drift;             ///< horizontal distance over time, m/s
-  Estimate rising;            ///< % of the time
-  Estimate rising_at_stalls;  ///< % of the rising time within 50 ms of a stall
-  Estimate swing;             ///< root mean square of the vertical speed, m/s
-  Estimate spin;              ///< likewise of the rate of turning, rad/s
-  double frames = 0, evaluations = 0, seconds = 0;  ///< rows of 1/60 s, work, processor time
+  Estimate descent;                ///< m/s
+  Estimate flips;                  ///< a second: the upper side comes up or goes under by more than 6°
+  Estimate stalls;                 ///< a second
+  Estimate drift;                  ///< horizontal distance over time, m/s
+  Estimate rising;                 ///< % of the time
+  Estimate rising_at_stalls;       ///< % of the rising time within 50 ms of a stall
+  Estimate swing;                  ///< root mean square of the vertical speed, m/s
+  Estimate spin;                   ///< likewise of the rate of turning, rad/s
+  double frames = 0, seconds = 0;  ///< rows of 1/60 s, processor time
 };
 
 struct Ensemble {
   Leaf leaf{};
-  LeafStepping stepping{};
+  double longest_step = 1.0 / 60;
   int falls = 200;
   double seconds = 20;
   double settle = 2;

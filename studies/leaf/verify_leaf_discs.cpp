@@ -83,7 +83,7 @@ Drop dropped(const Leaf& paper, const Release& release, std::uint64_t stream) {
   state.velocity = {-release.speed * 2 * (q[1] * q[3] - q[0] * q[2]), -release.speed * 2 * (q[2] * q[3] + q[0] * q[1]),
                     -release.speed * (1 - 2 * (q[1] * q[1] + q[2] * q[2]))};
   const LeafWind calm;
-  auto flight = LeafFlight::begin(disc, calm, state, {LeafMethod::kClassical, 0.002});
+  auto flight = LeafFlight::begin(disc, calm, state, 0.002);
   std::vector<double> from_x, from_y;
   while (flight->state().position[2] > -release.height && flight->seconds() < 10) {
     if (!flight->advance(1 / kCameraRate)) std::exit(1);

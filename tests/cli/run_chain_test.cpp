@@ -38,7 +38,7 @@ class RunChain : public InFolder {
 TEST_F(RunChain, WalksAsItIsTold) {
   ASSERT_EQ(run("").status, 0);
   const std::string plain = file_text(at("out.csv"));
-  EXPECT_EQ(run("--steer 1,-0.5,-0.4@0.5 --near 0.05").status, 0);
+  EXPECT_EQ(run("--steer 1,-0.5,-0.4@0.5").status, 0);
   EXPECT_NE(file_text(at("out.csv")), plain);
 }
 
@@ -72,7 +72,6 @@ TEST_F(RunChain, RefusesWhatItCannotDo) {
   for (const char* target : {"1,2@3", "1,2,3", "1,2,3@0", "1,2,3@-4", "a,b,c@d", "1,2,3@4x", "1e9,2,3@4"}) {
     EXPECT_THAT(refused("--steer " + std::string(target)), HasSubstr("expected X,Y,Z@S")) << target;
   }
-  EXPECT_THAT(refused("--steer 1,2,3@4 --near 0"), HasSubstr("--near is 0"));
   EXPECT_THAT(refused("--steer 1,2,3@4", "old.wisp", 1),
               HasSubstr("can't be steered: it does not say where its segments lead"));
   EXPECT_THAT(refused("--steer 1,2,3@4", "flame.wisp"), HasSubstr("is for segment chains"));

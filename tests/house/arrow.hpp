@@ -55,7 +55,7 @@ inline const std::map<std::string, Layer>& layers() {
         {"capture/clip/clip_ear.hpp", "capture/clip/frame_grid.hpp"}}},
       {"capture/media", {{"base", "model", "sound", "record", "capture/vision", "capture/clip"}, ffmpeg}},
       {"capture", {{"base", "model", "sound", "record", "capture/vision", "capture/clip", "capture/media"}, {}}},
-      {"simulate", {{"base", "model", "record"}, {"cvode/", "nvector/", "sundials/", "sunlinsol/", "sunmatrix/"}}},
+      {"simulate", {{"base", "model", "record"}, {}}},
       {"draw", {{"base", "model", "run", "record"}, draws}},
   };
   return table;

@@ -20,8 +20,6 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   const auto chance = static_cast<std::uint64_t>(arguments.integer(arguments.has("chance") ? "chance" : "seed"));
   options.wind.seed = seed;
   options.microphone.seed = options.camera.seed = chance;
-  options.camera.candle_visible = arguments.on("candle");
-  options.wind.both_sides = arguments.on("both-sides");
   if (arguments.has("blow-out")) options.wind.blow_out_at = arguments.number("blow-out");
   options.wind.puff_every = arguments.number("puffs");
   const std::string& wind = arguments.text("wind");
@@ -68,11 +66,9 @@ Command simulate_candle_command() {
           {"rate", Kind::kNumber, "HZ", "60", "frames a second"},
           {"wind", Kind::kText, "W", "gusts",
            "gusts, calm (a closed room's draughts), or a recording whose input is the wind in m/s"},
-          {"both-sides", Kind::kSwitch, "", "", "gusts from the right as well"},
           {"blow-out", Kind::kNumber, "T", "", "blow the flame out after T seconds, and light it again"},
           {"puffs", Kind::kNumber, "S", "0",
            "every S seconds a puff of 1.2 to 4 m/s that may blow the flame out, which is lit again where it did"},
-          {"candle", Kind::kSwitch, "", "", "expose so that wax and wick show"},
           {"seed", Kind::kInteger, "N", "1", "of the wind, and of all other chance"},
           {"chance", Kind::kInteger, "N", "",
            "of the camera's and the microphone's noise, if it is not to be the seed: another take in the same wind"},

@@ -23,20 +23,11 @@ constexpr double kMaxJitter = 0.01;      // of a step of a wind's time
 
 Result<void> check_leaf_flags(const Arguments& arguments) {
   static constexpr FlagRange kRanges[] = {
-      {"drops", 1, 100000},  {"seconds", 0.1, 3600},        {"rate", 1, 10000},
-      {"wind-speed", 0, 30}, {"wind-direction", -360, 360},
+      {"drops", 1, 100000},
+      {"seconds", 0.1, 3600},
+      {"rate", 1, 10000},
   };
   return check_ranges(arguments, kRanges);
-}
-
-LeafWindKind wind_kind(const std::string& word) {
-  if (word == "constant") return LeafWindKind::kConstant;
-  if (word == "gusts") return LeafWindKind::kGusts;
-  return word == "turbulence" ? LeafWindKind::kTurbulence : LeafWindKind::kCalm;
-}
-
-bool is_kind(const std::string& word) {
-  return word == "calm" || word == "constant" || word == "gusts" || word == "turbulence";
 }
 
 // A wind's column of time, where there is one, must go on evenly: rows are taken at the recording's rate.
@@ -57,22 +48,21 @@ Result<void> check_time(const Recording& recording) {
   return {};
 }
 
-// A recording's wind.x, wind.y and wind.z (what it has of them), or its only input, which blows where it is told.
-Result<MeasuredWind> track_from(const std::string& path, const Arguments& arguments) {
+// A recording's wind.x, wind.y and wind.z (what it has of them), or its only input, which blows along x.
+Result<MeasuredWind> track_from(const std::string& path) {
   const auto recording = read_csv(path, {});
   if (!recording) return recording.error();
   if (auto good = check_time(*recording); !good) return good.error();
   MeasuredWind track{.rows = std::vector<std::array<double, 3>>(recording->rows()), .rate_hz = recording->rate_hz};
-  const auto take = [&](std::size_t channel, std::size_t axis, double factor) -> Result<void> {
+  const auto take = [&](std::size_t channel, std::size_t axis) -> Result<void> {
     const auto& samples = recording->channels[channel].samples;
     for (std::size_t row = 0; row < samples.size(); ++row) {
-      const double speed = factor * samples[row];
-      if (!(std::abs(speed) <= 30)) {
+      if (!(std::abs(samples[row]) <= 30)) {
         return Error{path + ": " + recording->channels[channel].name + " in row " + std::to_string(row + 1) + " is " +
-                     (std::isnan(speed) ? "missing" : shown(samples[row])) +
+                     (std::isnan(samples[row]) ? "missing" : shown(samples[row])) +
                      ", expected a wind within 30 m/s and no sample missing"};
       }
-      track.rows[row][axis] = speed;
+      track.rows[row][axis] = samples[row];
     }
     return {};
   };
@@ -81,7 +71,7 @@ Result<MeasuredWind> track_from(const std::string& path, const Arguments& argume
     const auto channel = find_channel(*recording, std::array{"wind.x", "wind.y", "wind.z"}[axis]);
     if (!channel) continue;
     found = true;
-    if (auto good = take(*channel, axis, 1); !good) return good.error();
+    if (auto good = take(*channel, axis); !good) return good.error();
   }
   if (found) return track;
   const auto inputs = channels_with_role(*recording, Role::kInput);
@@ -89,9 +79,7 @@ Result<MeasuredWind> track_from(const std::string& path, const Arguments& argume
     return Error{path + ": has " + std::to_string(inputs.size()) +
                  " inputs and no wind.x, wind.y or wind.z, expected one of these or a single input, in m/s"};
   }
-  const double direction = arguments.number("wind-direction") * std::acos(-1.0) / 180;
-  if (auto good = take(inputs.front(), 0, std::cos(direction)); !good) return good.error();
-  if (auto good = take(inputs.front(), 1, std::sin(direction)); !good) return good.error();
+  if (auto good = take(inputs.front(), 0); !good) return good.error();
   return track;
 }
 
@@ -104,15 +92,13 @@ Result<void> check_pairs(const Arguments& arguments) {
 
 Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
   const std::string& word = arguments.text("wind");
-  if (is_kind(word)) {
-    drops.wind.kind = wind_kind(word);
-    return {};
-  }
+  if (word == "gusts") drops.wind.kind = LeafWindKind::kGusts;
+  if (word == "calm" || word == "gusts") return {};
   if (std::filesystem::path(word).extension() != ".csv") {
-    return Error{"--wind is " + word + ", expected calm, constant, gusts, turbulence or a recording, FILE.csv"};
+    return Error{"--wind is " + word + ", expected calm, gusts or a recording, FILE.csv"};
   }
   if (arguments.on("pairs")) return Error{"--wind " + word + ": --pairs makes gusts of its own, give one of the two"};
-  auto track = track_from(word, arguments);
+  auto track = track_from(word);
   if (!track) return track.error();
   drops.track = std::move(*track);
   return {};
@@ -123,8 +109,6 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
   LeafDropsOptions& drops = options.drops;
   if (auto good = take_wind(arguments, drops); !good) return good.error();
   if (auto good = check_pairs(arguments); !good) return good.error();
-  drops.wind.speed = arguments.number("wind-speed");
-  drops.wind.direction = arguments.number("wind-direction");
   drops.drops = arguments.integer("drops");
   drops.seconds = arguments.number("seconds");
   drops.rate_hz = arguments.number("rate");
@@ -202,11 +186,8 @@ Command simulate_leaf_command() {
           {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
           {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
           {"wind", Kind::kText, "W", "calm",
-           "calm, constant, gusts, turbulence, or a recording FILE.csv of wind.x, wind.y, wind.z or a single input, "
-           "m/s"},
-          {"wind-speed", Kind::kNumber, "M/S", "1", "of the steady wind, or of a typical gust"},
-          {"wind-direction", Kind::kNumber, "DEG", "0",
-           "where it blows to, from x towards y; gusts come from all sides"},
+           "calm, gusts from all sides, or a recording FILE.csv of wind.x, wind.y, wind.z, or of a single input that "
+           "blows along x, m/s"},
           {"pairs", Kind::kSwitch, "", "",
            "one gust an episode, each with many clones of a fall, and in REC.calm.csv the same falls without it"},
           {"video", Kind::kOutput, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},

@@ -191,13 +191,13 @@ Cell cell_of(const StripContent& content, const Bases& bases) {
   for (std::size_t row : content.rows) {
     const Outline outline = of_row(content.captured, row);
     look(outline);
+    look(of_row(content.synthesized, row));
     if (outline.empty() || content.clip_width == 0) continue;
     const Place base = bases.at(outline);
     room.width = std::min({room.width, 2 * base.x, 2 * (content.clip_width - base.x)});
     room.height = std::min(room.height, base.y);
     room.below_base = std::min(room.below_base, content.clip_height - 1 - base.y);
   }
-  for (std::size_t row : content.synthesized_rows) look(of_row(content.synthesized, row));
   const double below = std::clamp(room.below_base, 0.05 * unit, 0.4 * unit);
   const double above = std::clamp(room.height, highest * unit, (highest + 0.4) * unit);
   return {std::clamp(room.width, 2.1 * widest * unit, 2.6 * widest * unit), above + below, below};
@@ -338,14 +338,13 @@ Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames
   if (!frames) return frames.error();
   FilmStrip picture{.rows = {{clip.path.empty() ? "captured" : "filmed", {}}, {content.synthesized_caption, {}}},
                     .frame_height = kStripCellHeight};
-  for (std::size_t k = 0; k < content.rows.size(); ++k) {
-    const std::size_t row = content.rows[k];
+  for (const std::size_t row : content.rows) {
     const auto found = frames->find(row);
     const Outline outline = of_row(content.captured, row);
     picture.rows[0].frames.push_back(found != frames->end() ? found->second
                                      : outline.empty()      ? Image()
                                                             : cartoon(outline, strip));
-    picture.rows[1].frames.push_back(synthesized(of_row(content.synthesized, content.synthesized_rows[k]), strip));
+    picture.rows[1].frames.push_back(synthesized(of_row(content.synthesized, row), strip));
     picture.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.rate_hz));
   }
   const auto image = draw_film_strip(picture);

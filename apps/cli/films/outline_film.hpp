@@ -30,13 +30,12 @@ struct ClipFrames {
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
                            const OverlayContent& content, Terminal& terminal);
 
-/// Contents of a film strip: moments of the recording above, similar moments of the synthesized play below.
+/// Contents of a film strip: moments of the recording above, the same moments of the synthesized play below.
 struct StripContent {
-  std::vector<std::size_t> rows;              ///< of the recording, one a column
-  std::vector<std::size_t> synthesized_rows;  ///< of the synthesized play, as many
-  double rate_hz = 0;                         ///< of both
-  const OutlineRows& captured;                ///< all rows, in pixels
-  const OutlineRows& synthesized;             ///< likewise
+  std::vector<std::size_t> rows;   ///< one a column
+  double rate_hz = 0;              ///< of both
+  const OutlineRows& captured;     ///< all rows, in pixels
+  const OutlineRows& synthesized;  ///< likewise
   double pixels_per_unit = 1;
   int clip_width = 0, clip_height = 0;  ///< pixels; 0: not known
   bool flame = true;                    ///< drawn as a flame; else as a plain shape

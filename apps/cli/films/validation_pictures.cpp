@@ -100,109 +100,30 @@ Result<void> write_validation_figures(const fs::path& folder, const Model& model
   return write_figure(folder, "flicker", spectrum_sheet(report));
 }
 
-// Moments of a recording and moments of the play in a similar state, so that the pictures compare shape and motion and
-// not chance.
-
-// Rows of the recording, and of what was played along its inputs.
-struct LikeMoments {
-  std::vector<std::size_t> recorded;
-  std::vector<std::size_t> played;
-};
-
 constexpr std::size_t kColumns = 12;
 
-// Weight of the wind: similar outlines in different winds are not similar moments.
-constexpr double kWindCounts = 4;
-
-// The tip's lean and height over the base, and the inputs; NaN where there is no outline.
-using State = std::vector<double>;
-
-State outline_state(const std::vector<std::array<double, 2>>& outline) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (outline.empty()) return {kNone, kNone};
-  const auto& tip = outline[outline.size() / 2];
-  return {tip[0] - (outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2 - tip[1]};
+// The tip's distance aside of the base; NaN where there is no outline.
+double lean_of(const std::vector<std::array<double, 2>>& outline) {
+  if (outline.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return outline[outline.size() / 2][0] - (outline.front()[0] + outline.back()[0]) / 2;
 }
 
-std::vector<State> states_of(const Recording& recording, const OutlineRows& rows) {
-  std::vector<State> states;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    State& state = states.emplace_back(outline_state(rows[row]));
-    for (const Channel& channel : recording.channels) {
-      if (channel.role == Role::kInput) state.push_back(row < channel.samples.size() ? channel.samples[row] : 0);
-    }
-  }
-  return states;
-}
-
-// Weights of the components of a state: the inverse of their variance.
-std::vector<double> weights_of(const std::vector<State>& states) {
-  std::vector<double> weights(states.empty() ? 0 : states[0].size());
-  for (std::size_t c = 0; c < weights.size(); ++c) {
-    double sum = 0, squares = 0, count = 0;
-    for (const State& state : states) {
-      if (!std::isfinite(state[c])) continue;
-      sum += state[c];
-      squares += state[c] * state[c];
-      ++count;
-    }
-    const double variance = count > 0 ? squares / count - sum / count * (sum / count) : 0;
-    weights[c] = variance > 0 ? (c < 2 ? 1 : kWindCounts) / variance : 0;
-  }
-  return weights;
-}
-
-double difference(const State& a, const State& b, const std::vector<double>& weights) {
-  constexpr double kOneIsOut = 100;
-  if (std::isfinite(a[0]) != std::isfinite(b[0])) return kOneIsOut;
-  double sum = 0;
-  for (std::size_t c = 0; c < weights.size(); ++c) {
-    const double between = a[c] - b[c];
-    if (std::isfinite(between)) sum += weights[c] * between * between;
-  }
-  return sum;
-}
-
-std::vector<std::size_t> rows_from(std::size_t first, std::size_t apart, std::size_t count) {
-  std::vector<std::size_t> rows;
-  for (std::size_t k = 0; k < count; ++k) rows.push_back(first + k * apart);
-  return rows;
-}
-
-// The stretch in which the tip moves most, among those with an outline in every row shown.
-std::size_t liveliest(const std::vector<State>& states, std::size_t apart, std::size_t count) {
+// Rows of a film strip: twelve moments an eighth of a second apart, where the captured tip moves most among stretches
+// with an outline in every moment. Fewer where the recording is shorter.
+std::vector<std::size_t> liveliest_rows(const OutlineRows& captured, double rate_hz) {
+  const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rate_hz / 8)));
+  const std::size_t count = std::min(kColumns, (captured.size() + apart - 1) / apart);
   std::size_t best = 0;
   double most = -1;
-  for (std::size_t begin = 0; begin + (count - 1) * apart < states.size(); begin += apart) {
+  for (std::size_t begin = 0; begin + count * apart < captured.size() + apart; begin += apart) {
     double motion = 0;
     for (std::size_t k = 1; k < count; ++k)
-      motion += std::abs(states[begin + k * apart][0] - states[begin + (k - 1) * apart][0]);
+      motion += std::abs(lean_of(captured[begin + k * apart]) - lean_of(captured[begin + (k - 1) * apart]));
     if (motion > most) best = begin, most = motion;  // NaN is not more
   }
-  return best;
-}
-
-// Twelve moments an eighth of a second apart, where the outline's tip moves most, and the stretch of the played life
-// whose inputs, tip and height are nearest to theirs all along. Fewer where the recording is shorter.
-//
-// Precondition: captured and played have the recording's rows.
-LikeMoments like_moments(const Recording& recording, const OutlineRows& captured, const OutlineRows& played) {
-  const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(recording.rate_hz / 8)));
-  const std::size_t count = std::min(kColumns, (captured.size() + apart - 1) / apart);
-  if (count == 0) return {};
-  const auto states = states_of(recording, captured), lived = states_of(recording, played);
-  const auto weights = weights_of(states);
-  LikeMoments moments{.recorded = rows_from(liveliest(states, apart, count), apart, count), .played = {}};
-  std::size_t best = moments.recorded.front();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t begin = 0; begin + (count - 1) * apart < lived.size(); ++begin) {
-    double sum = 0;
-    for (std::size_t k = 0; k < count; ++k)
-      sum += difference(states[moments.recorded[k]], lived[begin + k * apart], weights);
-    if (sum < least) best = begin, least = sum;
-  }
-  moments.played = rows_from(best, apart, count);
-  return moments;
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < count; ++k) rows.push_back(best + k * apart);
+  return rows;
 }
 
 // Pixels of the clip that a recording was captured from; 0 where it does not say.
@@ -221,18 +142,16 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
     terminal.say("wrote " + pictures.overlay);
   }
   if (!pictures.film_strip.empty()) {
-    const LikeMoments moments = like_moments(subject.recording, found.captured, found.played);
-    const StripContent content{.rows = moments.recorded,
-                               .synthesized_rows = moments.played,
-                               .rate_hz = subject.recording.rate_hz,
-                               .captured = found.captured,
-                               .synthesized = found.played,
-                               .pixels_per_unit = found.pixels_per_unit,
-                               .clip_width = clip_size(subject.recording, "width"),
-                               .clip_height = clip_size(subject.recording, "height"),
-                               .flame = is_flame(model),
-                               .synthesized_caption = model.inputs.empty() ? "synthesized, at a like moment"
-                                                                           : "synthesized, at a like wind and moment"};
+    const StripContent content{
+        .rows = liveliest_rows(found.captured, subject.recording.rate_hz),
+        .rate_hz = subject.recording.rate_hz,
+        .captured = found.captured,
+        .synthesized = found.played,
+        .pixels_per_unit = found.pixels_per_unit,
+        .clip_width = clip_size(subject.recording, "width"),
+        .clip_height = clip_size(subject.recording, "height"),
+        .flame = is_flame(model),
+        .synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized, in the same wind"};
     if (auto ok = write_film_strip(pictures.film_strip, subject.clip, content); !ok) return ok;
     terminal.say("wrote " + pictures.film_strip);
   }

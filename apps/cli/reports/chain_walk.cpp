@@ -14,7 +14,6 @@ std::vector<Flag> chain_walk_flags() {
       {"steer", Kind::kText, "X,Y,Z@S", "",
        "be near this place (metres from where it starts, z up) after S seconds; a fall takes some 0.75 m of height a "
        "second"},
-      {"near", Kind::kNumber, "M", "0.1", "metres: how near is near enough for --steer"},
   };
 }
 
@@ -47,10 +46,6 @@ Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const A
   if (!chain) return Error{"--steer is for segment chains, which this model is not"};
   auto target = target_from(arguments.text("steer"));
   if (!target) return target.error();
-  target->near = static_cast<float>(arguments.number("near"));
-  if (!(target->near >= 0.001F && target->near <= 1000)) {
-    return Error{"--near is " + arguments.text("near") + ", expected 0.001 to 1000"};
-  }
   if (!chain->drift)
     return Error{"the model can't be steered: it does not say where its segments lead; learn it again"};
   return std::optional(*target);

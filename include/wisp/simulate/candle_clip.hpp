@@ -70,17 +70,16 @@ CandleRigOptions candle_rig_options(CandleGrid grid);
 
 /// The camera. Colours are chosen to look like a photograph of a candle; they are not colorimetry.
 struct VirtualCameraOptions {
-  int width = 320;              ///< pixels, 16 … 4096; even, as video wants it
-  int height = 480;             ///< pixels, 16 … 4096; even
-  double pixels_per_mm = 7.5;   ///< 0.5 … 100; at 7.5 a calm flame is about 260 pixels high
-  double wick_x = 0.35;         ///< where the candle's axis is, as a share of the width from the left, 0 … 1
-  double rim_y = 0.06;          ///< where the candle's upper rim is, as a share of the height from below, 0 … 1
-  double gain = 2.5;            ///< exposure: higher is brighter and whiter, 0.01 … 100
-  double contrast = 1.8;        ///< steepness of the tone curve, 0.5 … 4: higher gives the flame a sharper edge
-  double glow = 0.05;           ///< light scattered in the lens, as a share of the flame's, 0 … 1
-  double noise = 1.2;           ///< standard deviation of the sensor's noise in steps of 255, 0 … 50
-  bool candle_visible = false;  ///< also show wax and wick, dimly lit; the flame is all that learning wants to see
-  std::uint64_t seed = 1;       ///< of the noise
+  int width = 320;             ///< pixels, 16 … 4096; even, as video wants it
+  int height = 480;            ///< pixels, 16 … 4096; even
+  double pixels_per_mm = 7.5;  ///< 0.5 … 100; at 7.5 a calm flame is about 260 pixels high
+  double wick_x = 0.35;        ///< where the candle's axis is, as a share of the width from the left, 0 … 1
+  double rim_y = 0.06;         ///< where the candle's upper rim is, as a share of the height from below, 0 … 1
+  double gain = 2.5;           ///< exposure: higher is brighter and whiter, 0.01 … 100
+  double contrast = 1.8;       ///< steepness of the tone curve, 0.5 … 4: higher gives the flame a sharper edge
+  double glow = 0.05;          ///< light scattered in the lens, as a share of the flame's, 0 … 1
+  double noise = 1.2;          ///< standard deviation of the sensor's noise in steps of 255, 0 … 50
+  std::uint64_t seed = 1;      ///< of the noise
 };
 
 /// The microphone.

@@ -35,24 +35,18 @@ struct Leaf {
 
 /// What the wind does.
 enum class LeafWindKind {
-  kCalm,        ///< nothing
-  kConstant,    ///< one speed, one direction
-  kGusts,       ///< gusts of random strength, length and direction that travel, with rests between them
-  kTurbulence,  ///< a steady wind and eddies of one size that it carries along
+  kCalm,   ///< nothing
+  kGusts,  ///< gusts of random strength, length and direction that travel, with rests between them
 };
 
-/// The wind. Directions are in the horizontal plane, counted from x towards y.
+/// The wind. Gusts blow to any direction of the horizontal plane.
 struct LeafWindOptions {
   LeafWindKind kind = LeafWindKind::kCalm;
-  double speed = 1;            ///< m/s, 0 … 30: of the steady wind, or a typical gust's
-  double direction = 0;        ///< degrees: where the steady wind blows to
-  double spread = 180;         ///< degrees, 0 … 180: gusts blow to `direction` ± this, evenly
+  double speed = 1;            ///< m/s, 0 … 30: of a typical gust
   double gust_seconds = 0.3;   ///< a typical gust's length, 0.02 … 60; each is 0.6 to 1.8 times as long
   double rest_seconds = 1.5;   ///< typical calm between gusts, 0 … 60
   double edge_seconds = 0.06;  ///< in which a gust rises and falls, 0.001 … 10; what begins at once has no derivative
   double travel_speed = 8;     ///< m/s, 0.1 … 1000: how fast a gust's front comes along
-  double turbulence = 0.3;     ///< m/s, 0 … 30: standard deviation of each component of the eddies' velocity
-  double eddy_metres = 0.5;    ///< length of a typical eddy, 0.01 … 1000
   std::uint64_t seed = 1;
 };
 
@@ -64,26 +58,12 @@ struct MeasuredWind {
   double begins = 0;                        ///< seconds: when the first row is
 };
 
-/// How the equations are integrated.
-enum class LeafMethod {
-  kClassical,  ///< four evaluations a step, fourth order: the cheapest whose statistics agree at 1/60 s a step (a third
-               ///< order has 0.7 % fewer stalls there, a second one falls 4 % too fast)
-  kStiff,      ///< backward differentiation of variable order and step, with an error bound, by SUNDIALS' CVODE
-};
-
-struct LeafStepping {
-  LeafMethod method = LeafMethod::kClassical;  ///< in wind above 2.5 m/s always kStiff: fixed steps overshoot there
-  double longest_step = 1.0 / 60;  ///< seconds, 1e-6 … 0.05: of the fixed steps; the fastest decay is about 100/s
-  double tolerance = 1e-8;         ///< relative, 1e-12 … 1e-3: of the stiff method
-};
-
 /// Falls of one leaf from random attitudes, velocities and spins. One leaf, since segments of different leaves must not
 /// be joined.
 struct LeafDropsOptions {
   Leaf leaf{};
-  LeafWindOptions wind{};  ///< each drop has gusts and eddies of its own
-  MeasuredWind track{};    ///< where it has rows, this is the wind of every drop, from where the recording begins
-  LeafStepping stepping{};
+  LeafWindOptions wind{};     ///< each drop has gusts of its own
+  MeasuredWind track{};       ///< where it has rows, this is the wind of every drop, from where the recording begins
   int drops = 200;            ///< episodes, 1 … 100000
   double seconds = 20;        ///< recorded of each, 0.1 … 3600
   double settle_seconds = 2;  ///< before that, 0 … 60: until the fall has forgotten how it began
@@ -96,7 +76,7 @@ struct LeafDropsOptions {
 /// Falls them all.
 /// Returns one episode a drop: outputs `pos.x pos.y pos.z` [m], counted from the episode's first row, and `q.w … q.z`,
 /// unit quaternions, leaf to world, whose sign never jumps; inputs `wind.x wind.y wind.z` [m/s] where the leaf is.
-/// Errors: an option outside its range, more than 2^31 rows, or an integrator that gives up (the drop is named).
+/// Errors: an option outside its range, more than 2^31 rows, or a state that is no longer finite (the drop is named).
 Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options);
 
 /// Gusts that hit a leaf in many states, each many times over. Falls are chaotic, and only the mean over clones that

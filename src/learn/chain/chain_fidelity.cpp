@@ -34,12 +34,11 @@ void add_jump(const MotionPiece& piece, std::size_t row, Jumps& jumps) {
   if (!piece.orientation.empty()) jumps.rotation.push_back(jump_of<4>(piece.orientation, row));
 }
 
-JoinJumps compared(const std::vector<double>& joins, const std::vector<double>& all) {
-  if (joins.empty() || all.empty()) return {};
+double share_above(const std::vector<double>& joins, const std::vector<double>& all) {
+  if (joins.empty() || all.empty()) return 0;
   const double usual = quantile(all, kPercentile);
   const auto above = std::count_if(joins.begin(), joins.end(), [&](double jump) { return jump > usual; });
-  return {quantile(joins, kPercentile) / usual, quantile(joins, 0.5) / usual,
-          static_cast<double>(above) / static_cast<double>(joins.size())};
+  return static_cast<double>(above) / static_cast<double>(joins.size());
 }
 
 // Jumps at the join show in its row and in the one after.
@@ -53,6 +52,20 @@ Jumps jumps_at(const Motion& motion, std::span<const std::vector<std::size_t>> r
     }
   }
   return jumps;
+}
+
+// `joins`: rows of each piece of `made` at which a segment was joined.
+JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, const Motion& made,
+                       std::span<const std::vector<std::size_t>> joins) {
+  Jumps all;
+  for (const MotionPiece& piece : real.pieces) {
+    for (std::size_t row = 2; row < piece.rows(); ++row) add_jump(piece, row, all);
+  }
+  std::vector<std::vector<std::size_t>> events(real.pieces.size());
+  for (const Segment& one : segments) events[one.piece].push_back(static_cast<std::size_t>(std::lround(one.begin)));
+  const Jumps joined = jumps_at(made, joins), natural = jumps_at(real, events);
+  return {share_above(joined.position, all.position), share_above(joined.rotation, all.rotation),
+          share_above(natural.position, all.position), share_above(natural.rotation, all.rotation)};
 }
 
 constexpr std::size_t kTiltColumn = 3;  // of poses
@@ -161,19 +174,6 @@ Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, s
 }
 
 }  // namespace
-
-JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, const Motion& made,
-                       std::span<const std::vector<std::size_t>> joins) {
-  Jumps all;
-  for (const MotionPiece& piece : real.pieces) {
-    for (std::size_t row = 2; row < piece.rows(); ++row) add_jump(piece, row, all);
-  }
-  std::vector<std::vector<std::size_t>> events(real.pieces.size());
-  for (const Segment& one : segments) events[one.piece].push_back(static_cast<std::size_t>(std::lround(one.begin)));
-  const Jumps joined = jumps_at(made, joins), natural = jumps_at(real, events);
-  return {compared(joined.position, all.position), compared(joined.rotation, all.rotation),
-          compared(natural.position, all.position), compared(natural.rotation, all.rotation)};
-}
 
 std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments) {
   std::vector<Stretch> series(motion.pieces.size());

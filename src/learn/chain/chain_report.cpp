@@ -40,16 +40,11 @@ void add_falls(const std::string& which, const FallFigures& falls, const std::st
   entries.add(id + "flips_per_second", falls.flips_per_second, has_orientation ? label + "flips" : "", "1/s");
 }
 
-void add_jumps(const std::string& id, const std::string& what, const JoinJumps& jumps, const JoinJumps& floor,
-               Entries& entries) {
+void add_jumps(const std::string& id, const std::string& what, double share, double floor, Entries& entries) {
   const std::string label = what.empty() ? "" : "joins that jump in " + what;
-  entries.add(id + ".percentile_99", jumps.percentile_99, "");
-  entries.add(id + ".median", jumps.median, "");
-  entries.add(id + ".share_above", jumps.share_above, label, "",
+  entries.add(id + ".share_above", share, label, "",
               "share above the recording's 99th percentile; 0.01 where joins are like any row");
-  entries.add(id + ".floor.percentile_99", floor.percentile_99, "");
-  entries.add(id + ".floor.median", floor.median, "");
-  entries.add(id + ".floor.share_above", floor.share_above, label.empty() ? "" : "  the recording's own events", "",
+  entries.add(id + ".floor.share_above", floor, label.empty() ? "" : "  the recording's own events", "",
               "which nobody joined");
 }
 

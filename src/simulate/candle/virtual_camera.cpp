@@ -29,10 +29,6 @@ constexpr double kBlueGoneMm = 16;   // a planar flow has more of it than a came
 constexpr double kGlowReachMm = 2.5;
 constexpr float kDark = 2e-4F;  // light that no channel can show
 
-constexpr double kWaxWidthMm = 12;
-constexpr double kWickWidthMm = 0.9;
-constexpr double kWickHeightMm = 6;
-
 Result<void> check(const VirtualCameraOptions& o) {
   const auto ranges = flow::check_ranges("virtual camera", {
                                                                {"width", double(o.width), 16, 4096},
@@ -85,7 +81,6 @@ struct VirtualCamera::Parts {
   void set_places(const FlameLight& light);
   void scatter(const FlameLight& light);
   void expose_row(const FlameLight& light, int row);
-  void expose_body(int row, float shine);
   std::int16_t tone(float exposure) const {
     return tones[static_cast<int>(std::min(exposure, kBrightest) * ((kTones - 1) / kBrightest))];
   }
@@ -162,21 +157,6 @@ void VirtualCamera::Parts::expose_row(const FlameLight& light, int row) {
   }
 }
 
-// Wax below the rim, lit from above, and the dark line of the wick.
-void VirtualCamera::Parts::expose_body(int row, float shine) {
-  const double height_mm = (view.origin_y - row) / view.pixels_per_mm;
-  for (int x = 0; x < options.width; ++x) {
-    const double side_mm = std::abs((x - view.origin_x) / view.pixels_per_mm);
-    if (height_mm < 0 && side_mm < kWaxWidthMm / 2) {
-      const double round = std::sqrt(1 - std::pow(2 * side_mm / kWaxWidthMm, 2));
-      const auto exposure = static_cast<float>(0.3 * (0.35 + 0.65 * round) * std::exp(height_mm / 6)) * shine;
-      for (int c = 0; c < 3; ++c) line[3 * x + c] = std::max(line[3 * x + c], tone(exposure * kSootColour[c]));
-    } else if (height_mm < kWickHeightMm && side_mm < kWickWidthMm / 2) {
-      for (int c = 0; c < 3; ++c) line[3 * x + c] = static_cast<std::int16_t>(line[3 * x + c] / 6);
-    }
-  }
-}
-
 VirtualCamera::VirtualCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 VirtualCamera::VirtualCamera(VirtualCamera&&) noexcept = default;
 VirtualCamera& VirtualCamera::operator=(VirtualCamera&&) noexcept = default;
@@ -191,14 +171,9 @@ std::span<const std::uint8_t> VirtualCamera::picture(const FlameLight& light, st
   Parts& p = *parts_;
   p.set_places(light);
   p.scatter(light);
-  double sum = 0;
-  for (const float value : light.soot) sum += static_cast<double>(value);
-  const double area_mm2 = sum * light.cell_mm * light.cell_mm;
-  const auto shine = static_cast<float>(std::min(1.0, area_mm2 / 100));
   const int values = 3 * p.options.width;
   for (int row = 0; row < p.options.height; ++row) {
     p.expose_row(light, row);
-    if (p.options.candle_visible) p.expose_body(row, shine);
     const std::uint64_t start = flow::random_word(p.options.seed, frame, row) % (kNoiseValues - values);
     const std::int16_t* noise = p.noise.data() + start;
     std::uint8_t* out = p.picture.data() + static_cast<std::size_t>(row) * values;

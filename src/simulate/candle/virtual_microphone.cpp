@@ -157,7 +157,6 @@ struct VirtualMicrophone::Parts {
   flow::RandomNumbers wind_noise, hiss_noise;
   flow::LowPass rumble;
   OtherSounds others;
-  bool other = false;
 };
 
 VirtualMicrophone::VirtualMicrophone(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -173,17 +172,13 @@ Result<VirtualMicrophone> VirtualMicrophone::create(const VirtualMicrophoneOptio
 void VirtualMicrophone::hear(std::span<const float> wind, std::span<float> sound) {
   Parts& p = *parts_;
   const VirtualMicrophoneOptions& o = p.options;
-  p.other = false;
   for (std::size_t k = 0; k < sound.size(); ++k) {
     const double speed = std::abs(static_cast<double>(wind[k]));
     const double loudness = o.level * (o.exponent == 2 ? speed * speed : std::pow(speed, o.exponent));
     double value = loudness * p.rumble.next(p.wind_noise.normal()) + o.hiss * p.hiss_noise.normal();
     value += o.other_level * p.others.next();
-    p.other = p.other || p.others.sounding();
     sound[k] = static_cast<float>(std::clamp(value, -1.0, 1.0));
   }
 }
-
-bool VirtualMicrophone::other_sound() const { return parts_->other; }
 
 }  // namespace wisp

@@ -30,9 +30,6 @@ class VirtualMicrophone {
   /// Precondition: wind.size() == sound.size().
   void hear(std::span<const float> wind, std::span<float> sound);
 
-  /// Whether a voice or a knock sounded in the last block.
-  bool other_sound() const;
-
  private:
   struct Parts;
   explicit VirtualMicrophone(std::unique_ptr<Parts> parts);

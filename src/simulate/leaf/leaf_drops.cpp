@@ -143,7 +143,7 @@ Result<void> record(LeafFlight& flight, const LeafWind& wind, const LeafDropsOpt
 // Settles from a random start until the recording begins.
 Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std::uint64_t drop) {
   RandomNumbers random(o.seed, (kStart << 32) + drop);
-  auto flight = LeafFlight::begin(o.leaf, wind, random_start(random), o.stepping);
+  auto flight = LeafFlight::begin(o.leaf, wind, random_start(random));
   if (!flight || o.settle_seconds == 0) return flight;
   if (auto good = flight->advance(o.settle_seconds); !good) return good.error();
   return flight;
@@ -227,7 +227,7 @@ Result<void> fall_in_pairs(const LeafPairsOptions& o, std::size_t index, LeafPai
     const LeafState own = a_little_different(start, o.difference, {d.seed, (kDifference << 32) + episode});
     for (const bool blows : {false, true}) {
       const LeafWind& wind = blows ? windy : calm;
-      auto flight = LeafFlight::begin(d.leaf, wind, own, d.stepping);
+      auto flight = LeafFlight::begin(d.leaf, wind, own);
       if (!flight) return flight.error();
       auto good = record(*flight, wind, d, {blows ? pairs.windy : pairs.calm, episode, rows_of(d)});
       if (!good) return good;

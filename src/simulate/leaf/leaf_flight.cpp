@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "simulate/leaf/leaf_constants.hpp"
 #include "simulate/leaf/leaf_stepper.hpp"
-#include "simulate/leaf/leaf_stiff.hpp"
 #include "simulate/option_range.hpp"
 
 namespace wisp {
 namespace {
 
-// In wind above it, m/s, fixed steps of 1/60 s overshoot: drag decays at a rate that grows with the speed of the air,
-// and the velocity in the body's axes turns with its spin.
-constexpr double kFastestForFixedSteps = 2.5;
+// In wind above it, m/s, steps shrink as the wind grows: drag decays at a rate that is proportional to the speed of the
+// air. At 2.5 m/s steps of 1/60 s are no longer stable.
+constexpr double kFastestForWholeSteps = 1.6;
 
 bool finite(const LeafState& s) {
   double sum = 0;
@@ -31,16 +29,13 @@ double squared_length(const std::array<double, 4>& q) { return q[0] * q[0] + q[1
 struct LeafFlight::Course {
   leaf::Constants<double> constants;
   const LeafWind* wind = nullptr;
-  LeafStepping stepping;
+  double longest_step = 0;
   leaf::State<double> inside;
   LeafState state;
   double seconds = 0;
   std::vector<double> stalls;
-  std::int64_t evaluations = 0;
-  std::optional<leaf::StiffIntegrator> stiff;
 
-  leaf::State<double> rate(const leaf::State<double>& s, double at) {
-    ++evaluations;
+  leaf::State<double> rate(const leaf::State<double>& s, double at) const {
     if (wind->calm()) return leaf::rate_of(constants, s, {});
     const leaf::Vec<double> moving = leaf::rotation_of(s.attitude)(s.velocity);
     const WindSample sample = wind->at(leaf::array_of(s.position), leaf::array_of(moving), at);
@@ -57,17 +52,9 @@ struct LeafFlight::Course {
   }
 
   Result<void> advance(double by) {
-    if (stiff) {
-      auto moved = stiff->advance_to(seconds + by, stalls);
-      if (!moved) return moved.error();
-      inside = *moved;
-      seconds += by;
-      evaluations = stiff->evaluations();
-    } else {
-      // A tolerance for rounding, which would add a step.
-      const double steps = std::max(1.0, std::ceil(by / stepping.longest_step - 1e-9));
-      for (int k = 0; k < static_cast<int>(steps); ++k) step(by / steps);
-    }
+    // A tolerance for rounding, which would add a step.
+    const double steps = std::max(1.0, std::ceil(by / longest_step - 1e-9));
+    for (int k = 0; k < static_cast<int>(steps); ++k) step(by / steps);
     state = leaf::plain(inside);
     if (!finite(state)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds) + " s"};
     return {};
@@ -80,26 +67,19 @@ LeafFlight& LeafFlight::operator=(LeafFlight&&) noexcept = default;
 LeafFlight::~LeafFlight() = default;
 
 Result<LeafFlight> LeafFlight::begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
-                                     const LeafStepping& stepping, double seconds) {
+                                     double longest_step) {
   if (auto good = check(leaf); !good) return good.error();
-  auto in_range = flow::check_ranges("leaf stepping", {{"longest_step", stepping.longest_step, 1e-6, 0.05},
-                                                       {"tolerance", stepping.tolerance, 1e-12, 1e-3}});
+  auto in_range = flow::check_ranges("leaf", {{"longest_step", longest_step, 1e-6, 0.05}});
   if (!in_range) return in_range.error();
   if (!finite(state) || !(squared_length(state.attitude) > 0))
     return Error{"leaf: the state to begin with is not finite or its attitude has no length"};
   auto course = std::make_unique<Course>();
   course->constants = leaf::constants_of(leaf);
   course->wind = &wind;
-  course->stepping = stepping;
-  course->seconds = seconds;
+  course->longest_step = longest_step * std::min(1.0, kFastestForWholeSteps / wind.fastest());
   course->state = state;
   course->state.attitude = leaf::normalised(state.attitude);
   course->inside = leaf::state_of(course->state);
-  if (stepping.method == LeafMethod::kStiff || wind.fastest() > kFastestForFixedSteps) {
-    auto stiff = leaf::StiffIntegrator::begin(course->constants, wind, course->inside, seconds, stepping.tolerance);
-    if (!stiff) return stiff.error();
-    course->stiff.emplace(std::move(*stiff));
-  }
   return LeafFlight(std::move(course));
 }
 
@@ -107,6 +87,5 @@ Result<void> LeafFlight::advance(double seconds) { return course_->advance(secon
 const LeafState& LeafFlight::state() const { return course_->state; }
 double LeafFlight::seconds() const { return course_->seconds; }
 const std::vector<double>& LeafFlight::stalls() const { return course_->stalls; }
-std::int64_t LeafFlight::evaluations() const { return course_->evaluations; }
 
 }  // namespace wisp

@@ -1,6 +1,3 @@
-// Turbulence is a sum of random Fourier modes without divergence that also change in time, as in R. Kraichnan,
-// Diffusion by a random velocity field, Phys. Fluids 13 (1970): smooth everywhere, with derivatives in closed form.
-
 #include "simulate/leaf/leaf_wind.hpp"
 
 #include <algorithm>
@@ -17,8 +14,6 @@ namespace {
 using leaf::array_of;
 using leaf::vec_of;
 using Vec = leaf::Vec<double>;
-
-constexpr int kEddies = 24;
 
 // Height of a gust and its slope: 0 outside, 1 between the edges, smooth steps at both.
 struct Bump {
@@ -37,12 +32,6 @@ Bump bump_at(const Gust& gust, double since) {
 Vec towards(double degrees) {
   const double radians = degrees * std::numbers::pi / 180;
   return {std::cos(radians), std::sin(radians), 0};
-}
-
-Vec random_direction(flow::RandomNumbers& random) {
-  const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi);
-  const double across = std::sqrt(1 - z * z);
-  return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
 // Catmull and Rom's cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
@@ -77,14 +66,10 @@ WindSample sample_of(const MeasuredWind& track, double seconds) {
 Result<void> check(const LeafWindOptions& o) {
   return flow::check_ranges("wind", {
                                         {"speed", o.speed, 0, 30},
-                                        {"direction", o.direction, -360, 360},
-                                        {"spread", o.spread, 0, 180},
                                         {"gust_seconds", o.gust_seconds, 0.02, 60},
                                         {"rest_seconds", o.rest_seconds, 0, 60},
                                         {"edge_seconds", o.edge_seconds, 0.001, 10},
                                         {"travel_speed", o.travel_speed, 0.1, 1000},
-                                        {"turbulence", o.turbulence, 0, 30},
-                                        {"eddy_metres", o.eddy_metres, 0.01, 1000},
                                     });
 }
 
@@ -93,12 +78,7 @@ Result<void> check(const LeafWindOptions& o) {
 Result<LeafWind> LeafWind::create(const LeafWindOptions& options, double seconds) {
   if (auto good = check(options); !good) return good.error();
   LeafWind wind;
-  if (options.kind == LeafWindKind::kConstant || options.kind == LeafWindKind::kTurbulence) {
-    wind.steady_ = true;
-    wind.mean_ = array_of(options.speed * towards(options.direction));
-  }
   if (options.kind == LeafWindKind::kGusts) wind.add_gusts(options, seconds);
-  if (options.kind == LeafWindKind::kTurbulence) wind.add_eddies(options);
   return wind;
 }
 
@@ -117,7 +97,7 @@ LeafWind LeafWind::of_track(MeasuredWind track) {
 void LeafWind::add_gusts(const LeafWindOptions& o, double seconds) {
   flow::RandomNumbers random(o.seed, 21);
   for (double at = random.uniform(0, o.rest_seconds); at < seconds;) {
-    const Vec way = towards(o.direction + random.uniform(-o.spread, o.spread));
+    const Vec way = towards(random.uniform(-180, 180));
     Gust gust;
     gust.start = at;
     gust.seconds = o.gust_seconds * random.uniform(0.6, 1.8);
@@ -129,44 +109,22 @@ void LeafWind::add_gusts(const LeafWindOptions& o, double seconds) {
   }
 }
 
-void LeafWind::add_eddies(const LeafWindOptions& o) {
-  flow::RandomNumbers random(o.seed, 22);
-  // Each component's variance is a third of the sum of squared amplitudes halved; a direction at right angles to the
-  // wave leaves all of it.
-  const double amplitude = o.turbulence * std::sqrt(6.0 / kEddies);
-  for (int k = 0; k < kEddies; ++k) {
-    const Vec wave = 2 * std::numbers::pi / (o.eddy_metres * random.uniform(0.5, 2)) * random_direction(random);
-    Vec across = leaf::cross(wave, random_direction(random));
-    across = amplitude / std::sqrt(leaf::dot(across, across)) * across;
-    // Advected by the steady wind, with its own turnover time of about its length over its speed.
-    const double turnover = o.turbulence * std::sqrt(leaf::dot(wave, wave)) * random.normal();
-    eddies_.push_back({array_of(across), array_of(wave), turnover - leaf::dot(wave, vec_of(mean_)),
-                       random.uniform(0, 2 * std::numbers::pi)});
-  }
-}
-
 double LeafWind::fastest() const {
   const auto speed = [](const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); };
   double most = 0;
   for (const Gust& gust : gusts_) most = std::max(most, speed(gust.velocity));
   for (const auto& row : track_.rows) most = std::max(most, speed(row));
-  return most + speed(mean_);
+  return most;
 }
 
 WindSample LeafWind::at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const {
-  Vec velocity = vec_of(mean_), change{};
+  Vec velocity{}, change{};
   const Vec x = vec_of(place), v = vec_of(moving);
   for (const Gust& gust : gusts_) {
     const Vec slowness = vec_of(gust.slowness);
     const Bump bump = bump_at(gust, seconds - gust.start - leaf::dot(slowness, x));
     velocity = velocity + bump.height * vec_of(gust.velocity);
     change = change + bump.slope * (1 - leaf::dot(slowness, v)) * vec_of(gust.velocity);
-  }
-  for (const Eddy& eddy : eddies_) {
-    const Vec wave = vec_of(eddy.wave);
-    const double phase = leaf::dot(wave, x) + eddy.pulsation * seconds + eddy.phase;
-    velocity = velocity + std::cos(phase) * vec_of(eddy.amplitude);
-    change = change - std::sin(phase) * (eddy.pulsation + leaf::dot(wave, v)) * vec_of(eddy.amplitude);
   }
   if (!track_.rows.empty()) {
     const WindSample measured = sample_of(track_, seconds);

@@ -49,27 +49,17 @@ class LeafWind {
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
 
   /// Whether there is no wind at any place and time.
-  bool calm() const { return !steady_ && gusts_.empty() && eddies_.empty() && track_.rows.empty(); }
+  bool calm() const { return gusts_.empty() && track_.rows.empty(); }
 
-  /// The greatest speed of steady wind, gusts and measured rows, m/s, without eddies.
+  /// The greatest speed of gusts and measured rows, m/s.
   double fastest() const;
 
   const std::vector<Gust>& gusts() const { return gusts_; }
 
  private:
-  struct Eddy {
-    std::array<double, 3> amplitude;  // m/s, at right angles to the wave, so that no air comes from nowhere
-    std::array<double, 3> wave;       // rad/m
-    double pulsation;                 // rad/s
-    double phase;
-  };
   void add_gusts(const LeafWindOptions& options, double seconds);
-  void add_eddies(const LeafWindOptions& options);
 
-  bool steady_ = false;
-  std::array<double, 3> mean_{};
   std::vector<Gust> gusts_;  // by their start
-  std::vector<Eddy> eddies_;
   MeasuredWind track_;
 };
 

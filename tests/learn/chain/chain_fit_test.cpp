@@ -88,8 +88,8 @@ TEST(FitChain, JoinsJumpNoMoreThanRowsOfTheRecordingDo) {
   ASSERT_TRUE(fit);
   const auto fidelity = chain_fidelity(fit->model, fit->held_out, {});
   ASSERT_TRUE(fidelity);
-  EXPECT_LE(fidelity->join_defect.position.percentile_99, 1);
-  EXPECT_LE(fidelity->join_defect.rotation.percentile_99, 1);
+  EXPECT_LE(fidelity->join_defect.position, 0.01);
+  EXPECT_LE(fidelity->join_defect.rotation, 0.01);
 }
 
 // How far 400 falls are, on average, from a height of 5.8 m below where they began after six seconds: made falls keep

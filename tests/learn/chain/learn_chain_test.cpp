@@ -211,7 +211,7 @@ TEST(ValidateChain, SeriesAreTracksOfBothSides) {
   ASSERT_TRUE(fit);
   const auto report = validate_chain(fit->model, std::span(&recording, 1), 1);
   ASSERT_TRUE(report) << report.error().message;
-  EXPECT_TRUE(report->find("join_defect.position.floor.median"));
+  EXPECT_TRUE(report->find("join_defect.position.floor.share_above"));
   for (const char* id :
        {"falls-side.recorded", "falls-side.synthesized", "falls-above.recorded", "segments.recorded.track",
         "segments.recorded.events", "segments.synthesized.mode_2", "segments.synthesized.events"}) {

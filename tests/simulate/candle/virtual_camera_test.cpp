@@ -94,13 +94,6 @@ TEST(VirtualCamera, ThePictureOfAFrameIsAlwaysTheSame) {
   EXPECT_TRUE(std::equal(first.begin(), first.end(), second.begin()));
 }
 
-TEST(VirtualCamera, ShowsWaxAndWickOnlyWhenAsked) {
-  VirtualCamera plain = std::move(*VirtualCamera::create({.noise = 0}));
-  VirtualCamera showing = std::move(*VirtualCamera::create({.noise = 0, .candle_visible = true}));
-  EXPECT_LT(pixel(plain, plain.picture(lamp(1.5F), 0), 2, -1).red, 5);
-  EXPECT_GT(pixel(showing, showing.picture(lamp(1.5F), 0), 2, -1).red, 15);
-}
-
 TEST(VirtualCamera, SaysWhichOptionIsWrong) {
   EXPECT_THAT(VirtualCamera::create({.width = 321}).error().message, HasSubstr("even"));
   EXPECT_THAT(VirtualCamera::create({.gain = -1}).error().message, HasSubstr("gain"));

@@ -69,7 +69,7 @@ TEST(LeafDrops, HaveUnitQuaternionsWhoseSignNeverJumps) {
 
 TEST(LeafDrops, AreTheSameOnAnyNumberOfThreads) {
   LeafDropsOptions options = few_drops();
-  options.wind.kind = LeafWindKind::kTurbulence;
+  options.wind.kind = LeafWindKind::kGusts;
   options.threads = 1;
   const auto alone = simulate_leaf_drops(options);
   options.threads = 3;
@@ -90,9 +90,7 @@ TEST(LeafDrops, DifferByDropAndBySeed) {
 
 TEST(LeafDrops, RecordTheWindWhereTheLeafIs) {
   LeafDropsOptions options = few_drops();
-  options.wind.kind = LeafWindKind::kConstant;
-  options.wind.speed = 2;
-  options.wind.direction = 90;
+  options.track.rows = {{0, 2, 0}};
   const auto recording = simulate_leaf_drops(options);
   ASSERT_TRUE(recording);
   for (const double wind : samples(*recording, "wind.y")) ASSERT_NEAR(wind, 2, 1e-12);

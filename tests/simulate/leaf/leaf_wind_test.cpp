@@ -26,17 +26,6 @@ TEST(LeafWind, ThatIsCalmIsNothingAnywhere) {
   EXPECT_EQ(wind.at({1, 2, 3}, {1, 0, 0}, 5).velocity, (Triple{0, 0, 0}));
 }
 
-TEST(LeafWind, ThatIsSteadyBlowsWhereItIsTold) {
-  LeafWindOptions options;
-  options.kind = LeafWindKind::kConstant;
-  options.speed = 2;
-  options.direction = 90;
-  const WindSample sample = LeafWind::create(options, 1)->at({}, {}, 7);
-  EXPECT_NEAR(sample.velocity[1], 2, 1e-12);
-  EXPECT_NEAR(sample.velocity[0], 0, 1e-12);
-  EXPECT_EQ(sample.change, (Triple{0, 0, 0}));
-}
-
 // What a leaf that moves on a straight line feels, against differences of the wind along that line.
 double worst_slope_error(const LeafWind& wind) {
   const Triple moving{0.7, -0.4, -0.8};
@@ -71,7 +60,6 @@ TEST(LeafWind, KnowsHowItChangesAlongTheLeafsWay) {
   for (int k = 0; k < 1000; ++k) rows.push_back({std::sin(0.3 * k), std::cos(0.2 * k), 0.1 * (k % 7)});
   // The slope of a cubic's slope jumps by about 1e3 m/s³ at a row, which shows as 1e-3 in the step that meets it.
   EXPECT_LT(worst_slope_error(LeafWind::of_track({.rows = rows, .rate_hz = 30, .begins = 0.01})), 1e-2);
-  EXPECT_LT(worst_slope_error(made(LeafWindKind::kTurbulence)), 1e-6);
   EXPECT_LT(worst_slope_error(made(LeafWindKind::kGusts)), 1e-2);
 }
 
@@ -92,27 +80,6 @@ TEST(LeafWind, HasRestsBetweenGusts) {
   for (int k = 0; k < 60000; ++k) still += wind.at({}, {}, 0.01 * k).velocity == Triple{0, 0, 0};
   // Gusts of 0.36 s and rests of 1.5 s on average.
   EXPECT_NEAR(still / 60000.0, 1.5 / 1.86, 0.05);
-}
-
-TEST(LeafWind, HasEddiesOfTheGivenStrengthWithoutSources) {
-  const LeafWind wind = made(LeafWindKind::kTurbulence);
-  double square = 0, divergence = 0;
-  int count = 0;
-  const double h = 1e-5;
-  for (int k = 0; k < 20000; ++k, ++count) {
-    const Triple place{0.37 * k, -0.21 * k, 0.11 * k};
-    const Triple velocity = wind.at(place, {}, 0).velocity;
-    square += (velocity[0] - 1) * (velocity[0] - 1) + velocity[1] * velocity[1] + velocity[2] * velocity[2];
-    double here = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      Triple before = place, after = place;
-      before[i] -= h, after[i] += h;
-      here += (wind.at(after, {}, 0).velocity[i] - wind.at(before, {}, 0).velocity[i]) / (2 * h);
-    }
-    divergence = std::max(divergence, std::abs(here));
-  }
-  EXPECT_NEAR(std::sqrt(square / 3 / count), 0.3, 0.02);
-  EXPECT_LT(divergence, 1e-5);
 }
 
 TEST(LeafWind, ThatCannotBlowIsExplained) {
