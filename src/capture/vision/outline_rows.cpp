@@ -54,8 +54,8 @@ double usual_brightness_of(const FrameFindings& findings) {
   return median(std::move(brightness));
 }
 
-// How many rows show each frame of a slower film, at most four, and the first row of such a group: then the picture
-// changes most at a group's first row, and inside it only its grain is new.
+// How many rows show each frame of a slower film or of slow motion, at most eight, and the first row of such a group:
+// then the picture changes most at a group's first row, and inside it only its grain is new.
 struct Stands {
   std::size_t times = 1;
   std::size_t first = 0;
@@ -64,7 +64,7 @@ struct Stands {
 Stands find_stands(const FrameFindings& findings) {
   constexpr double kMinGroups = 20, kOfGroups = 0.6,
                    kErrors = 4;  // by chance one in `times` is such, four errors more never
-  for (Stands found{.times = 4}; found.times > 1; --found.times) {
+  for (Stands found{.times = 8}; found.times > 1; --found.times) {
     for (found.first = 0; found.first < found.times; ++found.first) {
       double groups = 0, such = 0;
       for (std::size_t row = found.first; row + found.times <= findings.size(); row += found.times) {
@@ -124,14 +124,17 @@ void extend_fades(std::vector<Fate>& fate) {
   }
 }
 
-// How many frames in a row may be filled: a screen shows a picture up to four times, and what happened in lost frames
-// is not known.
-std::size_t max_filled(Fate fate) { return fate == Fate::kDuplicate ? 3 : fate == Fate::kLost ? 1 : 0; }
+// How many frames in a row may be filled: a screen shows a picture up to four times, slow motion each as often, and what
+// happened in lost frames is not known.
+std::size_t max_filled(Fate fate, const Stands& stands) {
+  if (fate == Fate::kDuplicate) return std::max<std::size_t>(3, stands.times - 1);
+  return fate == Fate::kLost ? 1 : 0;
+}
 
 // Fills short gaps between outlines that are a frame's own, in a straight line from one to the other.
-void fill_gaps(std::vector<Fate>& fate, std::vector<double>& controls, std::size_t width) {
+void fill_gaps(std::vector<Fate>& fate, const Stands& stands, std::vector<double>& controls, std::size_t width) {
   for (std::size_t begin = 1; begin + 1 < fate.size(); ++begin) {
-    const std::size_t most = max_filled(fate[begin]);
+    const std::size_t most = max_filled(fate[begin], stands);
     if (most == 0 || fate[begin - 1] != Fate::kKept) continue;
     std::size_t end = begin;
     while (end < fate.size() && fate[end] == fate[begin]) ++end;
@@ -248,7 +251,8 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   extend_fades(fate);
   leave_out_glints(fate);
   std::vector<double> controls = findings.controls;
-  fill_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
+  fill_gaps(fate, stands, controls, 2 * static_cast<std::size_t>(points));
+  report.facts.frozen = times(Fate::kDuplicate);
   count(fate, findings, report);
   find_other_scenes(fate, findings, report.facts);
   report.facts.fades_out = fades_out(fate, findings, usual_brightness, report.rate_hz);

@@ -63,10 +63,10 @@ constexpr std::array<FactRow, 21> kFacts{{
 }};
 static_assert(kVerdictCurves.size() == kFacts.size());
 
-// Of the rows in which the flame burns and that have a frame, those without an outline.
+// Of the rows in which the flame burns and that have a frame of their own, those without an outline.
 double missing_share(R r) {
   const double lost = r.facts.lost * static_cast<double>(r.frames);
-  const double absent = static_cast<double>(r.facts.absent - r.facts.blown) - lost;
+  const double absent = static_cast<double>(r.facts.absent - r.facts.blown - r.facts.frozen) - lost;
   return std::max(0.0, absent) / static_cast<double>(std::max<std::size_t>(r.facts.rows - r.facts.blown, 1));
 }
 
@@ -122,7 +122,7 @@ std::string sentence_of(std::size_t fact, R r) {
       {"{%}", percent(value)},
       {"{side}", kSide[static_cast<std::size_t>(side)]},
       {"{still}", still_share(r) > 0.3 ? " in " + percent(still_share(r)) + " of the frames" : " beyond its noise"},
-      {"{stands}", f.stands < 2 ? "" : " (every frame stands " + std::to_string(f.stands) + " times: or it is slow)"},
+      {"{stands}", f.stands < 2 ? "" : " (every frame stands " + std::to_string(f.stands) + " times, as in slow motion)"},
       {"{frames}", std::to_string(f.seen_from + 1) + " to " + std::to_string(f.seen_from + f.rows)},
       {"{clipped}", percent(f.clipped)},
   }};

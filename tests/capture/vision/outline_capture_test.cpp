@@ -125,6 +125,25 @@ TEST(OutlineCapture, FourDuplicatesInARowEndTheEpisode) {
   EXPECT_EQ(episodes(captured->recording).size(), 2u);
 }
 
+// Nothing is missing in slow motion, whether its repeats are exact or each has a little grain of its own.
+TEST(OutlineCapture, SlowMotionIsNamedAndNothingIsMissing) {
+  for (const int times : {2, 3, 6}) {
+    for (const bool grain : {false, true}) {
+      const auto captured = capture(times * 60, [&](int k) {
+        Plane plane = noisy_flame(k / times);
+        if (grain) add_noise(plane, static_cast<unsigned>(1000 + k));
+        return plane;
+      });
+      ASSERT_TRUE(captured);
+      const CaptureReport& report = captured->report;
+      EXPECT_EQ(report.facts.stands, times) << grain;
+      EXPECT_FALSE(report.usable);
+      EXPECT_THAT(report.reason, HasSubstr("every frame stands " + std::to_string(times) + " times")) << grain;
+      EXPECT_EQ(report.filled + report.tracked, report.facts.rows) << times << ' ' << grain;
+    }
+  }
+}
+
 TEST(OutlineCapture, LostFramesLeaveRowsOfTheirOwn) {
   OutlineCapture capturing(options_for());
   for (int k = 0; k < 60; ++k) {
