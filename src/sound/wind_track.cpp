@@ -23,10 +23,15 @@ constexpr float kQuietSeconds = 0.25F;      // a stretch without wind lasts at l
 constexpr float kSilentDb = -80;            // loudness of a track on which nothing is heard
 constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
 constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
-constexpr float kStrong = 1.5F;             // of wind 1
-constexpr float kFarTooStrong = 6;          // of wind 1: what is that strong lasts
 constexpr double kShortestPuff = 0.1;       // seconds above half of its strongest
-constexpr double kLongestKnock = 0.3;       // seconds until no more than strong wind is heard of it
+
+// A knock rises above `wind` for at most so many seconds, and to at least `peak`: what is far too strong for wind
+// lasts in a room.
+struct Knock {
+  float wind, peak;
+  double seconds;
+};
+constexpr Knock kKnocks[] = {{1.5F, 6, 0.3}, {0.15F, 0, 0.1}};
 
 float percentile(std::vector<float> values, float share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
@@ -144,11 +149,11 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   return frames;
 }
 
-/// A knock on the table beside hardly any wind is heard as many times the strongest of it. It fades while it sounds;
-/// nobody blows that shortly: the wind is what blew before it or after, whichever is more. `seconds_at` says when a
-/// frame begins.
+/// A knock on the table is heard as wind, beside hardly any wind as many times the strongest of it. It fades while it
+/// sounds; nobody blows that shortly: the wind is what blew before it or after, whichever is more. `seconds_at` says
+/// when a frame begins.
 template <class SecondsAt>
-void pass_over_knocks(std::vector<WindFrame>& frames, const SecondsAt& seconds_at) {
+void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const SecondsAt& seconds_at) {
   using Place = std::vector<WindFrame>::iterator;
   const auto above = [](float wind) { return [wind](const WindFrame& frame) { return frame.wind > wind; }; };
   const auto weaker = [](const WindFrame& a, const WindFrame& b) { return a.wind < b.wind; };
@@ -156,13 +161,13 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const SecondsAt& seconds_a
     return seconds_at(to - frames.begin()) - seconds_at(from - frames.begin());
   };
   for (auto end = frames.begin(); end != frames.end();) {
-    const auto begin = std::find_if(end, frames.end(), above(kStrong));
-    end = std::find_if_not(begin, frames.end(), above(kStrong));
-    if (begin == end || seconds(begin, end) > kLongestKnock) continue;
+    const auto begin = std::find_if(end, frames.end(), above(knock.wind));
+    end = std::find_if_not(begin, frames.end(), above(knock.wind));
+    if (begin == end || seconds(begin, end) > knock.seconds) continue;
     const auto peak = std::max_element(begin, end, weaker);
     const auto risen = std::find_if(begin, end, above(peak->wind / 2));
     const auto faded = std::find_if_not(peak, end, above(peak->wind / 2));
-    if (peak->wind < kFarTooStrong || seconds(risen, faded) > kShortestPuff) continue;
+    if (peak->wind < knock.peak || seconds(risen, faded) > kShortestPuff) continue;
     const float before = begin == frames.begin() ? 0 : std::prev(begin)->wind;
     const float around = std::max(before, end == frames.end() ? 0 : end->wind);
     std::for_each(begin, end, [around](WindFrame& frame) { frame.wind = around; });
@@ -309,7 +314,8 @@ Result<WindTrack> WindTracker::finish() const {
   track.one_rms = std::sqrt(wind::from_decibels(around.gust_db));
   const wind::Spectra spectra = state_->spectra();
   track.frames = frames_of(seen, around, state_->design, spectra, band_means(spectra, seen, stretches, around));
-  pass_over_knocks(track.frames, [&](std::ptrdiff_t k) { return state_->seconds_at(static_cast<std::size_t>(k)); });
+  const auto seconds_at = [&](std::ptrdiff_t k) { return state_->seconds_at(static_cast<std::size_t>(k)); };
+  for (const Knock& knock : kKnocks) pass_over_knocks(track.frames, knock, seconds_at);
   const float share = 1 / static_cast<float>(seen.size());
   track.silent = true;
   for (std::size_t k = 0; k < seen.size(); ++k) {

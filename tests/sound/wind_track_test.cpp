@@ -145,6 +145,14 @@ TEST(WindTrack, AKnockBesideFaintWindIsNoWind) {
   EXPECT_LT(strongest(track), 2);
 }
 
+TEST(WindTrack, KnocksOnTheTableInAStillRoomAreNoWind) {
+  for (const double peak : {0.1, 0.3, 0.8}) {
+    Samples sound = sounds::room(12, 44100, 1e-3);
+    sounds::add(sound, sounds::knocks(10, 44100, peak), 1, 44100);
+    EXPECT_LT(strongest(track_of(sound)), 0.2) << peak;
+  }
+}
+
 TEST(WindTrack, AHardPuffBesideFaintWindIsWind) {
   for (std::uint64_t seed = 20; seed < 28; ++seed) {  // where in the puff its strongest frame lies is chance
     Samples sound = faint_gusts();
