@@ -47,11 +47,11 @@ def sounds():
     ):
         form = struct.pack("<HHIIHH", tag, 1, 8000, 8000 * bits // 8, bits // 8, bits)
         body = b"WAVE" + chunk(b"fmt ", form) + chunk(b"LIST", b"note") + chunk(b"data", data)
-        put("wav", name, b"RIFF" + struct.pack("<I", len(body)) + body)
+        put("video", f"{name}.wav", b"RIFF" + struct.pack("<I", len(body)) + body)
     wide = struct.pack("<HHIIHHHHI", 0xFFFE, 3, 8000, 48000, 6, 16, 22, 16, 0) + struct.pack("<H", 1)
     wide += b"\0\0\0\0\x10\0\x80\0\0\xaa\0\x38\x9b\x71"
     body = b"WAVE" + chunk(b"fmt ", wide) + chunk(b"data", b"\0" * 12)
-    put("wav", "extensible", b"RIFF" + struct.pack("<I", len(body)) + body)
+    put("video", "extensible.wav", b"RIFF" + struct.pack("<I", len(body)) + body)
 
 
 def matrices():

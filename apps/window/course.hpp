@@ -1,5 +1,5 @@
 #pragma once
-// Input that reaches a player as time passes, from files: a script's events, a WAV file's sound. A script says what a
+// Input that reaches a player as time passes, from files: a script's events, a sound file. A script says what a
 // person would do at the window, with times, for tests and demonstrations; docs/reference/window.md describes the file.
 
 #include <chrono>

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/capture/media/sound.hpp"
 #include "wisp/draw/image.hpp"
-#include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_level.hpp"
 
 namespace wisp::window {
@@ -211,16 +211,18 @@ class Ear {
   EarState closed_ = EarState::kOff;
 };
 
-/// A WAV file in place of a microphone: its samples come as time passes, and end in silence.
+/// A sound file in place of a microphone: its samples come as time passes, and end in silence.
 class SoundFile {
  public:
-  /// Errors: as WavReader::open(), or an empty file.
+  /// Errors: as stream_sound(), or a file without sound.
   static Result<SoundFile> open(const std::string& path) {
-    auto sound = read_wav(path);
-    if (!sound) return sound.error();
     SoundFile file;
-    file.format_ = {.rate_hz = sound->format.rate_hz, .channels = sound->format.channels};
-    file.samples_ = std::move(sound->samples);
+    const auto sound = stream_sound(path, [&](const SoundInfo& info, std::span<const float> samples) {
+      file.format_ = {.rate_hz = info.rate_hz, .channels = info.channels};
+      file.samples_.insert(file.samples_.end(), samples.begin(), samples.end());
+      return true;
+    });
+    if (!sound) return sound.error();
     if (file.samples_.empty()) return Error{path + ": holds no samples; expected the sound of blowing"};
     return file;
   }

@@ -19,7 +19,7 @@ struct KeptPicture {
 
 struct PlayOptions {
   PlayerOptions player{};
-  std::optional<std::string> sound{};               ///< a WAV file in place of the microphone
+  std::optional<std::string> sound{};               ///< a sound file in place of the microphone
   std::optional<std::filesystem::path> script{};    ///< events with times
   std::optional<std::filesystem::path> pictures{};  ///< folder for pictures
   int frames = 0;          ///< without a display: how many of 1/60 s; in a window: 0, until it is closed

@@ -10,4 +10,3 @@
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
-#include "wisp/record/wav.hpp"

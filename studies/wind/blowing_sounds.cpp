@@ -1,7 +1,7 @@
 #include "studies/wind/blowing_sounds.hpp"
 
+#include "capture/support/whole_sound.hpp"
 #include "studies/wind/verify_wind.hpp"
-#include "wisp/record/wav.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -31,9 +31,9 @@ std::vector<KnownSound> files(const char* folder, const std::string& start, cons
   }
   std::sort(names.begin(), names.end());
   for (const auto& name : names) {
-    const auto sound = read_wav(name);
-    if (!sound || sound->format.channels != 1) continue;
-    all.push_back({kind, name.stem().string(), resampled(sound->samples, sound->format.rate_hz, kSoundRate)});
+    const auto sound = support::read_sound(name);
+    if (!sound || !*sound || (*sound)->info.channels != 1) continue;
+    all.push_back({kind, name.stem().string(), resampled((*sound)->samples, (*sound)->info.rate_hz, kSoundRate)});
   }
   return all;
 }
@@ -193,8 +193,9 @@ std::vector<KnownSound> speech() {
                                 "' 'Papa bought a big blue balloon for Bobby, but the puppy popped it. Who has seen "
                                 "the wind? Pfeffer, bitte. One, two, three, four, five.'";
     if (std::system(command.c_str()) != 0) continue;
-    const auto sound = read_wav(file);
-    if (sound) all.push_back({"speech", voice, resampled(sound->samples, sound->format.rate_hz, kSoundRate)});
+    const auto sound = support::read_sound(file);
+    if (sound && *sound)
+      all.push_back({"speech", voice, resampled((*sound)->samples, (*sound)->info.rate_hz, kSoundRate)});
   }
   std::filesystem::remove(file);
   return all;

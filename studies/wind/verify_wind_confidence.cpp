@@ -4,9 +4,9 @@
 #include <functional>
 #include <random>
 
+#include "capture/support/whole_sound.hpp"
 #include "sound/wind_sounds.hpp"
 #include "studies/wind/verify_wind.hpp"
-#include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_level.hpp"
 #include "wisp/sound/wind_track.hpp"
 
@@ -126,16 +126,16 @@ const auto kAny = [](const WindFrame&) { return true; };
 const auto kNotBlowing = [](const WindFrame& frame) { return frame.confidence < 0.2F; };
 
 /// Spoken by espeak-ng; empty where it is not installed.
-std::vector<WavSound> spoken() {
-  std::vector<WavSound> all;
+std::vector<support::Sound> spoken() {
+  std::vector<support::Sound> all;
   if (std::system("espeak-ng --version >/dev/null 2>&1") != 0) return all;
   const auto file = std::filesystem::temp_directory_path() / "wisp-verify-wind-voice.wav";
   for (const Voice& voice : kVoices) {
     const std::string command =
         std::string("espeak-ng -v ") + voice.name + " -w '" + file.string() + "' \"" + voice.text + "\"";
     if (std::system(command.c_str()) != 0) continue;
-    auto sound = read_wav(file);
-    if (sound) all.push_back(std::move(*sound));
+    auto sound = support::read_sound(file);
+    if (sound && *sound) all.push_back(std::move(**sound));
   }
   std::filesystem::remove(file);
   return all;
@@ -143,13 +143,13 @@ std::vector<WavSound> spoken() {
 
 void speech(Bounds& bounds) {
   std::printf("\n== Speech (espeak-ng): share of frames of 1/60 s with confidence below 0.2\n");
-  const std::vector<WavSound> voices = spoken();
+  const std::vector<support::Sound> voices = spoken();
   if (voices.empty()) {
     std::printf("  skipped: espeak-ng is not installed\n");
     return;
   }
   double seconds = 0;
-  for (const WavSound& voice : voices) seconds += static_cast<double>(voice.samples.size()) / voice.format.rate_hz;
+  for (const support::Sound& voice : voices) seconds += static_cast<double>(voice.samples.size()) / voice.info.rate_hz;
   std::printf("  %zu voices, %.0f s\n  rate    chain           all     sounding  worst voice  above 0.5\n",
               voices.size(), seconds);
   double worst = 1;
@@ -157,8 +157,8 @@ void speech(Bounds& bounds) {
     for (const Chain& chain : chains()) {
       std::vector<WindFrame> all;
       double worst_voice = 1;
-      for (const WavSound& voice : voices) {
-        const auto frames = live_frames(chain.pass(resampled(voice.samples, voice.format.rate_hz, rate), rate), rate);
+      for (const support::Sound& voice : voices) {
+        const auto frames = live_frames(chain.pass(resampled(voice.samples, voice.info.rate_hz, rate), rate), rate);
         worst_voice = std::min(worst_voice, share(frames, kAny, kNotBlowing));
         all.insert(all.end(), frames.begin(), frames.end());
       }
@@ -175,7 +175,7 @@ void speech(Bounds& bounds) {
 
 void breath(Bounds& bounds) {
   std::printf("\n== Breath: share of frames with confidence above 0.8, from 15 dB above the floor\n");
-  const auto sound = read_wav(data_folder() / "sound" / "breath_normal.wav");
+  const auto sound = support::read_sound(data_folder() / "sound" / "breath_normal.wav");
   if (!sound) {
     std::printf("  skipped: %s\n", sound.error().message.c_str());
     return;
@@ -183,7 +183,7 @@ void breath(Bounds& bounds) {
   std::printf("  rate    chain           live    recording known\n");
   double worst = 1;
   for (const double rate : kRates) {
-    const Samples original = resampled(sound->samples, sound->format.rate_hz, rate);
+    const Samples original = resampled((*sound)->samples, (*sound)->info.rate_hz, rate);
     for (const Chain& chain : chains()) {
       const Samples heard = chain.pass(original, rate);
       const auto track = wind_from_sound(heard, {rate, 1});

@@ -1,7 +1,7 @@
 // Breath on a microphone, four gusts with gaps: are they found, live and with the whole recording known?
 
+#include "capture/support/whole_sound.hpp"
 #include "studies/wind/verify_wind.hpp"
-#include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_level.hpp"
 #include "wisp/sound/wind_track.hpp"
 
@@ -70,17 +70,17 @@ void judge(const char* how, const std::vector<WindFrame>& frames, Bounds& bounds
 
 void gusts(Bounds& bounds) {
   std::printf("\n== Gusts and gaps of real breath\n");
-  const auto sound = read_wav(data_folder() / "sound" / "breath_normal.wav");
+  const auto sound = support::read_sound(data_folder() / "sound" / "breath_normal.wav");
   if (!sound) {
     std::printf("  skipped: %s\n", sound.error().message.c_str());
     return;
   }
-  const SoundFormat format{sound->format.rate_hz, sound->format.channels};
+  const SoundFormat format{(*sound)->info.rate_hz, (*sound)->info.channels};
   auto level = WindLevel::create(format);
-  auto track = wind_from_sound(sound->samples, format);
+  auto track = wind_from_sound((*sound)->samples, format);
   if (!level || !track) std::abort();
   std::vector<WindFrame> live(track->frames.size() + 1);
-  live.resize(level->feed(std::span<const float>(sound->samples), live).frames);
+  live.resize(level->feed(std::span<const float>((*sound)->samples), live).frames);
   judge("live", live, bounds);
   judge("recording", track->frames, bounds);
 }

@@ -264,7 +264,7 @@ Command export_command() {
           {"wind", Kind::kNumber, "W", "0", "a constant value for every input"},
           {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},
           {"input", Kind::kPath, "REC", "",
-           "a recording or a WAV of blowing in the place of --wind; a flame may go out"},
+           "a recording or a sound file of blowing in the place of --wind; a flame may go out"},
           {"size", Kind::kInteger, "PIXELS", "",
            "width of an atlas, or height of another picture; default 1024, for APNG and WebM 256, for Lottie 512"},
           {"frames", Kind::kInteger, "N", "", "of pictures, evenly spread; default: columns² in an atlas, else all"},

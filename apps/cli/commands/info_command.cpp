@@ -26,17 +26,27 @@ Result<void> plot_channels(const std::string& path, const Report& report, Termin
   return {};
 }
 
-Result<void> look_at_recording(const Arguments& arguments, Terminal& terminal) {
-  const auto recording =
-      read_table(arguments.positional(), arguments, {.rate_hz = 1, .every_column = !arguments.has("outputs")});
-  if (!recording) return recording.error();
-  const Report report = advise(*recording);
+bool is_outline(const Recording& recording) { return find_channel(recording, "p0.x").has_value(); }
+
+Result<void> look_at_recordings(const Arguments& arguments, Terminal& terminal) {
+  std::vector<Recording> recordings;
+  for (const std::string& path : arguments.positionals()) {
+    auto recording = read_table(path, arguments, {.rate_hz = 1, .every_column = !arguments.has("outputs")});
+    if (!recording) return recording.error();
+    recordings.push_back(std::move(*recording));
+  }
+  Report report = advise(recordings.front());
+  if (recordings.size() > 1 || is_outline(recordings.front())) {
+    auto motion = outline_motion(recordings);
+    if (!motion) return motion.error();
+    report.append(std::move(*motion));
+  }
   terminal.show(report);
   return arguments.has("output") ? plot_channels(arguments.text("output"), report, terminal) : Result<void>();
 }
 
 Result<void> run_info(const Arguments& arguments, Terminal& terminal) {
-  if (is_table(arguments.positional())) return look_at_recording(arguments, terminal);
+  if (is_table(arguments.positional())) return look_at_recordings(arguments, terminal);
   const auto bytes = read_file(arguments.positional());
   if (!bytes) return bytes.error();
   const auto model = parse_model(*bytes, arguments.positional());
@@ -57,7 +67,7 @@ Command info_command() {
       "info",
       "Looks at a recording before any model: rate, channels, and what will spoil a model, with cures; or says what a "
       "model file holds, how it was made, and what it costs a frame.",
-      {{"FILE", "a recording (.csv, .mat) or a model (.wisp)"}},
+      {{"FILE", "a recording (.csv, .mat) or a model (.wisp); two outlines filmed at once: also their phase", true}},
       {
           {"output", Kind::kOutput, "OUT.png", "", "plot every channel of a recording (.png or .svg)"},
           {"inputs", Kind::kNames, "A,B", "", "channels that are inputs"},

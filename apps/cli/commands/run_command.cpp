@@ -297,7 +297,8 @@ std::vector<Flag> all_flags() {
       {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
       loop_flag(),
       {"input", Kind::kPath, "REC", "",
-       "a recording, heard as validate hears it unless its column has the input's own unit, or a WAV of blowing: the "
+       "a recording, heard as validate hears it unless its column has the input's own unit, or a sound file of "
+       "blowing: the "
        "inputs"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns of --input that are the model's inputs, in its order, where they have other names"},

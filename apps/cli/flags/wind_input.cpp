@@ -5,10 +5,8 @@
 
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
-#include "wisp/capture/clip/clip_capture.hpp"
+#include "wisp/capture/capture.hpp"
 #include "wisp/learn/validate.hpp"
-#include "wisp/record/wav.hpp"
-#include "wisp/sound/wind_track.hpp"
 
 namespace wisp::cli {
 
@@ -64,21 +62,9 @@ constexpr double kMaxFrames = 1e9;
 }  // namespace
 
 Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path) {
-  auto reader = WavReader::open(path);
-  if (!reader) return reader.error();
-  auto tracker = WindTracker::create({.rate_hz = reader->format().rate_hz, .channels = reader->format().channels},
-                                     {.frame_rate_hz = model.rate_hz});
-  if (!tracker) return Error{path + ": " + tracker.error().message};
-  std::vector<float> block(static_cast<std::size_t>(reader->format().channels) * 4096);
-  for (;;) {
-    const auto got = reader->read(block);
-    if (!got) return got.error();
-    if (*got == 0) break;
-    tracker->feed(std::span(block).first(*got));
-  }
-  const auto wind = tracker->finish();
-  if (!wind) return Error{path + ": " + wind.error().message};
-  if (wind->silent) return Error{path + ": is silent; expected the sound of blowing"};
+  const auto wind = hear_wind(path, model.rate_hz);
+  if (!wind) return wind.error();
+  if (wind->frames.empty()) return Error{path + ": wind " + wind->note + "; expected the sound of blowing"};
   InputTrack track;
   track.rows_ = wind->frames.size();
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
@@ -99,7 +85,7 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
     return track;
   }
   const std::string& path = arguments.text("input");
-  if (std::filesystem::path(path).extension() == ".wav") {
+  if (!is_table(path)) {
     if (arguments.on("own-gain"))
       return Error{"--own-gain: is for recordings; the wind in a sound has the model's scale"};
     return heard(model, path);

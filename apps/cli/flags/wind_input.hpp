@@ -13,9 +13,10 @@ namespace wisp::cli {
 class InputTrack {
  public:
   /// From --input, or from --wind. A recording's channels are found by the model's input names; where its rate differs
-  /// from the model's it is resampled linearly; a missing sample holds the one before it. A WAV file is listened to:
+  /// from the model's it is resampled linearly; a missing sample holds the one before it. A sound file is listened to:
   /// its wind drives every input. A recording is heard as validate() hears it (in_model_units()), --own-gain by its own
-  /// strength. Errors: the recording cannot be read, or has not an input that the model takes; a WAV file is silent.
+  /// strength. Errors: the recording cannot be read, or has not an input that the model takes; nothing is heard in a
+  /// sound file.
   static Result<InputTrack> from(const Model& model, const Arguments& arguments);
 
   /// Frames of the recording; 0 for a constant.

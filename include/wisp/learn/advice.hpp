@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wisp/base/report.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -48,5 +49,11 @@ std::vector<Remark> redundant_channels(std::span<const Recording> recordings, co
 /// The data page of `wisp info`: rate and where it is from, rows, a table `channels`, a table `remarks`, and a series a
 /// channel. Inputs and outputs are those with that role.
 Report advise(const Recording& recording);
+
+/// How outlines move: mean and deviation of height, area and lean, the frequency of the flicker of √area with its width
+/// at half power, and its spectrum as a series. Of several, filmed at once, the phase of each after the first at the
+/// first one's flicker, −180 to 180 degrees, with the coherence.
+/// Errors: no outline; another rate or number of rows than the first one's.
+Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

@@ -124,8 +124,8 @@ void extend_fades(std::vector<Fate>& fate) {
   }
 }
 
-// How many frames in a row may be filled: a screen shows a picture up to four times, slow motion each as often, and what
-// happened in lost frames is not known.
+// How many frames in a row may be filled: a screen shows a picture up to four times, slow motion each as often, and
+// what happened in lost frames is not known.
 std::size_t max_filled(Fate fate, const Stands& stands) {
   if (fate == Fate::kDuplicate) return std::max<std::size_t>(3, stands.times - 1);
   return fate == Fate::kLost ? 1 : 0;

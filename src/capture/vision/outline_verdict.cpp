@@ -122,7 +122,8 @@ std::string sentence_of(std::size_t fact, R r) {
       {"{%}", percent(value)},
       {"{side}", kSide[static_cast<std::size_t>(side)]},
       {"{still}", still_share(r) > 0.3 ? " in " + percent(still_share(r)) + " of the frames" : " beyond its noise"},
-      {"{stands}", f.stands < 2 ? "" : " (every frame stands " + std::to_string(f.stands) + " times, as in slow motion)"},
+      {"{stands}",
+       f.stands < 2 ? "" : " (every frame stands " + std::to_string(f.stands) + " times, as in slow motion)"},
       {"{frames}", std::to_string(f.seen_from + 1) + " to " + std::to_string(f.seen_from + f.rows)},
       {"{clipped}", percent(f.clipped)},
   }};

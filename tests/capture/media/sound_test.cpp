@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <fstream>
 
 #include "capture/support/clip_files.hpp"
 #include "capture/support/whole_sound.hpp"
@@ -40,6 +42,76 @@ TEST(Sound, OfAWavIsExact) {
     ASSERT_EQ((*sound)->samples[k], static_cast<float>(samples[k]) / 32768.0F);
   }
   EXPECT_NEAR((*sound)->info.peak, 0.5, 1e-3);
+}
+
+std::string little(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i));
+  return text;
+}
+
+std::string chunk(const std::string& id, const std::string& body) { return id + little(body.size(), 4) + body; }
+
+std::string format_chunk(unsigned tag, unsigned bits) {
+  const unsigned frame = bits / 8;
+  return chunk("fmt ", little(tag, 2) + little(1, 2) + little(8000, 4) + little(8000 * frame, 4) + little(frame, 2) +
+                           little(bits, 2));
+}
+
+std::string riff(const std::string& chunks) { return "RIFF" + little(4 + chunks.size(), 4) + "WAVE" + chunks; }
+
+std::string wav_of(unsigned tag, unsigned bits, const std::vector<std::uint64_t>& samples) {
+  std::string data;
+  for (const std::uint64_t sample : samples) data += little(sample, static_cast<int>(bits / 8));
+  return riff(format_chunk(tag, bits) + chunk("data", data));
+}
+
+Result<std::optional<support::Sound>> sound_of(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+  return read_sound(path);
+}
+
+TEST(Sound, OfAWavOfAnyCodingIsExact) {
+  ScratchFolder folder("codings");
+  const std::string sizes = chunk("ds64", little(0, 8) + little(4, 8) + little(2, 8) + little(0, 4));
+  const std::string half_and_quarter = little(16384, 2) + little(8192, 2);
+  const struct {
+    std::string bytes;
+    std::vector<float> samples;
+  } wavs[] = {
+      {wav_of(1, 8, {0x80, 0xff, 0x01, 0x80}), {0, 127.0F / 128, -127.0F / 128, 0}},
+      {wav_of(1, 16, {0x8000, 0x7fff, 1}), {-1, 32767.0F / 32768, 1.0F / 32768}},
+      {wav_of(1, 24, {0x800000, 0xffffff, 1, 0}), {-1, -1.0F / 8388608, 1.0F / 8388608, 0}},
+      {wav_of(1, 32, {0x80000000U, 0x40000000}), {-1, 0.5F}},
+      {wav_of(3, 32, {std::bit_cast<std::uint32_t>(1.5F)}), {1.5F}},
+      {wav_of(3, 64, {std::bit_cast<std::uint64_t>(-0.25)}), {-0.25F}},
+      {riff(chunk("LIST", "even") + format_chunk(1, 16) + chunk("data", half_and_quarter) + chunk("id3 ", "tail")),
+       {0.5F, 0.25F}},
+      {"RIFF" + little(0xffffffffU, 4) + "WAVE" + format_chunk(1, 16) + "data" + little(0xffffffffU, 4) +
+           half_and_quarter,
+       {0.5F, 0.25F}},
+      {"RF64" + little(0xffffffffU, 4) + "WAVE" + sizes + format_chunk(1, 16) + "data" + little(0xffffffffU, 4) +
+           half_and_quarter + "tail",
+       {0.5F, 0.25F}},
+  };
+  for (const auto& wav : wavs) {
+    const auto sound = sound_of(folder / "a.wav", wav.bytes);
+    ASSERT_TRUE(sound && *sound) << wav.bytes.size();
+    EXPECT_EQ((*sound)->samples, wav.samples);
+  }
+}
+
+TEST(Sound, EveryCutOfAWavIsReadOrRefusedAndNeverMore) {
+  ScratchFolder folder("cuts");
+  const std::string whole = wav_of(1, 24, {1, 2, 3, 4, 5, 6});
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto sound = sound_of(folder / "cut.wav", whole.substr(0, length));
+    if (!sound) {
+      EXPECT_THAT(sound.error().message, HasSubstr("cut.wav"));
+    } else if (*sound) {
+      EXPECT_LE((*sound)->samples.size(), 6u);
+    }
+  }
 }
 
 TEST(Sound, StreamsInBlocksAndStopsWhenAsked) {
