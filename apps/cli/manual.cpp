@@ -1,4 +1,4 @@
-// What the program says of itself, from the table of commands: help, docs/reference/cli.md, completion.
+// What the program says of itself, from the table of commands: help, docs/reference/cli.md, a man page, completion.
 
 #include <algorithm>
 #include <sstream>
@@ -99,6 +99,28 @@ bool begins_with(const Command& command, const std::string& words) {
   return command.name == words || command.name.starts_with(words + " ");
 }
 
+// Text as troff reads it.
+std::string troff(const std::string& text) {
+  const std::string safe = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
+  return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
+}
+
+std::string man_page() {
+  std::string text =
+      ".TH WISP 1\n.SH NAME\nwisp \\- learns how a thing behaves from recordings, and plays it live\n"
+      ".SH SYNOPSIS\n.B wisp\nCOMMAND [flags]\n.SH COMMANDS\n";
+  for (const Command& command : commands()) {
+    text += ".SS " + troff(usage(command)) + "\n" + troff(command.summary) + "\n";
+    for (const Flag& flag : command.flags) {
+      text += ".TP\n.B " + troff(dashes(flag) + " " + flag.value) + "\n" + troff(help_of(flag)) + "\n";
+    }
+    for (const Example& example : command.examples)
+      text += ".PP\n" + troff(example.what) + ":\n.RS\n" + troff(example.line) + "\n.RE\n";
+  }
+  text += ".SH EXIT STATUS\n0 done, 1 the data or a file was bad, 2 wrong usage.\n";
+  return text;
+}
+
 std::vector<std::string> first_words() {
   std::vector<std::string> words{"help"};
   for (const Command& command : commands()) words.push_back(command.name.substr(0, command.name.find(' ')));
@@ -135,12 +157,39 @@ std::string bash_completion() {
   return text;
 }
 
+std::string fish_completion() {
+  const auto quoted = [](const std::string& text) {
+    return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
+  };
+  std::string text;
+  for (const Command& command : commands()) {
+    const std::size_t space = command.name.find(' ');
+    const std::string first = command.name.substr(0, space);
+    std::string seen = "__fish_seen_subcommand_from " + first;
+    if (space == std::string::npos) {
+      text += "complete -c wisp -n __fish_use_subcommand -a " + first + " -d " + quoted(command.summary) + "\n";
+    } else {
+      const std::string second = command.name.substr(space + 1);
+      text += "complete -c wisp -n __fish_use_subcommand -a " + first + "\ncomplete -c wisp -n " + quoted(seen) +
+              " -a " + second + " -d " + quoted(command.summary) + "\n";
+      seen += "; and __fish_seen_subcommand_from " + second;
+    }
+    for (const Flag& flag : command.flags) {
+      text += "complete -c wisp -n " + quoted(seen) + " -l " + flag.name + (flag.kind == Kind::kSwitch ? "" : " -r") +
+              " -d " + quoted(flag.help) + "\n";
+    }
+  }
+  return text;
+}
+
 std::string markdown() {
   std::string text =
       "# The command line\n\n"
       "This page is printed by `wisp manual`; the program's help and parser are made from the same table. `wisp manual "
-      "bash` and `zsh` print what completes commands and flags in a shell, to be read at its start: `source <(wisp "
-      "manual bash)`.\n\n"
+      "man` prints a man page; `wisp manual bash`, `zsh` and `fish` print what completes commands and flags in a "
+      "shell, "
+      "to be read at its start: `source <(wisp manual bash)`, `source <(wisp manual zsh)`, `wisp manual fish | "
+      "source`.\n\n"
       "Exit status: 0 done, 1 the data or a file was bad (one line on standard error says which, where, what was "
       "found, "
       "what was expected and what to do), 2 wrong usage. Output files appear whole or not at all. Sample and frame "
@@ -158,9 +207,11 @@ std::string markdown() {
 
 std::optional<std::string> manual(const std::string& form) {
   if (form == "markdown") return markdown();
+  if (form == "man") return man_page();
   if (form == "bash") return bash_completion();
   if (form == "zsh")
     return "autoload -U +X compinit && compinit\nautoload -U +X bashcompinit && bashcompinit\n" + bash_completion();
+  if (form == "fish") return fish_completion();
   return {};
 }
 

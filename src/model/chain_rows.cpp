@@ -100,7 +100,8 @@ std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_
   }
 }
 
-// What rows tell of a rate, times this and divided by a power of 2, is its number: of velocities, of angular ones.
+// Integer factors from differences of stored rows to a rate (a power of 2 is divided out later): of velocities, and of
+// angular velocities.
 using RateFactors = std::array<std::int32_t, 2>;
 
 struct SegmentOf {

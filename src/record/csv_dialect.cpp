@@ -43,7 +43,7 @@ char separator_of(const std::vector<std::string>& lines) {
   for (char candidate : {'\t', ';', ','}) {
     if (shape_of(names, candidate).cells >= 2) return candidate;
   }
-  // One column: a comma in its numbers is a decimal one.
+  // With one column, a comma in a number is a decimal mark.
   return shape_of(row, ';').numbers && has_comma({row, false}) ? ';' : ',';
 }
 

@@ -89,7 +89,8 @@ Design design(const SoundFormat& format, const WindOptions& options) {
   for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // the box hands on a sum
 
   set_filters(d);
-  // Half the decimating low-pass, and what the 900 Hz one delays low frequencies: 1 / (2π · 900 Hz · Q).
+  // The delay of the decimating low-pass, half its length, plus that of the 900 Hz one at low frequencies, which is
+  // 1 / (2π · 900 Hz · Q).
   d.delay_seconds = static_cast<double>(d.taps.size()) / 2 / boxed + 0.00025;
   d.voice_step = rounded(rate / 4000);
   d.hop = d.voice_step * rounded(rate / d.voice_step * 0.01);

@@ -101,9 +101,10 @@ TEST_F(BlowOutProgram, WithoutADeathThereIsADefaultAndItCanBeTurnedOff) {
     EXPECT_TRUE(off.json()["extinction"].is_null());
     EXPECT_TRUE(wisp("info " + at("off.wisp") + " --json").json()["extinction"].is_null());
   }
+  EXPECT_EQ(wisp("run " + at("off.wisp") + " --frames 60 --relight 0.5 -o " + at("x.csv")).status, 1);
 }
 
-TEST_F(BlowOutProgram, ItStaysOut) {
+TEST_F(BlowOutProgram, ItStaysOutUntilItIsLitAgain) {
   write_recording("rec.csv", {.rows = 1200, .every = 0});
   ASSERT_EQ(wisp("learn flame " + at("rec.csv") + " --blow-out 1.5,0.2 -o " + at("m.wisp")).status, 0);
   write_puff(20);
@@ -112,10 +113,16 @@ TEST_F(BlowOutProgram, ItStaysOut) {
   EXPECT_EQ(out[59], 1);
   EXPECT_EQ(out[90], 0);
   EXPECT_EQ(out[299], 0);
+  const auto relit = lit_rows("--input " + at("puff.csv") + " --relight 4");
+  EXPECT_EQ(relit[239], 0);
+  EXPECT_EQ(relit[240], 1);
+  EXPECT_EQ(relit[299], 1);
   const auto recording = read_csv(at("run.csv"));
   const auto& tip = recording->channels[*find_channel(*recording, "p3.y")].samples;
-  EXPECT_GT(tip[50], 0.5);
-  EXPECT_EQ(tip[299], 0);
+  EXPECT_EQ(tip[200], 0);
+  EXPECT_GT(tip[245], 0);
+  EXPECT_LT(tip[245], 0.95 * tip[50]);
+  EXPECT_GT(tip[299], 0.6 * tip[50]);
 }
 
 TEST_F(BlowOutProgram, PicturesShowItBurningSmokingAndDark) {
@@ -143,6 +150,10 @@ TEST_F(BlowOutProgram, WhatCannotBeARuleIsWrongUsage) {
     EXPECT_EQ(said.status, 2) << value;
     EXPECT_THAT(said.err, HasSubstr("--blow-out")) << value;
     EXPECT_FALSE(fs::exists(at("x.wisp"))) << value;
+  }
+  ASSERT_EQ(wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp")).status, 0);
+  for (const std::string value : {"soon", "-1", "1,x", "nan"}) {
+    EXPECT_EQ(wisp("run " + at("m.wisp") + " --frames 9 --relight=" + value + " -o " + at("x.csv")).status, 2) << value;
   }
 }
 

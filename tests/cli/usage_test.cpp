@@ -100,7 +100,9 @@ TEST_F(Usage, AloneItSaysWhatToTypeFirst) {
   EXPECT_THAT(said.err, testing::AllOf(HasSubstr("wisp demo"), HasSubstr("wisp play"), HasSubstr("wisp help")));
 }
 
-TEST_F(Usage, TheManualIsAlsoCompletion) {
+TEST_F(Usage, TheManualIsAlsoAManPageAndCompletion) {
+  EXPECT_THAT(wisp("manual man").out, testing::AllOf(HasSubstr(".TH WISP 1"), HasSubstr(".SS wisp learn arx ")));
+  EXPECT_THAT(wisp("manual fish").out, HasSubstr("-a arx"));
   EXPECT_THAT(wisp("manual zsh").out, HasSubstr("bashcompinit"));
   EXPECT_EQ(wisp("manual runes").status, 2);
   const std::string complete = "bash -c 'source <(" WISP_PROGRAM " manual bash); COMP_WORDS=(wisp ";

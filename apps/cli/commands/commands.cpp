@@ -38,15 +38,16 @@ const std::vector<Command>& commands() {
 
 Command manual_command() {
   return {"manual",
-          "Prints this page, or what completes commands and flags in a shell.",
-          {{"FORM", "markdown, bash or zsh", false, true}},
+          "Prints this page, or it as a man page, or what completes commands and flags in a shell.",
+          {{"FORM", "markdown, man, bash, zsh or fish", false, true}},
           {},
           {},
           [](const Arguments& arguments, Terminal& terminal) -> Result<void> {
             const bool named = !arguments.positionals().empty();
             const auto text = manual(named ? arguments.positional() : "markdown");
             if (!text)
-              return Error{"--: there is no form " + arguments.positional() + "; there are markdown, bash and zsh"};
+              return Error{"--: there is no form " + arguments.positional() +
+                           "; there are markdown, man, bash, zsh and fish"};
             if (terminal.json()) {
               terminal.add("manual", *text);
             } else {

@@ -33,8 +33,10 @@ struct Play {
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
-  Camera camera;      // of a model in the round
-  double toward = 0;  // degrees, of the wind
+  Camera camera;                   // of a model in the round
+  double orbit = 0;                // seconds in which the camera goes once round; 0: it stands
+  double toward = 0;               // degrees, of the wind
+  std::vector<std::size_t> relit;  // frames before which everything that is out is lit again, ascending
 };
 
 // A bank that is played frame by frame.
@@ -44,7 +46,10 @@ class Player {
 
   // One step. Returns the inputs that drove it.
   std::vector<float> step() {
-    const ExtinctionFacet* extinction = bank_.extinction();
+    ExtinctionFacet* extinction = bank_.extinction();
+    if (extinction && std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
+      for (int slot = 0; slot < bank_.slots(); ++slot) extinction->relight(bank_.at(slot));
+    }
     std::vector<float> inputs = turned(play_.input.at(frame_));
     bank_.set_common_inputs(inputs);
     bank_.step();
@@ -59,7 +64,13 @@ class Player {
   float wind(const std::vector<float>& inputs) const {
     const auto& rule = play_.model.extinction;
     if (!rule) return 0.0F;
-    return bank_.body() ? to_the_right(play_.camera, inputs[0], inputs[1]) : inputs[rule->input];
+    return bank_.body() ? to_the_right(camera(), inputs[0], inputs[1]) : inputs[rule->input];
+  }
+
+  Camera camera() const {
+    Camera camera = play_.camera;
+    if (play_.orbit > 0) camera.azimuth += 360 * static_cast<double>(frame_) / (play_.orbit * play_.model.rate_hz);
+    return camera;
   }
 
   // When instances went out, for programs.
@@ -123,7 +134,7 @@ Result<void> write_film(const Play& play, const Bank& bank, Player& player, cons
   if (!film) return film.error();
   for (std::size_t frame = 0; frame < play.frames; ++frame) {
     pictures.blow(bank, player.wind(player.step()));
-    if (auto ok = film->write(pictures.draw(bank, play.camera)); !ok) return ok;
+    if (auto ok = film->write(pictures.draw(bank, player.camera())); !ok) return ok;
     terminal.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(play.frames));
   }
   return film->finish();
@@ -133,7 +144,7 @@ Result<void> write_picture(const Play& play, const Bank& bank, Player& player, c
   if (std::holds_alternative<OutlineView>(play.model.view)) {
     CandlePictures pictures(play.model, bank);
     for (std::size_t frame = 0; frame < play.frames; ++frame) pictures.blow(bank, player.wind(player.step()));
-    return write_png(path, pictures.draw(bank, play.camera));
+    return write_png(path, pictures.draw(bank, player.camera()));
   }
   const Recording recording = record_run(play, bank, player);
   Plot plot{.title = play.model.name, .x = {.label = "time, s"}, .y = {}};
@@ -176,6 +187,24 @@ Result<void> write_run(const Play& play, const Bank& bank, Player& player, const
   return write_film(play, bank, player, path, terminal);
 }
 
+// The frames of --relight.
+Result<std::vector<std::size_t>> relit_frames(const Model& model, const Arguments& arguments) {
+  std::vector<std::size_t> frames;
+  if (!arguments.has("relight")) return frames;
+  if (!model.extinction)
+    return Error{"the model never goes out, there is nothing to relight; learn it with --blow-out"};
+  for (const std::string& word : arguments.names("relight")) {
+    char* end = nullptr;
+    const double seconds = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end != 0 || !(seconds >= 0 && seconds <= 1e6)) {
+      return Error{"--relight: found \"" + word + "\", expected seconds from the start, separated by commas"};
+    }
+    frames.push_back(static_cast<std::size_t>(std::lround(seconds * model.rate_hz)));
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
 // A model without inputs is driven by nothing.
 Result<void> check_drive(const Model& model, const Arguments& arguments) {
   if (!model.inputs.empty()) return {};
@@ -216,13 +245,15 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// Puts the model in the round where --camera is given.
+// What --camera, --orbit and --toward ask for: the model in the round.
 Result<void> go_round(const Arguments& arguments, Play& play) {
-  if (!arguments.has("camera")) return {};
+  if (!arguments.has("camera") && arguments.number("orbit") == 0) return {};
   auto round = in_the_round(play.model);
   if (!round) return round.error();
   play.model = *std::move(round);
   play.toward = arguments.number("wind-direction");
+  play.orbit = arguments.number("orbit");
+  if (!arguments.has("camera")) return {};
   Camera& camera = play.camera;
   char comma = ',', end = 0;
   const int found =
@@ -239,7 +270,10 @@ Result<Play> prepare(const Arguments& arguments) {
   if (auto ok = check_drive(*model, arguments); !ok) return ok.error();
   auto input = InputTrack::from(*model, arguments);
   if (!input) return input.error();
-  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")), {}, 0};
+  auto relit = relit_frames(*model, arguments);
+  if (!relit) return relit.error();
+  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")), {}, 0, 0,
+            std::move(*relit)};
   if (auto ok = go_round(arguments, play); !ok) return ok.error();
   play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
   if (play.frames == 0)
@@ -317,8 +351,10 @@ std::vector<Flag> all_flags() {
        {"on", "off"}},
       {"camera", Kind::kNames, "AZIMUTH,ELEVATION", "",
        "see it from so many degrees round it, and above the level: a flame in the round, by rotational symmetry"},
+      {"orbit", Kind::kNumber, "S", "0", "the camera goes once round it in so many seconds"},
       {"wind-direction", Kind::kNumber, "DEG", "0",
        "in the round: the wind blows to the right of a camera at that azimuth"},
+      {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
       {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
       {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
   };
@@ -341,8 +377,8 @@ Command run_command() {
            "The noiseless response to steady wind, as numbers"},
           {"wisp run flame.wisp --loop 4 -o loop.mp4", "Four seconds of a flame that repeat without a seam, as a film"},
           {"wisp run leaf.wisp --frames 1200 --instances 5 -o falls.mp4", "Five leaves that fall for ever, for 20 s"},
-          {"wisp run flame.wisp --input puff.csv --frames 600 -o out.mp4",
-           "A flame that a puff blows out, and its smoke"},
+          {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
+           "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},
       },
       run_run,
   };

@@ -12,7 +12,7 @@ namespace {
 
 // Flags that contradict a loop, which is a steady play.
 Result<void> check_flags(const Arguments& arguments) {
-  for (const char* flag : {"frames", "input", "steer"}) {
+  for (const char* flag : {"frames", "input", "relight", "steer"}) {
     if (arguments.has(flag)) {
       return Error{"--" + std::string(flag) + " does not go with --loop, a loop of so many seconds in a constant wind"};
     }

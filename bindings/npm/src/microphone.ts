@@ -201,7 +201,7 @@ class OpenMicrophone implements Microphone {
     }
     if (!asleep) return;
     this.wake();
-    // A context that runs, or says so, and whose clock stands still never goes on by itself.
+    // A context in the state "running" whose clock stands still does not recover: it is opened again.
     const stuck = this.context.state === 'running' && !this.track.muted && this.silentLooks > STUCK;
     if (stuck && document.visibilityState === 'visible') void this.reopen();
   }

@@ -65,7 +65,7 @@ Result<void> take_in(Desk& all, const Picture& picture, double seconds) {
   return capture.feed(picture);
 }
 
-// A film of falls is told by them: of a film of a flame nothing usable comes out as falls.
+// Decides whether the film shows a flame or falls: a film of a flame never gives usable falls.
 Result<Captured> finished(Desk& all) {
   const ClipTimes times{.offsets = all.grid->offsets(), .shortened = all.grid->shortened()};
   if (!all.falls) return all.capture->finish(times);

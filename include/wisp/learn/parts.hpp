@@ -46,7 +46,7 @@ class ArxPart {
   ArxPart& operator=(ArxPart&&) noexcept;
   ~ArxPart();
 
-  /// Takes in a share of a recording; of an error nothing.
+  /// Adds a share of a recording; where that fails nothing of it is added.
   /// Errors: a channel that it has not, another rate than before, infinite samples, rows beyond its end.
   Result<void> add(const Recording& recording, const TableShare& share = {});
 

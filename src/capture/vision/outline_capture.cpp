@@ -193,7 +193,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
   const bool flame = options_.flame > 0 && !options_.dark;
-  // A window in which it was lit shows it in too few pictures; the next one shows it in all.
+  // Frames in which the flame is lit half-way through show it in too few pictures: the next ones are waited for.
   const bool throughout = survey && (!waited_ || 3 * survey->seen.size() >= 2 * seen.size());
   if (flame && !at_end && !(throughout && burns(*survey))) {
     wait_on(survey);

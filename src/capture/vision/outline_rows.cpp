@@ -12,8 +12,8 @@ namespace wisp {
 namespace {
 
 constexpr double kFadeShare = 0.73;  // a thing dimmer than this share of its usual brightness is fading
-// Until it is lost, what a film of 1 to 2 s fades out is dimmer than 0.89 in the last 0.1 s; a snuffed flame 0.94 to
-// 0.98.
+// In the last 0.1 s before it is lost, a flame that a film fades out over 1 to 2 s is dimmer than 0.89 of its usual
+// brightness; a snuffed one has 0.94 to 0.98.
 constexpr double kDimShare = 0.92;
 constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare =

@@ -12,7 +12,7 @@ namespace wisp {
 
 struct Regression;
 
-/// Whether there is a kernel for few instances. A build whose size comes first has that of blocks alone.
+/// Whether there is a kernel for few instances beside the one for blocks; builds for size leave it out.
 inline constexpr bool kFewApart = WISP_BLOCKS_AT_ONCE > 1;
 
 /// Outputs that are computed at once.

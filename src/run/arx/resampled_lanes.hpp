@@ -446,7 +446,7 @@ class ResampledLanes {
     for (int first = 0; first < seekers.count; first += N::kPartLanes) rank_part(row + first, nearest, first);
   }
 
-  // What is written for seekers that are not there is not read.
+  // Always ranks a whole part of lanes; results of lanes without a seeker are not read.
   static void rank_part(const float* const* row, Nearest& nearest, int first) {
     using Values = Pack<typename N::RealPart, 1>;
     Values best[kNearestRows], which[kNearestRows];

@@ -55,7 +55,7 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// What is ahead of segments that lie as turned, where others follow.
+  /// How the segments `next` are laid at the ends of `before`, which lie as `turn` says, and what differs at the joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);

@@ -469,7 +469,7 @@ class ChainStepper : private ChainLives<N> {
   // What comes after a segment's last step.
   void go_on(const Party& party, int first, const Moment<N>& moment) { joining().follow(party, first, moment); }
 
-  // The life of a lane begins with what is shown of it.
+  // A lane that begins has no sample before its first: it is given the first one twice.
   void begin_at(int block, int lane) {
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];

@@ -86,7 +86,8 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     return value === null ? null : value / 100;
   };
   if (thing === 'fall') {
-    // 1: no farther from what was recorded than two halves of that are; 0: as far as its rows in random order.
+    // 1: the play is as near to the recording as one half of the recording is to the other; 0: as far as its rows in
+    // random order.
     const near = (...name: string[]): number | null => {
       const [value, floor, ceiling] = ['value', 'floor', 'ceiling'].map((one) => figure(report, 'fidelity', ...name, one));
       return value == null || floor == null || ceiling == null || !(ceiling > floor) ? null : 1 - Math.max(0, value - floor) / (ceiling - floor);

@@ -69,7 +69,7 @@ class Screen {
       line[2 * k] = width / 2 + unit * (this.shape.points[3 * k] as number);
       line[2 * k + 1] = 0.86 * height - unit * (this.shape.points[3 * k + 1] as number);
     }
-    // From the end to the beginning it goes through the dark.
+    // The clip repeats: it fades out at its end and in at its beginning.
     context.globalAlpha = Math.min(1, at / 5, (many - at) / 5);
     paintFlame(context, line, unit);
     context.globalAlpha = 1;

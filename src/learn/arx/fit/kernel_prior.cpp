@@ -87,7 +87,8 @@ class MarginalLikelihood {
   VectorXd free_;
 };
 
-// Where the search begins: the prior makes as much of the output as there is, and dies down over some ten lags.
+// The hyperparameters from which the search begins: a prior under which the output has the variance that was measured,
+// and whose response decays over some ten lags.
 std::vector<Hyper> first_guess(const RegressionProducts& products, const std::vector<KernelBlock>& blocks) {
   std::vector<Hyper> guess;
   for (const KernelBlock& block : blocks) {

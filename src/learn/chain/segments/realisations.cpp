@@ -247,7 +247,7 @@ std::vector<std::vector<MotionPiece*>> by_mode(RealisedSegments& made) {
 
 constexpr std::size_t kKinds = 2;  // of each half
 
-// The halves of segments, and of each its mode and half: mode × 2 + half.
+// Every segment cut into its two halves, and the kind of each half: mode × 2, plus 1 for the second.
 std::pair<std::vector<Segment>, std::vector<std::size_t>> halves_of(const SortedSegments& from) {
   std::vector<Segment> segments;
   std::vector<std::size_t> group;
