@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Makes src/export/flame.png, the picture on the mesh of an exported flame, and prints the colours of a Lottie flame.
+"""Makes src/export/flame.png, the light of the shells of an exported flame, and prints the colours of a Lottie flame.
 
-    tools/flame_picture.py [WIDTH HEIGHT]
+    tools/flame_picture.py [HEIGHT]
 
-Across from -1.75 to 1.75 half widths, along from 0.2 below the base (0) to 0.2 above the tip (1): translucent blue at the
-base, dark around the wick, bright in the middle, orange at the rim and the tip, a faint halo. Profiles as src/draw/flame.
+A column for each shell of src/export/gltf.cpp, the outermost first, a row from the tip (1) to the drop below the base (0).
+Drawn one over the other they are the flame as it is seen across: translucent blue at the base, dark around the wick, bright
+in the middle, orange at the rim and the tip. Profiles as src/draw/flame.
 """
 import math
 import pathlib
@@ -12,7 +13,8 @@ import struct
 import sys
 import zlib
 
-ACROSS, LOW, HIGH, DROP = 1.75, -0.2, 1.2, 0.12
+ACROSS, DROP = 1.75, 0.12
+SHELLS = (1.0, 0.93, 0.82, 0.66, 0.46, 0.22)
 # Emission in terms of the sum that 1 - exp(-x) shows, linear, sRGB's primaries.
 RIM, BODY, CORE, BASE = (1.9, 0.27, 0.014), (3.0, 0.83, 0.07), (3.0, 3.0, 1.6), (0.09, 0.50, 3.0)
 
@@ -49,14 +51,30 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
+def shells(along):
+    """What each shell adds where it is drawn over those around it: sRGB and opacity."""
+    behind, light, columns = 0, [0, 0, 0], []
+    rings = [colour(along, (shell + inner) / 2) for shell, inner in zip(SHELLS, SHELLS[1:] + (0,))]
+    for at, (red, green, blue, seen) in enumerate(rings):
+        # Where it is dark inside, all that lies in front of it is fainter.
+        seen = math.sqrt(seen * min(ring[3] for ring in rings[at:]))
+        through = max(0, 1 - (1 - seen) / (1 - behind)) if behind < 1 else 0
+        wanted = [seen * each for each in (red, green, blue)]
+        added = [min(1, max(0, (each - (1 - through) * old) / through)) if through > 1e-3 else each / max(seen, 1e-6)
+                 for each, old in zip(wanted, light)]
+        light = [through * each + (1 - through) * old for each, old in zip(added, light)]
+        behind = through + (1 - through) * behind
+        columns.append((*added, through))
+    return columns
+
+
 def main():
-    width, height = map(int, sys.argv[1:3] or (48, 96))
+    width, height = len(SHELLS), int((sys.argv[1:] or [96])[0])
     rows = bytearray()
     for y in range(height):
         rows.append(0)
-        for x in range(width):
-            here = colour(HIGH + (LOW - HIGH) * (y + 0.5) / height, ACROSS * (2 * (x + 0.5) / width - 1))
-            rows += bytes(round(255 * each) for each in here)
+        for column in shells(1 - (1 + DROP) * (y + 0.5) / height):
+            rows += bytes(round(255 * min(1, max(0, each))) for each in column)
     png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
     png += chunk(b"IDAT", zlib.compress(bytes(rows), 9)) + chunk(b"IEND", b"")
     pathlib.Path(__file__).resolve().parents[1].joinpath("src/export/flame.png").write_bytes(png)

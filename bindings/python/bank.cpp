@@ -8,9 +8,9 @@
 
 #include "module.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp::python {
 namespace {
@@ -87,6 +87,11 @@ ExtinctionFacet& extinction_of(Bank& bank) {
   throw py::attribute_error("nothing extinguishes this model");
 }
 
+BodyFacet& bodies_of(Bank& bank) {
+  if (BodyFacet* body = bank.body()) return *body;
+  throw py::attribute_error("the model is not in the round");
+}
+
 ChainFacet& chain_of(Bank& bank) {
   if (ChainFacet* chain = bank.chain()) return *chain;
   throw py::attribute_error("the model's dynamics are not a chain");
@@ -110,6 +115,18 @@ py::dict flame(Bank& bank, std::uint64_t instance) {
   all["size"] = state.size;
   all["since_lit"] = age(state.since_lit);
   all["since_out"] = age(state.since_out);
+  all["relit"] = state.relit;
+  all["went_out"] = state.went_out;
+  return all;
+}
+
+py::dict light(const Bank& bank, std::uint64_t instance) {
+  const auto found = bank.light(living(bank, instance));
+  if (!found) throw py::attribute_error("the model's view is not an outline");
+  py::dict all;
+  all["position"] = py::array_t<float>(3, found->position.data());
+  all["intensity"] = found->intensity;
+  all["kelvin"] = found->kelvin;
   return all;
 }
 
@@ -185,7 +202,9 @@ void bind_life(py::class_<Bank>& bank) {
             return py::array_t<float>(static_cast<py::ssize_t>(sizes.size()), sizes.data());
           },
           "0 to 1, what outlines are already multiplied by: slots.")
-      .def("flame", &flame, py::arg("instance"), "lit, size, and seconds since_lit and since_out (None: never).")
+      .def("flame", &flame, py::arg("instance"),
+           "lit, size, seconds since_lit and since_out (None: never); relit, went_out: in the last step or advance.")
+      .def("light", &light, py::arg("instance"), "position, intensity against rest, and kelvin of a flame.")
       .def(
           "relight",
           [](Bank& self, Instance instance) {
@@ -200,12 +219,8 @@ void bind_life(py::class_<Bank>& bank) {
           },
           py::arg("instance") = py::none(), "Puts out one, or all, whatever the wind.")
       .def(
-          "mode",
-          [](const Bank& self, std::uint64_t id) {
-            if (!self.switched()) throw py::attribute_error("the model's dynamics are not switched");
-            return self.switched()->mode_of(living(self, id));
-          },
-          py::arg("instance"), "The mode of a switched model that made the newest sample; None before the first.");
+          "mode", [](const Bank& self, std::uint64_t id) { return self.mode(living(self, id)); }, py::arg("instance"),
+          "The mode of a switched model that made the newest sample; None before the first.");
 }
 
 void bind_chain(py::class_<Bank>& bank) {
@@ -237,9 +252,18 @@ void bind_chain(py::class_<Bank>& bank) {
           "chain_place",
           [](Bank& self, std::uint64_t id) {
             const ChainPlace place = *chain_of(self).place_of(living(self, id));
-            return py::make_tuple(place.segment, place.step, place.mode);
+            py::dict all;
+            all["segment"] = place.segment;
+            all["step"] = place.step;
+            all["mode"] = place.mode;
+            all["velocity"] = py::array_t<float>(3, place.velocity.data());
+            all["spin"] = py::array_t<float>(3, place.spin.data());
+            all["lies"] = place.lies;
+            all["landed"] = place.landed;
+            return all;
           },
-          py::arg("instance"), "Segment, step in it, and mode.")
+          py::arg("instance"),
+          "segment, step, mode; velocity and spin over the last step; lies, landed: on the ground.")
       .def_property(
           "ground", [](Bank& self) { return chain_of(self).ground(); },
           [](Bank& self, std::optional<float> height) { chain_of(self).set_ground(height); },
@@ -282,6 +306,36 @@ void bind_time(py::class_<Bank>& bank) {
           },
           py::arg("out") = py::none(), py::arg("instance") = py::none(),
           "slots x points x 2, or one instance's; into `out` where it is given.")
+      .def(
+          "look", [](Bank& self, float right_x, float right_z) { bodies_of(self).look(right_x, right_z); },
+          py::arg("right_x"), py::arg("right_z"),
+          "In the round: outputs and outlines as a level camera sees them whose right is (x, z), of length 1.")
+      .def(
+          "rings",
+          [](Bank& self, std::uint64_t instance) {
+            auto array = room(py::none(), Shape{bodies_of(self).rings(), static_cast<int>(kRingNumbers)});
+            bodies_of(self).read_rings(living(self, instance), values_of(array));
+            return array;
+          },
+          py::arg("instance"),
+          "In the round: rings x 6 from the base to the tip: the middle's x, y, z, the radius, its rise to its rim "
+          "towards "
+          "+x and +z.")
+      .def(
+          "mesh",
+          [](Bank& self, std::uint64_t instance, int segments) {
+            if (segments < 3 || segments > 256) throw py::value_error("segments: expected 3 to 256");
+            const int count = bodies_of(self).rings();
+            std::vector<float> rings(static_cast<std::size_t>(count) * kRingNumbers);
+            bodies_of(self).read_rings(living(self, instance), rings);
+            auto array = room(py::none(), Shape{count * segments, static_cast<int>(kVertexNumbers)});
+            ring_mesh(rings, segments, values_of(array));
+            py::array_t<std::uint32_t> triangles({ring_triangle_count(count, segments), 3});
+            ring_triangles(count, segments, {triangles.mutable_data(), static_cast<std::size_t>(triangles.size())});
+            return py::make_tuple(array, triangles);
+          },
+          py::arg("instance"), py::arg("segments") = 16,
+          "In the round: vertices x (place, normal), and triangles x 3, anticlockwise from outside.")
       .def_property(
           "threads", [](const py::object& self) { return py::getattr(self, "_threads", py::int_(1)); },
           [](const py::object& self, int count) {
@@ -298,15 +352,19 @@ void bind_banks(py::module_& module) {
   py::class_<Bank> bank(module, "Bank", "Living instances of one model, stepped together. Rows of arrays are slots.",
                         py::dynamic_attr());
   bank.def(py::init([](const Model& model, int instances, std::uint64_t seed, int polyline_points,
-                       std::optional<int> capacity) {
+                       std::optional<int> capacity, double longest_advance) {
+             const std::chrono::nanoseconds longest(
+                 static_cast<std::int64_t>(std::clamp(longest_advance, -1.0, 100.0) * 1e9));
              Bank made = unwrapped(Bank::create(model, {.capacity = std::max(instances, capacity.value_or(instances)),
                                                         .seed = seed,
-                                                        .polyline_points = polyline_points}));
+                                                        .polyline_points = polyline_points,
+                                                        .longest_advance = longest}));
              for (int k = 0; k < instances; ++k) made.spawn();
              return made;
            }),
            py::arg("model"), py::arg("instances") = 1, py::kw_only(), py::arg("seed") = 1,
-           py::arg("polyline_points") = 32, py::arg("capacity") = py::none())
+           py::arg("polyline_points") = 32, py::arg("capacity") = py::none(), py::arg("longest_advance") = 10.0,
+           "longest_advance: seconds that advance() lets pass at most.")
       .def_property_readonly("slots", &Bank::slots, "Rows of arrays: one more than the highest slot in use.")
       .def_property_readonly("size", &Bank::size, "Instances alive.")
       .def_property_readonly("capacity", &Bank::capacity)

@@ -118,9 +118,13 @@ void export_to(const Model& model, const std::filesystem::path& path, double sec
     return unwrap(write_file(path, lamp.source));
   }
   if (kind != ".glb" && kind != ".json") throw Failure(path.string() + ": expected a name in .glb, .json or .c");
-  const auto taken = unwrapped(
-      take(model,
-           {.seconds = seconds, .loop = loop, .instances = instances, .seed = seed, .noise = noise, .inputs = inputs}));
+  const auto taken = unwrapped(take(model, {.seconds = seconds,
+                                            .loop = loop,
+                                            .instances = instances,
+                                            .seed = seed,
+                                            .noise = noise,
+                                            .inputs = inputs,
+                                            .round = kind == ".glb"}));
   if (kind == ".glb") return unwrap(write_file(path, unwrapped(gltf_bytes(model, taken))));
   unwrap(write_file(path, unwrapped(lottie_text(model, taken))));
 }
@@ -155,6 +159,9 @@ void bind_models(py::module_& module) {
       .def_property_readonly(
           "noise_sd", [](const Model& self) { return arx_of(self)[0].noise.sd; },
           "Standard deviation of each output's own noise.")
+      .def(
+          "in_the_round", [](const Model& self) { return unwrapped(in_the_round(self)); },
+          "The same flame in the round, by rotational symmetry: its wind is x and z.")
       .def("export", &export_to, py::arg("path"), py::kw_only(), py::arg("seconds") = 4.0, py::arg("loop") = false,
            py::arg("instances") = 1, py::arg("seed") = 1, py::arg("noise") = true,
            py::arg("inputs") = std::vector<double>{}, py::call_guard<py::gil_scoped_release>(),

@@ -59,7 +59,7 @@ namespace Wisp
         [StructLayout(LayoutKind.Sequential)]
         internal struct BankOptions
         {
-            public uint Size, Capacity, PolylinePoints, Reserved;
+            public uint Size, Capacity, PolylinePoints, Longest;
             public ulong Seed;
             public IntPtr Memory;
             public UIntPtr MemorySize;
@@ -77,8 +77,9 @@ namespace Wisp
         {
             public uint Size, Lit;
             public float FlameSize;
-            public uint Reserved;
+            public uint Events;
             public long SinceLit, SinceOut;
+            public float X, Y, Z, Intensity, Kelvin;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -114,6 +115,8 @@ namespace Wisp
         internal struct Place
         {
             public uint Size, Segment, Step, Mode;
+            public float VelocityX, VelocityY, VelocityZ, SpinX, SpinY, SpinZ;
+            public uint Lies, Landed;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -166,6 +169,11 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_instance_outputs(IntPtr bank, ulong instance, float[] values, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_polylines(IntPtr bank, float[] values, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_polyline(IntPtr bank, ulong instance, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_in_the_round(IntPtr model, out IntPtr round);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_look(IntPtr bank, float rightX, float rightZ);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_rings(IntPtr bank, ulong instance, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_ring_mesh(float[] rings, uint count, uint segments, float[] numbers, UIntPtr room, UIntPtr stride);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_ring_triangles(uint rings, uint segments, uint[] indices, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_get_flame_state(IntPtr bank, ulong instance, ref FlameState state);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_relight(IntPtr bank, ulong instance);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_extinguish(IntPtr bank, ulong instance);
@@ -265,8 +273,28 @@ namespace Wisp
         public Model(byte[] bytes)
         {
             Native.Check(Native.wisp_model_load(bytes, Native.Count(bytes), out Handle));
+            ReadFacts();
+        }
+
+        private Model(IntPtr handle)
+        {
+            Handle = handle;
+            ReadFacts();
+        }
+
+        private void ReadFacts()
+        {
             facts.Size = (uint)Marshal.SizeOf(typeof(Native.ModelFacts));
             Native.Check(Native.wisp_model_get_facts(Handle, ref facts));
+        }
+
+        /// <summary>The same flame in the round, by rotational symmetry: its wind is x, to the right of the camera that
+        /// filmed it, and z, towards that camera. A new model, to be disposed of.</summary>
+        public Model InTheRound()
+        {
+            IntPtr round;
+            Native.Check(Native.wisp_model_in_the_round(Handle, out round));
+            return new Model(round);
         }
 
         public static Model Read(string path)
@@ -349,6 +377,18 @@ namespace Wisp
     public struct ChainPlace
     {
         public int Segment, Step, Mode;
+        /// <summary>Over the last step: metres and radians a second, z up.</summary>
+        public float VelocityX, VelocityY, VelocityZ, SpinX, SpinY, SpinZ;
+        /// <summary>At rest on the ground; touched it in the last Step or Advance.</summary>
+        public bool Lies, Landed;
+    }
+
+    /// <summary>A flame as a light: where, in the outline's units, its intensity against rest and its colour
+    /// temperature (Unity: Light.colorTemperature); and what happened to it in the last Step or Advance.</summary>
+    public struct FlameState
+    {
+        public bool Lit, WentOut, Relit;
+        public float X, Y, Z, Intensity, Kelvin;
     }
 
     /// <summary>Living instances of one model, stepped together. Bulk arrays have a row for each slot.</summary>
@@ -356,12 +396,14 @@ namespace Wisp
     {
         private IntPtr handle;
 
-        public Bank(Model model, int capacity = 1, ulong seed = 1, int polylinePoints = 32)
+        /// <summary>Advance lets no more than `longest` seconds pass at once.</summary>
+        public Bank(Model model, int capacity = 1, ulong seed = 1, int polylinePoints = 32, double longest = 10)
         {
             Native.BankOptions options = Native.wisp_bank_default_options();
             options.Capacity = (uint)capacity;
             options.Seed = seed;
             options.PolylinePoints = (uint)polylinePoints;
+            options.Longest = (uint)Math.Max(1, Math.Round(longest * 1000));
             Native.Check(Native.wisp_bank_create(model.Handle, ref options, out handle));
         }
 
@@ -445,13 +487,28 @@ namespace Wisp
         public void Polylines(float[] values) { Native.Check(Native.wisp_bank_polylines(handle, values, Native.Count(values))); }
         public void Polyline(ulong instance, float[] values) { Native.Check(Native.wisp_bank_polyline(handle, instance, values, Native.Count(values))); }
 
-        /// <summary>Whether an instance burns; for models with extinction only.</summary>
-        public bool IsLit(ulong instance)
+        /// <summary>In the round: outputs and outlines as a level camera sees them whose right is (x, z), of length 1.</summary>
+        public void Look(float rightX, float rightZ) { Native.Check(Native.wisp_bank_look(handle, rightX, rightZ)); }
+
+        /// <summary>In the round: (points + 1) / 2 rings from the base to the tip, six numbers each: the middle's x, y, z, the
+        /// radius, and by how much it rises to its rim towards +x and +z.</summary>
+        public void Rings(ulong instance, float[] values) { Native.Check(Native.wisp_bank_rings(handle, instance, values, Native.Count(values))); }
+
+        /// <summary>The surface of rings: rings x segments vertices of place and normal, `stride` numbers apart; and three
+        /// indices for each of its 2 x rings x segments - 4 triangles, anticlockwise from outside. Unity turns its triangles
+        /// clockwise and its z away: negate z, or swap two indices.</summary>
+        public static void Mesh(float[] rings, int segments, float[] numbers, int stride = 6) { Native.Check(Native.wisp_ring_mesh(rings, (uint)(rings.Length / 6), (uint)segments, numbers, Native.Count(numbers), (UIntPtr)stride)); }
+        public static void Triangles(int rings, int segments, uint[] indices) { Native.Check(Native.wisp_ring_triangles((uint)rings, (uint)segments, indices, Native.Count(indices))); }
+
+        /// <summary>Whether an instance burns, its light, and what happened to it.</summary>
+        public FlameState Flame(ulong instance)
         {
             var state = new Native.FlameState { Size = (uint)Marshal.SizeOf(typeof(Native.FlameState)) };
             Native.Check(Native.wisp_bank_get_flame_state(handle, instance, ref state));
-            return state.Lit != 0;
+            return new FlameState { Lit = state.Lit != 0, WentOut = (state.Events & 1) != 0, Relit = (state.Events & 2) != 0, X = state.X, Y = state.Y, Z = state.Z, Intensity = state.Intensity, Kelvin = state.Kelvin };
         }
+
+        public bool IsLit(ulong instance) { return Flame(instance).Lit; }
 
         /// <summary>0 to 1, what outlines are already multiplied by: slots.</summary>
         public void FlameSizes(float[] values) { Native.Check(Native.wisp_bank_flame_sizes(handle, values, Native.Count(values))); }
@@ -476,7 +533,13 @@ namespace Wisp
         {
             var place = new Native.Place { Size = (uint)Marshal.SizeOf(typeof(Native.Place)) };
             Native.Check(Native.wisp_bank_get_chain_place(handle, instance, ref place));
-            return new ChainPlace { Segment = (int)place.Segment, Step = (int)place.Step, Mode = (int)place.Mode };
+            return new ChainPlace
+            {
+                Segment = (int)place.Segment, Step = (int)place.Step, Mode = (int)place.Mode,
+                VelocityX = place.VelocityX, VelocityY = place.VelocityY, VelocityZ = place.VelocityZ,
+                SpinX = place.SpinX, SpinY = place.SpinY, SpinZ = place.SpinZ,
+                Lies = place.Lies != 0, Landed = place.Landed != 0
+            };
         }
 
         /// <summary>Steers an instance to a place, in metres, that it is to reach in so many seconds; Release ends that.</summary>

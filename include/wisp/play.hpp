@@ -11,6 +11,5 @@
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 #include "wisp/sound/wind_level.hpp"
 #include "wisp/sound/wind_track.hpp"

@@ -80,6 +80,10 @@ WISP_API wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model*
 /* Frees a model; banks made from it live on. NULL is fine. */
 WISP_API void wisp_model_free(wisp_model* model);
 
+/* A flame in the round, by rotational symmetry, as a model of its own: its wind is two inputs, x to the right of the
+ * camera that filmed it and z towards that camera. */
+WISP_API wisp_status wisp_model_in_the_round(const wisp_model* model, wisp_model** round);
+
 /* What moves the outputs. */
 enum {
   WISP_DYNAMICS_ARX = 1,     /* autoregression with exogenous inputs */
@@ -228,7 +232,7 @@ typedef struct wisp_bank_options {
   uint32_t size;            /* sizeof(wisp_bank_options), set by the caller */
   uint32_t capacity;        /* most instances alive at once, 1 to 1048576; 0: 1 */
   uint32_t polyline_points; /* 2 to 4096; 0: 32 */
-  uint32_t reserved;        /* 0 */
+  uint32_t longest;         /* milliseconds that wisp_bank_advance() lets pass at most, 1 to 10000; 0: 10000 */
   uint64_t seed;            /* of all random streams of the bank; as it is, 0 too */
   void* memory;             /* where the bank lives; NULL: it allocates once, when it is made */
   size_t memory_size;       /* at least wisp_bank_bytes() */
@@ -297,7 +301,7 @@ WISP_API wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
 WISP_API wisp_status wisp_bank_step(wisp_bank* bank);
 
 /* Lets time pass and shows what lies between the last two steps, one step late. Negative time counts as none, more than
- * ten seconds as ten. Sets *steps, unless NULL, to the steps made. */
+ * the option `longest` as that. Sets *steps, unless NULL, to the steps made. */
 WISP_API wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int32_t* steps);
 
 /* The same with seconds; what is not a number counts as none. */
@@ -327,17 +331,34 @@ WISP_API wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_inst
 WISP_API wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t count);
 WISP_API wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
+/* Of a model in the round: outputs and outlines are seen, level, by a camera whose right is (x, z), of length 1. Rings
+ * of an instance, (polyline_points + 1) / 2 times 6 numbers from the base to the tip: the middle's x, y, z, the radius,
+ * and by how much it rises to its rim towards +x and +z. */
+WISP_API wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_z);
+WISP_API wisp_status wisp_bank_rings(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
+
+/* The surface of `rings` rings: rings * segments vertices, place and normal, `stride` numbers apart, segments from 3 to
+ * 256; and 2 * rings * segments - 4 triangles of three indices, anticlockwise from outside, the same in all frames. */
+WISP_API wisp_status wisp_ring_mesh(const float* rings, uint32_t count, uint32_t segments, float* numbers, size_t room,
+                                    size_t stride);
+WISP_API wisp_status wisp_ring_triangles(uint32_t rings, uint32_t segments, uint32_t* indices, size_t count);
+
 /* Whether an instance burns. Those of a model with a blow_out_level go out when the wind is too strong for too long,
  * and stay out whatever the wind does then. Outputs and outlines shrink to 0 by themselves; for smoke and ember there
- * is the time since, in nanoseconds of what is shown, or WISP_NEVER. */
+ * is the time since, in nanoseconds of what is shown, or WISP_NEVER. Of an outline, the light too. */
+#define WISP_WENT_OUT 1u
+#define WISP_RELIT 2u
 #define WISP_NEVER INT64_MAX
 typedef struct wisp_flame_state {
-  uint32_t size;    /* sizeof(wisp_flame_state), set by the caller */
-  uint32_t lit;     /* 1 or 0 */
-  float flame_size; /* 0 to 1: what outputs are already multiplied by */
-  uint32_t reserved;
+  uint32_t size;     /* sizeof(wisp_flame_state), set by the caller */
+  uint32_t lit;      /* 1 or 0 */
+  float flame_size;  /* 0 to 1: what outputs are already multiplied by */
+  uint32_t events;   /* sum of the above: in the last call of step or advance, or by hand since */
   int64_t since_lit; /* since it was last lit again; one that was spawned lit was not */
   int64_t since_out; /* since it last went out */
+  float light[3];    /* the middle of its outline, x, y, and z in the round */
+  float intensity;   /* its area against that at rest */
+  float kelvin;      /* colour temperature: 1900 at rest, redder where it is less */
 } wisp_flame_state;
 
 WISP_API wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state);
@@ -352,12 +373,16 @@ WISP_API wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instanc
 
 /* ---- Instances of a chain: things that fall, drift or fly. WISP_BAD_ARGUMENT where the dynamics are no chain ---- */
 
-/* Where in its chain an instance is. */
+/* Where in its chain an instance is, and how it moves. */
 typedef struct wisp_chain_place {
-  uint32_t size;    /* sizeof(wisp_chain_place), set by the caller */
-  uint32_t segment; /* that is played; */
-  uint32_t step;    /* how far: at 0 it was joined to the one before */
-  uint32_t mode;    /* of the segment */
+  uint32_t size;     /* sizeof(wisp_chain_place), set by the caller */
+  uint32_t segment;  /* that is played; */
+  uint32_t step;     /* how far: at 0 it was joined to the one before */
+  uint32_t mode;     /* of the segment */
+  float velocity[3]; /* over the last step, metres a second */
+  float spin[3];     /* radians a second, world axes */
+  uint32_t lies;     /* 1: at rest on the ground */
+  uint32_t landed;   /* 1: touched it in the last call of step or advance, the last 0.35 s of a longer one */
 } wisp_chain_place;
 
 WISP_API wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);

@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 
 #include "c/boundary.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
@@ -35,6 +37,7 @@ std::optional<wisp::BankOptions> options_of(const char* function, const wisp_ban
   };
   wisp::BankOptions options{.capacity = whole(known.capacity, 1), .seed = known.seed};
   options.polyline_points = whole(known.polyline_points, options.polyline_points);
+  if (known.longest > 0) options.longest_advance = std::chrono::milliseconds(known.longest);
   if (known.memory) options.memory = {static_cast<std::byte*>(known.memory), known.memory_size};
   return options;
 }
@@ -51,32 +54,50 @@ bool has_outline(const char* function, const wisp_bank* bank) {
   return false;
 }
 
-// Returns the bank's extinction, or the error that it has none.
-wisp::ExtinctionFacet* extinction_of(const char* function, wisp_bank* bank) {
-  wisp::ExtinctionFacet* extinction = bank->bank.extinction();
-  if (!extinction) fail(WISP_BAD_ARGUMENT, "%s: the model has no rule of extinction", function);
-  return extinction;
-}
-
 // A model without extinction always burns.
 std::optional<wisp::LitState> state_of(const wisp_bank* bank, InstanceId id) {
   if (const wisp::ExtinctionFacet* extinction = bank->bank.extinction()) return extinction->state_of(id);
   return bank->bank.valid(id) ? std::optional<wisp::LitState>(wisp::LitState{}) : std::nullopt;
 }
 
-// Calls use(chain) with the bank's chain (const for a const bank); what it returns, if anything, is the outcome.
-template <class Handle, class Use>
-wisp_status on_chain(const char* function, Handle* bank, Use use) {
+// Calls use(facet) with what facet_of(bank) is, or says what the model lacks. That nothing is returned is fine, false
+// is an instance that is not alive.
+template <class Handle, class FacetOf, class Use>
+wisp_status on_facet(const char* function, Handle* bank, const char* lacks, FacetOf facet_of, Use use) {
   if (!bank) return null_argument(function);
-  auto* chain = bank->bank.chain();
-  if (!chain) return fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not a chain", function);
-  if constexpr (std::is_void_v<decltype(use(*chain))>) {
-    use(*chain);
+  auto* facet = facet_of(bank->bank);
+  using Outcome = decltype(use(*facet));
+  if (!facet) return fail(WISP_BAD_ARGUMENT, "%s: the model%s", function, lacks);
+  if constexpr (std::is_void_v<Outcome>) {
+    use(*facet);
     return WISP_OK;
+  } else if constexpr (std::is_same_v<Outcome, bool>) {
+    return use(*facet) ? wisp_status{WISP_OK} : not_alive(function);
   } else {
-    return use(*chain);
+    return use(*facet);
   }
 }
+
+template <class Handle, class Use>
+wisp_status on_chain(const char* function, Handle* bank, Use use) {
+  return on_facet(
+      function, bank, "'s dynamics are not a chain", [](auto& living) { return living.chain(); }, use);
+}
+
+template <class Use>
+wisp_status on_extinction(const char* function, wisp_bank* bank, Use use) {
+  return on_facet(
+      function, bank, " has no rule of extinction", [](auto& living) { return living.extinction(); }, use);
+}
+
+template <class Handle, class Use>
+wisp_status on_body(const char* function, Handle* bank, Use use) {
+  return on_facet(
+      function, bank, " is not in the round", [](auto& living) { return living.body(); }, use);
+}
+
+constexpr const char* kNoSurface =
+    "%s: expected 2 rings or more of 3 to 256 segments, a stride of 6 or more, and room for all";
 
 }  // namespace
 
@@ -117,19 +138,17 @@ wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* o
 void wisp_bank_free(wisp_bank* bank) { delete bank; }
 
 wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts) {
-  if (!bank || !facts) return null_argument(__func__);
-  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, bank, facts)) return WISP_BAD_ARGUMENT;
   const wisp::Bank& b = bank->bank;
-  hand_out(wisp_bank_facts{.capacity = static_cast<uint32_t>(b.capacity()),
-                           .alive = static_cast<uint32_t>(b.size()),
-                           .slots = static_cast<uint32_t>(b.slots()),
-                           .inputs = static_cast<uint32_t>(b.input_count()),
-                           .outputs = static_cast<uint32_t>(b.output_count()),
-                           .polyline_points = static_cast<uint32_t>(b.polyline_points()),
-                           .clamped = b.clamped().clamped,
-                           .steps = b.clamped().steps},
-           facts);
-  return WISP_OK;
+  return hand_out(wisp_bank_facts{.capacity = static_cast<uint32_t>(b.capacity()),
+                                  .alive = static_cast<uint32_t>(b.size()),
+                                  .slots = static_cast<uint32_t>(b.slots()),
+                                  .inputs = static_cast<uint32_t>(b.input_count()),
+                                  .outputs = static_cast<uint32_t>(b.output_count()),
+                                  .polyline_points = static_cast<uint32_t>(b.polyline_points()),
+                                  .clamped = b.clamped().clamped,
+                                  .steps = b.clamped().steps},
+                  facts);
 }
 
 wisp_status wisp_bank_spawn(wisp_bank* bank, wisp_instance* instance) {
@@ -256,17 +275,47 @@ wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, fl
   return bank->bank.polyline(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
 }
 
+wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_z) {
+  return on_body(__func__, bank, [&](wisp::BodyFacet& body) { body.look(right_x, right_z); });
+}
+
+wisp_status wisp_bank_rings(const wisp_bank* bank, wisp_instance instance, float* values, size_t count) {
+  const char* const call = __func__;
+  return on_body(call, bank, [&](const wisp::BodyFacet& body) {
+    const std::size_t expected = static_cast<std::size_t>(body.rings()) * wisp::kRingNumbers;
+    if (!buffer_is_right(call, values, count, expected)) return wisp_status{WISP_BAD_ARGUMENT};
+    return body.read_rings(id_of(instance), {values, count}) ? wisp_status{WISP_OK} : not_alive(call);
+  });
+}
+
+wisp_status wisp_ring_mesh(const float* rings, uint32_t count, uint32_t segments, float* numbers, size_t room,
+                           size_t stride) {
+  if (!rings || !numbers) return null_argument(__func__);
+  const std::span all(rings, count * wisp::kRingNumbers);
+  const bool fine = wisp::ring_mesh(all, static_cast<int>(segments), {numbers, room}, stride);
+  return fine ? WISP_OK : fail(WISP_BAD_ARGUMENT, kNoSurface, __func__);
+}
+
+wisp_status wisp_ring_triangles(uint32_t rings, uint32_t segments, uint32_t* indices, size_t count) {
+  if (!indices) return null_argument(__func__);
+  const bool fine = wisp::ring_triangles(static_cast<int>(rings), static_cast<int>(segments), {indices, count});
+  return fine ? WISP_OK : fail(WISP_BAD_ARGUMENT, kNoSurface, __func__);
+}
+
 wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state) {
-  if (!bank || !state) return null_argument(__func__);
-  if (!size_is_right(__func__, state->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, bank, state)) return WISP_BAD_ARGUMENT;
   const auto found = state_of(bank, id_of(instance));
   if (!found) return not_alive(__func__);
-  hand_out(wisp_flame_state{.lit = found->lit ? 1U : 0U,
-                            .flame_size = found->size,
-                            .since_lit = found->since_lit.count(),
-                            .since_out = found->since_out.count()},
-           state);
-  return WISP_OK;
+  const wisp::FlameLight light = bank->bank.light(id_of(instance)).value_or(wisp::FlameLight{});
+  return hand_out(wisp_flame_state{.lit = found->lit ? 1U : 0U,
+                                   .flame_size = found->size,
+                                   .events = (found->went_out ? WISP_WENT_OUT : 0) | (found->relit ? WISP_RELIT : 0),
+                                   .since_lit = found->since_lit.count(),
+                                   .since_out = found->since_out.count(),
+                                   .light = {light.position[0], light.position[1], light.position[2]},
+                                   .intensity = light.intensity,
+                                   .kelvin = light.kelvin},
+                  state);
 }
 
 wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count) {
@@ -281,17 +330,11 @@ wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t c
 }
 
 wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance) {
-  if (!bank) return null_argument(__func__);
-  wisp::ExtinctionFacet* extinction = extinction_of(__func__, bank);
-  if (!extinction) return WISP_BAD_ARGUMENT;
-  return extinction->relight(id_of(instance)) ? WISP_OK : not_alive(__func__);
+  return on_extinction(__func__, bank, [&](auto& extinction) { return extinction.relight(id_of(instance)); });
 }
 
 wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance) {
-  if (!bank) return null_argument(__func__);
-  wisp::ExtinctionFacet* extinction = extinction_of(__func__, bank);
-  if (!extinction) return WISP_BAD_ARGUMENT;
-  return extinction->extinguish(id_of(instance)) ? WISP_OK : not_alive(__func__);
+  return on_extinction(__func__, bank, [&](auto& extinction) { return extinction.extinguish(id_of(instance)); });
 }
 
 wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance) {
@@ -327,21 +370,20 @@ wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size) {
 }
 
 wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place) {
-  if (!bank || !place) return null_argument(__func__);
   const char* const call = __func__;  // within a lambda __func__ is operator()
-  if (!size_is_right(call, place->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(call, bank, place)) return WISP_BAD_ARGUMENT;
   return on_chain(call, bank, [&](const wisp::ChainFacet& chain) {
     const auto found = chain.place_of(id_of(instance));
     if (!found) return not_alive(call);
-    hand_out(wisp_chain_place{sizeof(wisp_chain_place), found->segment, found->step, found->mode}, place);
-    return wisp_status{WISP_OK};
+    const auto& [segment, step, mode, v, w, lies, landed] = *found;
+    return hand_out(wisp_chain_place{0, segment, step, mode, {v[0], v[1], v[2]}, {w[0], w[1], w[2]}, lies, landed},
+                    place);
   });
 }
 
 wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body) {
-  if (!bank || !body) return null_argument(__func__);
   const char* const call = __func__;
-  if (!size_is_right(call, body->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(call, bank, body)) return WISP_BAD_ARGUMENT;
   return on_chain(call, bank, [&](wisp::ChainFacet& chain) {
     if (!bank->bank.valid(id_of(instance))) return not_alive(call);
     wisp_body known{};
@@ -355,9 +397,8 @@ wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_
 }
 
 wisp_status wisp_bank_steer(wisp_bank* bank, wisp_instance instance, const wisp_target* target) {
-  if (!bank || !target) return null_argument(__func__);
   const char* const call = __func__;
-  if (!size_is_right(call, target->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(call, bank, target)) return WISP_BAD_ARGUMENT;
   return on_chain(call, bank, [&](wisp::ChainFacet& chain) {
     if (!bank->bank.valid(id_of(instance))) return not_alive(call);
     wisp_target known{};
@@ -371,10 +412,7 @@ wisp_status wisp_bank_steer(wisp_bank* bank, wisp_instance instance, const wisp_
 }
 
 wisp_status wisp_bank_release(wisp_bank* bank, wisp_instance instance) {
-  const char* const call = __func__;
-  return on_chain(call, bank, [&](wisp::ChainFacet& chain) {
-    return chain.release(id_of(instance)) ? wisp_status{WISP_OK} : not_alive(call);
-  });
+  return on_chain(__func__, bank, [&](wisp::ChainFacet& chain) { return chain.release(id_of(instance)); });
 }
 
 int32_t wisp_bank_can_steer(const wisp_bank* bank) {
@@ -394,8 +432,7 @@ wisp_status wisp_bank_clear_ground(wisp_bank* bank) {
 }
 
 wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings) {
-  if (!bank || !settings) return null_argument(__func__);
-  if (!size_is_right(__func__, settings->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, bank, settings)) return WISP_BAD_ARGUMENT;
   return on_chain(__func__, bank, [&](const wisp::ChainFacet& chain) {
     const auto ground = chain.ground();
     hand_out(wisp_chain_settings{.has_ground = ground ? 1U : 0U, .ground = ground.value_or(0.0f)}, settings);

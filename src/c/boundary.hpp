@@ -57,6 +57,14 @@ bool index_is_right(const char* function, std::uint32_t index, std::size_t count
 /// Checks the size field of a struct; stores an error otherwise.
 bool size_is_right(const char* function, std::uint32_t size);
 
+/// The same of what a function is given: a handle and a struct, neither null.
+template <class Handle, class Struct>
+bool struct_is_right(const char* function, const Handle* handle, const Struct* given) {
+  if (handle && given) return size_is_right(function, given->size);
+  null_argument(function);
+  return false;
+}
+
 /// Runs a function that may throw for lack of memory, and for nothing else. Without exceptions, lack of memory ends the
 /// program.
 template <class Work>
@@ -75,11 +83,12 @@ wisp_status guarded(const char* function, Work work) {
 #endif
 }
 
-/// Fills a struct of a caller compiled against an older or newer version of it.
+/// Fills a struct of a caller compiled against an older or newer version of it; returns that this is fine.
 template <class Struct>
-void hand_out(Struct filled, Struct* out) {
+wisp_status hand_out(Struct filled, Struct* out) {
   filled.size = out->size;
   std::memcpy(out, &filled, std::min<std::size_t>(out->size, sizeof(Struct)));
+  return WISP_OK;
 }
 
 /// Copies the fields that the caller of `given` knows into `known`, which holds the defaults.

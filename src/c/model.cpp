@@ -24,8 +24,7 @@ wisp_status hand_out_channel(const char* function, const Channels& channels, std
   if constexpr (requires { channel.shape; }) {
     filled.splits_sign = wisp::splits_sign(channel.shape) ? 1 : 0;
   }
-  hand_out(filled, out);
-  return WISP_OK;
+  return hand_out(filled, out);
 }
 
 void describe(const wisp::PlainView&, wisp_model_facts& facts) { facts.view = WISP_VIEW_PLAIN; }
@@ -92,9 +91,18 @@ wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model) 
 
 void wisp_model_free(wisp_model* model) { delete model; }
 
+wisp_status wisp_model_in_the_round(const wisp_model* model, wisp_model** round) {
+  if (!model || !round) return null_argument(__func__);
+  return guarded(__func__, [&]() -> wisp_status {
+    auto made = wisp::in_the_round(model->model);
+    if (!made) return fail(WISP_BAD_ARGUMENT, made.error());
+    *round = new wisp_model{std::move(made).value()};
+    return WISP_OK;
+  });
+}
+
 wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* facts) {
-  if (!model || !facts) return null_argument(__func__);
-  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, model, facts)) return WISP_BAD_ARGUMENT;
   wisp_model_facts filled{};
   filled.inputs = static_cast<uint32_t>(model->model.inputs.size());
   filled.outputs = static_cast<uint32_t>(model->model.outputs.size());
@@ -106,8 +114,7 @@ wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* fact
   filled.dynamics = std::visit([](const auto& dynamics) { return kind_of(dynamics); }, model->model.dynamics);
   std::visit([&](const auto& view) { describe(view, filled); }, model->model.view);
   if (model->model.extinction) describe(*model->model.extinction, filled);
-  hand_out(filled, facts);
-  return WISP_OK;
+  return hand_out(filled, facts);
 }
 
 wisp_status wisp_model_get_input(const wisp_model* model, uint32_t index, wisp_channel* channel) {
@@ -123,17 +130,15 @@ wisp_status wisp_model_get_output(const wisp_model* model, uint32_t index, wisp_
 const char* wisp_model_name(const wisp_model* model) { return model ? model->model.name.c_str() : ""; }
 
 wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* provenance) {
-  if (!model || !provenance) return null_argument(__func__);
-  if (!size_is_right(__func__, provenance->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, model, provenance)) return WISP_BAD_ARGUMENT;
   const wisp::Training& made = model->model.training;
-  hand_out(wisp_provenance{.sources = static_cast<uint32_t>(made.sources.size()),
-                           .options = static_cast<uint32_t>(made.recipe.size()),
-                           .figures = static_cast<uint32_t>(made.figures.size()),
-                           .usable = made.usable.verdict ? 1U : 0U,
-                           .program = made.program.c_str(),
-                           .reason = made.usable.reason.c_str()},
-           provenance);
-  return WISP_OK;
+  return hand_out(wisp_provenance{.sources = static_cast<uint32_t>(made.sources.size()),
+                                  .options = static_cast<uint32_t>(made.recipe.size()),
+                                  .figures = static_cast<uint32_t>(made.figures.size()),
+                                  .usable = made.usable.verdict ? 1U : 0U,
+                                  .program = made.program.c_str(),
+                                  .reason = made.usable.reason.c_str()},
+                  provenance);
 }
 
 wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const char** name) {
@@ -149,8 +154,7 @@ wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_
   const auto& options = model->model.training.recipe;
   if (!size_is_right(__func__, option->size)) return WISP_BAD_ARGUMENT;
   if (!index_is_right(__func__, index, options.size())) return WISP_BAD_ARGUMENT;
-  hand_out(wisp_note{.name = options[index].name.c_str(), .value = options[index].value.c_str()}, option);
-  return WISP_OK;
+  return hand_out(wisp_note{.name = options[index].name.c_str(), .value = options[index].value.c_str()}, option);
 }
 
 wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_figure* figure) {
@@ -158,21 +162,18 @@ wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_
   const auto& figures = model->model.training.figures;
   if (!size_is_right(__func__, figure->size)) return WISP_BAD_ARGUMENT;
   if (!index_is_right(__func__, index, figures.size())) return WISP_BAD_ARGUMENT;
-  hand_out(wisp_figure{.name = figures[index].name.c_str(), .value = figures[index].value}, figure);
-  return WISP_OK;
+  return hand_out(wisp_figure{.name = figures[index].name.c_str(), .value = figures[index].value}, figure);
 }
 
 wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
-  if (!model || !facts) return null_argument(__func__);
-  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, model, facts)) return WISP_BAD_ARGUMENT;
   return on_dynamics<wisp::ArxModel>(__func__, model, [&](const wisp::ArxModel& arx) {
-    hand_out(wisp_arx_facts{.outputs = static_cast<uint32_t>(arx.orders.outputs()),
-                            .regressors = static_cast<uint32_t>(arx.orders.inputs()),
-                            .history = static_cast<uint32_t>(arx.orders.history()),
-                            .shocks = static_cast<uint32_t>(arx.noise.rank),
-                            .resamples = arx.noise.resampled.empty() ? 0U : 1U},
-             facts);
-    return wisp_status{WISP_OK};
+    return hand_out(wisp_arx_facts{.outputs = static_cast<uint32_t>(arx.orders.outputs()),
+                                   .regressors = static_cast<uint32_t>(arx.orders.inputs()),
+                                   .history = static_cast<uint32_t>(arx.orders.history()),
+                                   .shocks = static_cast<uint32_t>(arx.noise.rank),
+                                   .resamples = arx.noise.resampled.empty() ? 0U : 1U},
+                    facts);
   });
 }
 
@@ -193,16 +194,14 @@ wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t
 }
 
 wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts) {
-  if (!model || !facts) return null_argument(__func__);
-  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, model, facts)) return WISP_BAD_ARGUMENT;
   return on_dynamics<wisp::ChainModel>(__func__, model, [&](const wisp::ChainModel& chain) {
-    hand_out(wisp_chain_facts{.modes = static_cast<uint32_t>(chain.modes),
-                              .segments = static_cast<uint32_t>(chain.segments.size()),
-                              .history = static_cast<uint32_t>(chain.history),
-                              .gust_order = chain.gust ? static_cast<uint32_t>(chain.gust->order()) : 0,
-                              .heading_free = chain.heading_free ? 1U : 0U},
-             facts);
-    return wisp_status{WISP_OK};
+    return hand_out(wisp_chain_facts{.modes = static_cast<uint32_t>(chain.modes),
+                                     .segments = static_cast<uint32_t>(chain.segments.size()),
+                                     .history = static_cast<uint32_t>(chain.history),
+                                     .gust_order = chain.gust ? static_cast<uint32_t>(chain.gust->order()) : 0,
+                                     .heading_free = chain.heading_free ? 1U : 0U},
+                    facts);
   });
 }
 

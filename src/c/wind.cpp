@@ -124,20 +124,17 @@ double wisp_wind_room_rise(const wisp_wind* wind) { return wind ? static_cast<do
 int32_t wisp_wind_calibrating(const wisp_wind* wind) { return wind && wind->level.calibrating() ? 1 : 0; }
 
 wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration) {
-  if (!wind || !calibration) return null_argument(__func__);
-  if (!size_is_right(__func__, calibration->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, wind, calibration)) return WISP_BAD_ARGUMENT;
   const wisp::WindCalibration known = wind->level.calibration();
-  hand_out(wisp_wind_calibration{.background_rms = known.background_rms,
-                                 .background_level = known.background_level,
-                                 .floor_db = known.floor_db,
-                                 .gust_rms = known.gust_rms},
-           calibration);
-  return WISP_OK;
+  return hand_out(wisp_wind_calibration{.background_rms = known.background_rms,
+                                        .background_level = known.background_level,
+                                        .floor_db = known.floor_db,
+                                        .gust_rms = known.gust_rms},
+                  calibration);
 }
 
 wisp_status wisp_wind_set_calibration(wisp_wind* wind, const wisp_wind_calibration* calibration) {
-  if (!wind || !calibration) return null_argument(__func__);
-  if (!size_is_right(__func__, calibration->size)) return WISP_BAD_ARGUMENT;
+  if (!struct_is_right(__func__, wind, calibration)) return WISP_BAD_ARGUMENT;
   const wisp::WindCalibration defaults;
   wisp_wind_calibration known{};
   known.floor_db = defaults.floor_db;

@@ -17,6 +17,7 @@
 #include "export/outline.hpp"
 #include "wisp/export/export.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 
 namespace wisp {
 namespace exporting {
@@ -29,7 +30,7 @@ namespace {
 enum class Shape { kScalar = 1, kVector2 = 2, kVector3 = 3, kVector4 = 4 };
 
 // glTF 2.0 Specification (ISO/IEC 12113:2022), sections 3.6 and 4.4.
-constexpr int kFloat = 5126, kShort = 5123, kVertices = 34962, kIndices = 34963;
+constexpr int kFloat = 5126, kShort = 5123, kVertices = 34962, kIndices = 34963, kLinear = 9729, kClamped = 33071;
 constexpr std::uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
@@ -114,7 +115,10 @@ void Buffer::describe(JsonText& json) const {
   json.end();
   if (has_picture()) {
     json.list("images").object().value(accessors_.size() - 1, "bufferView").value("image/png", "mimeType").end().end();
-    json.list("textures").object().value(0, "source").end().end();
+    // Without smaller pictures, which would mix the columns.
+    json.list("samplers").object().value(kLinear, "magFilter").value(kLinear, "minFilter");
+    json.value(kClamped, "wrapS").value(kClamped, "wrapT").end().end();
+    json.list("textures").object().value(0, "source").value(0, "sampler").end().end();
   }
   json.list("buffers").object().value(bytes_.size(), "byteLength").end().end();
 }
@@ -140,6 +144,7 @@ struct Mesh {
   std::vector<int> targets;
   std::vector<double> lowest, highest;  // outputs at which a target's weight is 0 and 1
   std::vector<double> weights;          // at the operating point
+  std::vector<std::string> names;       // of targets
   std::array<double, 4> colour{};
 };
 
@@ -161,22 +166,11 @@ struct Document {
 
 std::size_t key_count(const Take& take) { return take.frames + (take.loop ? 1 : 0); }
 
-// A flat ellipse in the body's first two axes.
 Mesh body_mesh(double half_width, double half_length, Buffer& buffer) {
-  constexpr int kCorners = 24;
-  std::vector<float> positions, normals;
-  std::vector<std::uint16_t> indices;
-  for (int k = 0; k < kCorners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kCorners;
-    const double x = half_width * std::cos(angle), y = half_length * std::sin(angle);
-    positions.insert(positions.end(), {static_cast<float>(x), static_cast<float>(y), 0});
-    normals.insert(normals.end(), {0, 0, 1});
-    if (k < 2) continue;
-    for (const int corner : {0, k - 1, k}) indices.push_back(static_cast<std::uint16_t>(corner));
-  }
-  Mesh mesh{.positions = buffer.add(positions, Shape::kVector3, kVertices), .colour = {0.342, 0.064, 0.006, 1}};
-  mesh.normals = buffer.add(normals, Shape::kVector3, kVertices);
-  mesh.indices = buffer.add_indices(indices);
+  const Surface leaf = leaf_blade(half_width, half_length);
+  Mesh mesh{.positions = buffer.add(leaf.places, Shape::kVector3, kVertices), .colour = {0.342, 0.064, 0.006, 1}};
+  mesh.normals = buffer.add(leaf.normals, Shape::kVector3, kVertices);
+  mesh.indices = buffer.add_indices(leaf.triangles);
   return mesh;
 }
 
@@ -237,96 +231,84 @@ Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
 
 Document body_document(const Take& take, double half_width, double half_length) {
   Document document;
-  const double width = half_width > 0 ? half_width : kUnknownHalfWidth;
-  document.mesh = body_mesh(width, half_length > 0 ? half_length : width, document.buffer);
+  document.mesh = body_mesh(half_width, half_length, document.buffer);
   for (std::size_t k = 0; k < take.instances; ++k) document.tracks.push_back(body_track(take, k, document.buffer));
   document.turn = {-std::numbers::sqrt2 / 2, 0, 0, std::numbers::sqrt2 / 2};
   return document;
 }
 
-// The weight of a target: the position of its output in the range of the bank, since tools clamp weights to 0 … 1.
-double weight_of(const Mesh& mesh, std::size_t output, double value) {
-  const double range = mesh.highest[output] - mesh.lowest[output];
-  return range > 0 ? std::clamp((value - mesh.lowest[output]) / range, 0.0, 1.0) : 0;
+// The weight of a target: the position of its number in the range of the bank, since tools clamp weights to 0 … 1.
+double weight_of(const Mesh& mesh, std::size_t target, double value) {
+  const double range = mesh.highest[target] - mesh.lowest[target];
+  return range > 0 ? std::clamp((value - mesh.lowest[target]) / range, 0.0, 1.0) : 0;
 }
 
-void set_ranges(const Model& model, Mesh& mesh) {
+// Of outputs seen from the front, then from the side, where a body goes as far to either side.
+void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   const auto middle = operating_point(model);
-  for (std::size_t k = 0; k < model.outputs.size(); ++k) {
-    const double margin = kRangeMargin * (model.outputs[k].highest - model.outputs[k].lowest);
-    mesh.lowest.push_back(model.outputs[k].lowest - margin);
-    mesh.highest.push_back(model.outputs[k].highest + margin);
-    mesh.weights.push_back(weight_of(mesh, k, middle[k]));
+  for (std::size_t k = 0; k < sides * model.outputs.size(); ++k) {
+    const Output& output = model.outputs[k % model.outputs.size()];
+    const bool side = k >= model.outputs.size(), level = k % 2 == 0;
+    const double margin = kRangeMargin * (output.highest - output.lowest);
+    mesh.lowest.push_back(output.lowest - margin);
+    mesh.highest.push_back(output.highest + margin);
+    if (side && level) mesh.highest[k] = std::max(mesh.highest[k], -mesh.lowest[k]), mesh.lowest[k] = -mesh.highest[k];
+    mesh.weights.push_back(weight_of(mesh, k, side && level ? 0 : middle[k % model.outputs.size()]));
+    mesh.names.push_back((side ? "side " : "") + output.name);
   }
 }
 
-// The picture of a flame: from −kFlameAcross to kFlameAcross half widths, and in shares of the way from base to tip
-// from kFlameLow to kFlameHigh; the drop around the wick ends at −kFlameDrop.
-constexpr double kFlameAcross = 1.75, kFlameLow = -0.2, kFlameHigh = 1.2, kFlameDrop = 0.12;
+// A flame is a few bodies, one in the other, of which each adds some light, so that it is bright where it is thick and
+// has no edge. The outermost is drawn first; flame.png has a column for each.
+constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
-// Rows of vertices from below the base over the outline's chords to above its tip, linear in the outline. A row has its
-// chord's ends, points between them, and a halo's end on either side.
-constexpr int kPoints = 32, kChords = kPoints / 2;
-constexpr std::array kAcross{-kFlameAcross, -1.0, -0.6, 0.0, 0.6, 1.0, kFlameAcross};
-
+// Rings below the base, a drop around the wick, and one that closes the tip.
 struct MeshRow {
-  int chord = 0;
-  double width = 1;  // share of the chord
-  double down = 0;   // below it, in half chords
-  double up = 0;     // above it, in distances to the chord two before
+  int ring = 0;
+  double width = 1;  // share of the ring
+  double down = 0;   // below it, in its radii
+  double up = 0;     // above it, in distances to the ring two before
 };
 
 std::vector<MeshRow> mesh_rows() {
-  std::vector<MeshRow> rows{{0, 0, 1.9, 0}, {0, 0, 1, 0}, {0, 0.5, 0.87, 0}, {0, 0.87, 0.5, 0}};
-  for (int chord = 0; chord < kChords; ++chord) rows.push_back({chord});
-  rows.push_back({kChords - 1, 0, 0, 0.1});
-  rows.push_back({kChords - 1, 0, 0, 2.5});
+  std::vector<MeshRow> rows{{0, 0, 1, 0}, {0, 0.5, 0.87, 0}, {0, 0.87, 0.5, 0}};
+  for (int ring = 0; ring < kRings; ++ring) rows.push_back({ring});
+  rows.push_back({kRings - 1, 0, 0, 0.1});
   return rows;
 }
 
-// Vertices of an outline of kPoints points, or of a change of it.
-std::vector<float> mesh_vertices(const std::vector<float>& outline) {
-  using Place = std::array<double, 2>;
-  const auto chord_of = [&](int chord, double sign) {
-    Place sum{};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const double left = outline[3 * static_cast<std::size_t>(chord) + axis];
-      const double right = outline[3 * static_cast<std::size_t>(kPoints - 1 - chord) + axis];
-      sum[axis] = (right + sign * left) / 2;
-    }
-    return sum;
-  };
-  const Place widest = chord_of(kChords / 2, -1), before = chord_of(kChords - 3, 1);
-  std::vector<float> vertices;
-  for (const MeshRow& row : mesh_rows()) {
-    const Place middle = chord_of(row.chord, 1), half = chord_of(row.chord, -1);
-    const Place below{half[1] * row.down, -half[0] * row.down};
-    for (const double across : kAcross) {
-      const double inside = std::clamp(across, -1.0, 1.0) * row.width, outside = across - std::clamp(across, -1.0, 1.0);
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        vertices.push_back(static_cast<float>(middle[axis] + below[axis] + row.up * (middle[axis] - before[axis]) +
-                                              inside * half[axis] + outside * widest[axis]));
+// Vertices of all shells, or of a change of them: linear in the rings.
+std::vector<float> mesh_vertices(const std::vector<float>& rings) {
+  const float* before = &rings[(kRings - 3) * kRingNumbers];
+  std::vector<float> all;
+  for (const double shell : kShells) {
+    for (const MeshRow& row : mesh_rows()) {
+      const float* ring = &rings[static_cast<std::size_t>(row.ring) * kRingNumbers];
+      const double down[] = {ring[4], -ring[3], ring[5]};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double along = row.up * (ring[axis] - before[axis]) + row.down * shell * down[axis];
+        all.push_back(static_cast<float>(ring[axis] + along));
       }
-      vertices.push_back(0);
+      for (std::size_t k = 3; k < kRingNumbers; ++k) all.push_back(static_cast<float>(ring[k] * row.width * shell));
     }
   }
-  return vertices;
+  return ring_places(all, kSegments);
 }
 
 // Where each vertex lies in the flame's picture: rows at their height over the base in the outline at rest.
+constexpr double kFlameDrop = 0.12;  // where the picture begins, in shares of the way from base to tip
+
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
-  const auto vertices = mesh_vertices(rest);
-  const auto rows = mesh_rows();
-  const std::size_t columns = kAcross.size(), base = 4, tip = base + kChords - 1;
-  const auto height = [&](std::size_t row) -> double { return vertices[3 * (row * columns + columns / 2) + 1]; };
+  const double base = rest[1], tip = std::max(rest[(kRings - 1) * kRingNumbers + 1] - base, 1e-6);
   std::vector<float> coordinates;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    double along = (height(row) - height(base)) / std::max(1e-6, height(tip) - height(base));
-    if (row < base) along = row == 0 ? kFlameLow : -kFlameDrop * rows[row].down;
-    if (row > tip) along = row > tip + 1 ? kFlameHigh : 1;
-    for (const double across : kAcross) {
-      coordinates.push_back(static_cast<float>((across / kFlameAcross + 1) / 2));
-      coordinates.push_back(static_cast<float>(std::clamp((kFlameHigh - along) / (kFlameHigh - kFlameLow), 0.0, 1.0)));
+  for (std::size_t shell = 0; shell < kShells.size(); ++shell) {
+    for (const MeshRow& row : mesh_rows()) {
+      const double height = (rest[static_cast<std::size_t>(row.ring) * kRingNumbers + 1] - base) / tip;
+      const double along = row.down > 0 ? -kFlameDrop * row.down : height;
+      for (int k = 0; k < kSegments; ++k) {
+        coordinates.push_back(static_cast<float>((static_cast<double>(shell) + 0.5) / kShells.size()));
+        coordinates.push_back(static_cast<float>(std::clamp((1 - along) / (1 + kFlameDrop), 0.0, 1.0)));
+      }
     }
   }
   return coordinates;
@@ -334,32 +316,33 @@ std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
 
 std::vector<std::uint16_t> mesh_indices() {
   std::vector<std::uint16_t> indices;
-  const int columns = static_cast<int>(kAcross.size()), rows = static_cast<int>(mesh_rows().size());
-  for (int row = 0; row + 1 < rows; ++row) {
-    for (int column = 0; column + 1 < columns; ++column) {
-      const int at = row * columns + column;
-      for (const int corner : {at, at + 1, at + columns + 1, at, at + columns + 1, at + columns}) {
-        indices.push_back(static_cast<std::uint16_t>(corner));
-      }
-    }
+  const auto rows = static_cast<int>(mesh_rows().size());
+  const auto of_shell = ring_corners(rows, kSegments);
+  for (std::size_t shell = 0; shell < kShells.size(); ++shell) {
+    const std::size_t first = shell * static_cast<std::size_t>(rows * kSegments);
+    for (const auto corner : of_shell) indices.push_back(static_cast<std::uint16_t>(first + corner));
   }
   return indices;
 }
 
-// The outline as rows of vertices, with a morph target for each output.
-Mesh outline_mesh(const Model& model, const std::vector<double>& knots, Buffer& buffer) {
+// Shells of a flame, with a morph target for each output, seen from the front and from the side.
+Mesh outline_mesh(const Model& model, const std::vector<double>& knots, std::size_t sides, Buffer& buffer) {
   Mesh mesh{.colour = {0, 0, 0, 1}};
-  set_ranges(model, mesh);
-  const auto vertices_of = [&](std::span<const double> control) {
-    return buffer.add(mesh_vertices(outline_points(knots, control, kPoints)), Shape::kVector3, kVertices);
+  set_ranges(model, sides, mesh);
+  const auto rings = [&](const std::vector<double>& numbers) {
+    const std::vector<float> all(numbers.begin(), numbers.end());
+    const auto both = std::span(all);
+    return rings_of(knots, both.first(model.outputs.size()), both.subspan(model.outputs.size()));
+  };
+  const auto vertices_of = [&](const std::vector<double>& numbers) {
+    return buffer.add(mesh_vertices(rings(numbers)), Shape::kVector3, kVertices);
   };
   mesh.positions = vertices_of(mesh.lowest);
-  const auto rest = outline_points(knots, operating_point(model), kPoints);
-  mesh.coordinates = buffer.add(mesh_coordinates(rest), Shape::kVector2, kVertices);
+  mesh.coordinates = buffer.add(mesh_coordinates(rings(operating_point(model))), Shape::kVector2, kVertices);
   mesh.indices = buffer.add_indices(mesh_indices());
-  for (std::size_t output = 0; output < mesh.lowest.size(); ++output) {
+  for (std::size_t target = 0; target < mesh.lowest.size(); ++target) {
     std::vector<double> unit(mesh.lowest.size(), 0.0);
-    unit[output] = mesh.highest[output] - mesh.lowest[output];
+    unit[target] = mesh.highest[target] - mesh.lowest[target];
     mesh.targets.push_back(vertices_of(unit));
   }
   return mesh;
@@ -368,7 +351,7 @@ Mesh outline_mesh(const Model& model, const std::vector<double>& knots, Buffer& 
 Document outline_document(const Model& model, const OutlineView& view, const Take& take) {
   constexpr double kApart = 1.2;
   Document document;
-  document.mesh = outline_mesh(model, view.knots, document.buffer);
+  document.mesh = outline_mesh(model, view.knots, take.sides, document.buffer);
   std::vector<float> seconds(key_count(take));
   for (std::size_t k = 0; k < seconds.size(); ++k)
     seconds[k] = static_cast<float>(static_cast<double>(k) / take.rate_hz);
@@ -376,9 +359,12 @@ Document outline_document(const Model& model, const OutlineView& view, const Tak
   for (std::size_t k = 0; k < take.instances; ++k) {
     std::vector<float> weights;
     for (std::size_t key = 0; key < key_count(take); ++key) {
-      const auto row = take.at(key % take.frames, k);
-      for (std::size_t i = 0; i < row.size(); ++i)
-        weights.push_back(static_cast<float>(weight_of(document.mesh, i, row[i])));
+      std::size_t target = 0;
+      for (std::size_t side = 0; side < take.sides; ++side) {
+        for (const float value : take.at(key % take.frames, k, side)) {
+          weights.push_back(static_cast<float>(weight_of(document.mesh, target++, value)));
+        }
+      }
     }
     document.tracks.push_back({.times = times, .weights = document.buffer.add(weights, Shape::kScalar)});
   }
@@ -410,7 +396,7 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
 
 constexpr double kEmissiveStrength = 1.5;  // of a screen's white: what glows in an engine's bloom
 
-void write_mesh(const Mesh& mesh, const Model& model, JsonText& json) {
+void write_mesh(const Mesh& mesh, JsonText& json) {
   json.list("meshes").object().value("shape", "name").list("primitives").object().object("attributes");
   json.value(mesh.positions, "POSITION");
   if (mesh.normals >= 0) json.value(mesh.normals, "NORMAL");
@@ -424,7 +410,7 @@ void write_mesh(const Mesh& mesh, const Model& model, JsonText& json) {
   json.end().end();
   if (!mesh.targets.empty()) {
     json.values(mesh.weights, "weights").object("extras").list("targetNames");
-    for (const Output& output : model.outputs) json.value(output.name, {});
+    for (const std::string& name : mesh.names) json.value(name, {});
     json.end().values(mesh.lowest, "lowest").values(mesh.highest, "highest").end();
   }
   json.end().end();
@@ -435,7 +421,7 @@ void write_mesh(const Mesh& mesh, const Model& model, JsonText& json) {
     return;
   }
   // A flame emits its picture's light; the picture's opacity is the base colour's, which is black.
-  json.object("baseColorTexture").value(0, "index").end().end().value(true, "doubleSided");
+  json.object("baseColorTexture").value(0, "index").end().end();
   json.value("BLEND", "alphaMode").object("emissiveTexture").value(0, "index").end();
   json.values(std::array{1, 1, 1}, "emissiveFactor").object("extensions").object("KHR_materials_emissive_strength");
   json.value(kEmissiveStrength, "emissiveStrength").end().end().end().end();
@@ -489,7 +475,7 @@ Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take) 
   json.object().object("asset").value("2.0", "version").value("Wisp", "generator").end();
   if (document->buffer.has_picture()) json.list("extensionsUsed").value("KHR_materials_emissive_strength", {}).end();
   write_nodes(*document, take, json);
-  write_mesh(document->mesh, model, json);
+  write_mesh(document->mesh, json);
   write_animation(*document, model, take, json);
   document->buffer.describe(json);
   json.end();

@@ -72,7 +72,7 @@ std::vector<double> operating_point(const Model& model) {
 
 Result<void> check_take(const Model& model, const Take& take) {
   const bool right = take.frames > 0 && take.instances > 0 && take.outputs == model.outputs.size() &&
-                     take.values.size() == take.frames * take.instances * take.outputs && take.rate_hz > 0;
+                     take.values.size() == take.sides * take.frames * take.instances * take.outputs && take.rate_hz > 0;
   if (right) return {};
   return Error{"the take has " + std::to_string(take.outputs) + " outputs and " + std::to_string(take.frames) +
                " frames, expected one of this model, which has " + std::to_string(model.outputs.size()) + " outputs"};

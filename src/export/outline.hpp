@@ -1,6 +1,6 @@
 #pragma once
-// Outlines of a take: points of the spline, Bézier curves, operating point. Seamless loops of a play: the periodic
-// orbit of a linear model, and a chain's walk that returns to its start.
+// Shapes of a take: points of the spline, Bézier curves, operating point, surfaces of flames and leaves. Seamless loops
+// of a play: the periodic orbit of a linear model, and a chain's walk that returns to its start.
 
 #include <array>
 #include <cstdint>
@@ -24,7 +24,26 @@ std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knot
 /// Returns the operating point of the outputs of an ARX or switched model.
 std::vector<double> operating_point(const Model& model);
 
-inline constexpr double kUnknownHalfWidth = 0.03;  ///< metres: a small leaf
+inline constexpr int kRings = 12, kSegments = 12;  ///< of an exported flame
+
+/// Rings of a body (wisp/run/body_facet.hpp) from outlines seen from the front and, where it is in the round, from the
+/// side, else an empty one: by rotational symmetry. Linear in both.
+std::vector<float> rings_of(const std::vector<double>& knots, std::span<const float> front,
+                            std::span<const float> side);
+
+/// Places of their surface's vertices, and three indices a triangle.
+std::vector<float> ring_places(const std::vector<float>& rings, int segments);
+std::vector<std::uint16_t> ring_corners(int rings, int segments);
+
+/// x, y, z of points, of their normals, and three indices a triangle.
+struct Surface {
+  std::vector<float> places, normals;
+  std::vector<std::uint16_t> triangles;
+};
+
+/// A leaf in a body's first two axes, folded along its midrib and bent along it; where its size is not known, a small
+/// one.
+Surface leaf_blade(double half_width, double half_length);
 
 /// Errors: the take has other outputs than the model, or no frames.
 Result<void> check_take(const Model& model, const Take& take);

@@ -6,8 +6,8 @@
 #include "export/outline.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -78,13 +78,17 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
   auto bank = settled_bank(model, options);
   if (!bank) return bank.error();
   const std::size_t width = taken.instances * taken.outputs;
-  taken.values.resize(taken.frames * width);
+  taken.values.resize(taken.sides * taken.frames * width);
   const std::size_t inputs = model.inputs.size(), rows = inputs > 0 ? options.schedule.size() / inputs : 0;
   for (std::size_t frame = 0; frame < taken.frames; ++frame) {
     if (frame < rows) bank->set_common_inputs(std::span(options.schedule).subspan(frame * inputs, inputs));
     bank->step();
     if (rows == 0 && !burns(*bank)) return went_out(static_cast<double>(frame) / model.rate_hz);
     bank->outputs(std::span(taken.values).subspan(frame * width, width));
+    if (taken.sides == 1) continue;
+    bank->body()->look(0, 1);
+    bank->outputs(std::span(taken.values).subspan((taken.frames + frame) * width, width));
+    bank->body()->look(1, 0);
   }
   return taken;
 }
@@ -109,9 +113,7 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
     for (std::size_t k = 0; k < taken.instances; ++k) {
       const auto from = values.begin() + static_cast<std::ptrdiff_t>(k * taken.outputs);
       rows[k].insert(rows[k].end(), from, from + static_cast<std::ptrdiff_t>(taken.outputs));
-      const SwitchedFacet* switched = bank->switched();
-      const auto mode = switched ? switched->mode_of(bank->at(static_cast<int>(k))) : std::nullopt;
-      modes[k].push_back(static_cast<std::size_t>(mode.value_or(0)));
+      modes[k].push_back(static_cast<std::size_t>(bank->mode(bank->at(static_cast<int>(k))).value_or(0)));
     }
   }
   taken.values.resize(taken.frames * width);
@@ -142,15 +144,29 @@ Model model_of_components(const Model& model, const ShapeComponents& shape) {
   return out;
 }
 
+// A shape in the round whose x is its z.
+ShapeComponents from_the_side(ShapeComponents shape) {
+  const auto points = static_cast<std::ptrdiff_t>(shape.points());
+  std::copy_n(shape.rest.end() - points, points, shape.rest.end() - 2 * points);
+  std::copy_n(shape.coordinates.end() - points, points, shape.coordinates.end() - 2 * points);
+  return shape;
+}
+
 Result<Take> shape_take(const Model& model, const ShapeComponents& shape, const TakeOptions& options, Take taken) {
   Take moved = taken;
   moved.outputs = shape.count();
+  moved.sides = 1;
+  const auto across = static_cast<std::ptrdiff_t>(shape.across);
   const auto orbit = orbit_take(model_of_components(model, shape), options, std::move(moved));
   if (!orbit) return orbit;
-  for (std::size_t row = 0; row < taken.frames * taken.instances; ++row) {
-    const auto from = orbit->values.begin() + static_cast<std::ptrdiff_t>(row * shape.count());
-    const std::vector<double> components(from, from + static_cast<std::ptrdiff_t>(shape.count()));
-    for (double value : control_points(shape, components)) taken.values.push_back(static_cast<float>(value));
+  for (std::size_t side = 0; side < taken.sides; ++side) {
+    const ShapeComponents seen = side == 0 ? shape : from_the_side(shape);
+    for (std::size_t row = 0; row < taken.frames * taken.instances; ++row) {
+      const auto from = orbit->values.begin() + static_cast<std::ptrdiff_t>(row * shape.count());
+      std::vector<double> components(from, from + static_cast<std::ptrdiff_t>(shape.count()));
+      if (side > 0) std::copy_n(components.end() - across, across, components.end() - 2 * across);
+      for (double value : control_points(seen, components)) taken.values.push_back(static_cast<float>(value));
+    }
   }
   return taken;
 }
@@ -175,12 +191,20 @@ Result<Take> walk_take(const Model& model, const TakeOptions& options, Take take
 
 }  // namespace
 
-Result<Take> take(const Model& model, const TakeOptions& options) {
-  if (auto ok = check(model, options); !ok) return ok.error();
+Result<Take> take(const Model& plane, const TakeOptions& asked) {
+  if (auto ok = check(plane, asked); !ok) return ok.error();
+  const auto round = asked.round ? in_the_round(plane) : Result<Model>(plane);
+  const Model& model = round ? *round : plane;
+  TakeOptions options = asked;
+  if (model.inputs.size() > plane.inputs.size()) {
+    options.schedule.clear();
+    for (const float wind : asked.schedule) options.schedule.insert(options.schedule.end(), {wind, 0});
+  }
   Take taken{.rate_hz = model.rate_hz, .loop = options.loop};
   taken.frames = static_cast<std::size_t>(std::llround(std::max(1.0, options.seconds * model.rate_hz)));
   taken.instances = static_cast<std::size_t>(options.instances);
   taken.outputs = model.outputs.size();
+  taken.sides = is_in_the_round(model) ? 2 : 1;
   if (!options.loop) return plain_take(model, options, std::move(taken));
   if (std::holds_alternative<ChainModel>(model.dynamics)) return walk_take(model, options, std::move(taken));
   if (const auto* outline = std::get_if<OutlineView>(&model.view); outline && !outline->shape.empty()) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/json_text.hpp"
 #include "export/outline.hpp"
@@ -14,60 +13,51 @@ namespace {
 
 using namespace exporting;
 
-constexpr std::size_t kOutlinePoints = 32, kBodyPoints = 24;
+using Vector = std::array<double, 3>;
 
-// A flat ellipse turned and moved as a body is.
-std::vector<float> body_points(std::span<const float> row, double half_width, double half_length) {
-  std::array<double, 4> q{1, 0, 0, 0};
-  if (row.size() >= 7) std::copy_n(row.begin() + 3, 4, q.begin());
-  const double two = 2 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  const auto [w, x, y, z] = q;
-  const std::array<double, 3> across{1 - two * (y * y + z * z), two * (x * y + w * z), two * (x * z - w * y)};
-  const std::array<double, 3> along{two * (x * y - w * z), 1 - two * (x * x + z * z), two * (y * z + w * x)};
-  std::vector<float> points;
-  for (std::size_t k = 0; k < kBodyPoints; ++k) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kBodyPoints;
-    const double a = half_width * std::cos(angle), b = half_length * std::sin(angle);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      points.push_back(static_cast<float>(row[axis] + a * across[axis] + b * along[axis]));
-    }
+// Points turned and moved as a body is: v + 2 u × (u × v + w v) of a unit quaternion (w, u).
+std::vector<float> moved(std::span<const float> points, std::span<const float> row) {
+  const auto cross = [](const Vector& a, const Vector& b) {
+    return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const Vector u{row[4], row[5], row[6]};
+  const double w = row[3], two = 2 / (w * w + u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+  std::vector<float> out;
+  for (std::size_t k = 0; k < points.size(); k += 3) {
+    const Vector v{points[k], points[k + 1], points[k + 2]}, once = cross(u, v);
+    const Vector turn = cross(u, {once[0] + w * v[0], once[1] + w * v[1], once[2] + w * v[2]});
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      out.push_back(static_cast<float>(row[axis] + v[axis] + two * turn[axis]));
   }
-  return points;
+  return out;
 }
 
-// Places of all points in all frames, x, y, z; nothing where the outputs are no shape.
-std::vector<float> places_of(const Model& model, const Take& take) {
-  std::vector<float> places;
-  for (std::size_t frame = 0; frame < take.frames; ++frame) {
-    const auto row = take.at(frame, 0);
-    std::vector<float> points;
-    if (const auto* outline = std::get_if<OutlineView>(&model.view)) {
-      points = outline_points(outline->knots, std::vector<double>(row.begin(), row.end()), kOutlinePoints);
-    } else if (const auto* pose = std::get_if<PoseView>(&model.view)) {
-      const double width = pose->half_width > 0 ? pose->half_width : kUnknownHalfWidth;
-      points = body_points(row, width, pose->half_length > 0 ? pose->half_length : width);
-    }
-    places.insert(places.end(), points.begin(), points.end());
-  }
-  return places;
+// The surface of a flame's rings.
+std::vector<float> flame_points(const OutlineView& view, const Take& take, std::size_t frame) {
+  const auto side = take.sides > 1 ? take.at(frame, 0, 1) : std::span<const float>();
+  return ring_places(rings_of(view.knots, take.at(frame, 0), side), kSegments);
 }
 
-// A fan of a body's points; of an outline the strip between its two sides.
-std::vector<std::size_t> triangles_of(bool outline) {
-  std::vector<std::size_t> corners;
-  for (std::size_t k = 0; k + 2 < kBodyPoints && !outline; ++k) corners.insert(corners.end(), {0, k + 1, k + 2});
-  for (std::size_t k = 0; k + 1 < kOutlinePoints / 2 && outline; ++k) {
-    const std::size_t across = kOutlinePoints - 1 - k;
-    corners.insert(corners.end(), {k, across, across - 1, k, across - 1, k + 1});
+// Places of all points in all frames, x, y, z, and triangles; nothing where the outputs are no shape.
+Surface surface_of(const Model& model, const Take& take) {
+  Surface surface, leaf;
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  const auto* pose = std::get_if<PoseView>(&model.view);
+  if (pose) leaf = leaf_blade(pose->half_width, pose->half_length);
+  for (std::size_t frame = 0; frame < take.frames && (outline || pose); ++frame) {
+    const auto points = outline ? flame_points(*outline, take, frame) : moved(leaf.places, take.at(frame, 0));
+    surface.places.insert(surface.places.end(), points.begin(), points.end());
   }
-  return corners;
+  surface.triangles = outline ? ring_corners(kRings, kSegments) : leaf.triangles;
+  return surface;
 }
 
 }  // namespace
 
 Result<VertexAnimation> vertex_animation(const Model& model, const Take& take) {
   if (auto ok = check_take(model, take); !ok) return ok.error();
-  const auto places = places_of(model, take);
+  const Surface surface = surface_of(model, take);
+  const auto& places = surface.places;
   if (places.empty())
     return Error{"the model's outputs are neither an outline nor a pose, so there are no points to move"};
   VertexAnimation out{.columns = places.size() / 3 / take.frames, .rows = 2 * take.frames};
@@ -84,7 +74,6 @@ Result<VertexAnimation> vertex_animation(const Model& model, const Take& take) {
     out.rgb[k] = static_cast<std::uint8_t>(word >> 8);
     out.rgb[places.size() + k] = static_cast<std::uint8_t>(word & 0xff);
   }
-  const bool outline = std::holds_alternative<OutlineView>(model.view);
   JsonText json;
   json.object().value(out.columns, "points").value(take.frames, "frames").value(take.rate_hz, "rate_hz");
   json.value(take.loop, "loop").values(lowest, "lowest").values(highest, "highest");
@@ -92,7 +81,7 @@ Result<VertexAnimation> vertex_animation(const Model& model, const Take& take) {
     const auto [x, y, z] = take.travel[0];
     json.values(std::array{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)}, "travel");
   }
-  out.json = json.values(triangles_of(outline), "triangles").end().text() + "\n";
+  out.json = json.values(surface.triangles, "triangles").end().text() + "\n";
   return out;
 }
 

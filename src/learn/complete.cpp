@@ -15,8 +15,7 @@ ReportSection cost_section(const Cost& cost) {
            {.id = "cost.worst_operations_per_frame",
             .value = cost.worst_operations,
             .label = "operations in the worst frame"},
-           {.id = "cost.steered_operations_per_frame", .value = cost.steered_operations},
-           {.id = "cost.operations_between_steps", .value = cost.between_operations}}};
+           {.id = "cost.steered_operations_per_frame", .value = cost.steered_operations}}};
 }
 
 void complete(Fit& fit) {

@@ -93,13 +93,13 @@ TEST_F(Export, AVertexTextureHoldsEveryFramesOutline) {
   const Said said = wisp("export " + kFlame + " --loop 1 -o " + at("a.vat.png") + " --json");
   ASSERT_EQ(said.status, 0) << said.err;
   const auto meta = nlohmann::json::parse(file_text(at("a.vat.json")));
-  EXPECT_EQ(meta["points"], 32);
+  EXPECT_EQ(meta["points"], 144);
   EXPECT_EQ(meta["frames"], 60);
   EXPECT_EQ(meta["loop"], true);
-  EXPECT_EQ(meta["triangles"].size(), 90u);
+  EXPECT_EQ(meta["triangles"].size(), 852u);
   const std::string ffmpeg = "ffmpeg -v error -i " + at("a.vat.png") + " -f rawvideo -pix_fmt rgb24 " + at("raw");
   ASSERT_EQ(std::system(ffmpeg.c_str()), 0);
-  EXPECT_EQ(file_text(at("raw")).size(), 32u * 120 * 3);
+  EXPECT_EQ(file_text(at("raw")).size(), 144u * 120 * 3);
   EXPECT_EQ(wisp("export " + kLeaf + " --loop 3 -o " + at("b.vat.png")).status, 0);
 }
 

@@ -62,12 +62,6 @@ TEST_F(RunChain, WarnsOfWindBeyondWhatWasLearned) {
   EXPECT_THAT(run("--wind 2", "windy.wisp").err, testing::Not(HasSubstr("learned up to")));
 }
 
-TEST_F(RunChain, WithoutNoiseItSaysHowItRepeatsItself) {
-  const Said said = run("--noise off");
-  ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_GT(said.json()["loop"]["seconds"], 0);
-}
-
 TEST_F(RunChain, RefusesWhatItCannotDo) {
   for (const char* target : {"1,2@3", "1,2,3", "1,2,3@0", "1,2,3@-4", "a,b,c@d", "1,2,3@4x", "1e9,2,3@4"}) {
     EXPECT_THAT(refused("--steer " + std::string(target)), HasSubstr("expected X,Y,Z@S")) << target;

@@ -10,10 +10,12 @@
 #include <rlottie_capi.h>
 #endif
 
+#include "export/outline.hpp"
 #include "paths.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 
 namespace wisp::export_test {
 namespace {
@@ -130,28 +132,65 @@ TEST(Gltf, LeavesOfALoopBeginApartAndTheSceneReturns) {
 }
 
 // As a shader reads it: the upper bytes in the first rows, the lower ones in the second.
-TEST(VertexAnimation, IsTheOutlineOfEveryFrameToSixteenBits) {
-  const Model model = flame_model();
-  const auto taken = take(model, {.seconds = 1, .loop = true});
-  ASSERT_TRUE(taken);
+TEST(VertexAnimation, IsTheSurfaceOfEveryFrameToSixteenBits) {
+  const Model model = *read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+  const auto taken = take(model, {.seconds = 1, .loop = true, .round = true});
+  ASSERT_TRUE(taken) << taken.error().message;
+  ASSERT_EQ(taken->sides, 2u);
   const auto made = vertex_animation(model, *taken);
   ASSERT_TRUE(made) << made.error().message;
   const Json json = Json::parse(made->json);
-  ASSERT_EQ(made->columns, 32u);
+  constexpr std::size_t kRings = 12, kSegments = 12;
+  ASSERT_EQ(made->columns, kRings * kSegments);
   ASSERT_EQ(made->rows, 2 * taken->frames);
+  const std::vector<double>& knots = std::get<OutlineView>(model.view).knots;
   for (const std::size_t frame : {std::size_t{0}, taken->frames / 2, taken->frames - 1}) {
-    const auto outline = outline_of(model, *taken, frame, 0, 32);
-    for (std::size_t point = 0; point < 32; ++point) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const std::size_t at = 3 * (frame * 32 + point) + axis;
+    const auto row = taken->at(frame, 0), side = taken->at(frame, 0, 1);
+    const auto front = exporting::outline_points(knots, std::vector<double>(row.begin(), row.end()), 2 * kRings);
+    const auto across = exporting::outline_points(knots, std::vector<double>(side.begin(), side.end()), 2 * kRings);
+    for (std::size_t ring = 0; ring < kRings; ++ring) {
+      const auto vertex = [&](std::size_t segment, std::size_t axis) {
+        const std::size_t at = 3 * (frame * made->columns + ring * kSegments + segment) + axis;
         const double share = (256 * made->rgb[at] + made->rgb[at + made->rgb.size() / 2]) / 65535.0;
         const double low = json["lowest"][axis], high = json["highest"][axis];
-        EXPECT_NEAR(low + share * (high - low), outline[2 * point + axis], 1e-4);
+        return low + share * (high - low);
+      };
+      const std::size_t left = 3 * ring, right = 3 * (2 * kRings - 1 - ring);
+      // Seen from the front its rim is the outline, and so from the side.
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        EXPECT_NEAR(vertex(0, axis), front[right + axis], 1e-4);
+        EXPECT_NEAR(vertex(6, axis), front[left + axis], 1e-4);
       }
+      EXPECT_NEAR(vertex(3, 2), across[right], 1e-4);
+      EXPECT_NEAR(vertex(9, 2), across[left], 1e-4);
+      EXPECT_NEAR(vertex(3, 1), across[right + 1], 1e-4);
     }
   }
-  for (const Json& corner : json["triangles"]) EXPECT_LT(corner.get<int>(), 32);
+  for (const Json& corner : json["triangles"]) EXPECT_LT(corner.get<std::size_t>(), kRings * kSegments);
   EXPECT_FALSE(vertex_animation(flame_model(), Take{}));
+}
+
+TEST(Take, AFlameInTheRoundLoopsFromTheSideTooAndLeansWithItsSchedule) {
+  const Model model = *read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+  const auto loop = take(model, {.seconds = 2, .loop = true, .round = true}),
+             plane = take(model, {.seconds = 2, .loop = true});
+  ASSERT_TRUE(loop && plane);
+  double front = 0, moved = 0, jump = 0, step = 0;
+  for (std::size_t frame = 0; frame < loop->frames; ++frame) {
+    const auto now = loop->at(frame, 0, 1), next = loop->at((frame + 1) % loop->frames, 0, 1);
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      const double change = std::abs(double{now[k]} - next[k]);
+      (frame + 1 == loop->frames ? jump : step) = std::max(frame + 1 == loop->frames ? jump : step, change);
+      front = std::max(front, std::abs(double{loop->at(frame, 0)[k]} - plane->at(frame, 0)[k]));
+      moved = std::max(moved, std::abs(double{now[k]} - loop->at(0, 0, 1)[k]));
+    }
+  }
+  EXPECT_LE(jump, step);
+  EXPECT_GT(moved, 0.01);
+  const auto blown = take(model, {.seconds = 1, .round = true, .schedule = std::vector<float>(60, 0.6f)});
+  ASSERT_TRUE(blown) << blown.error().message;
+  const auto tip = [&](std::size_t side) { return blown->at(59, 0, side)[6] + blown->at(59, 0, side)[8]; };
+  EXPECT_GT(std::abs(tip(0)), 4 * std::abs(tip(1)));
 }
 
 TEST(VertexAnimation, ALeafTurnsAndMovesWithItsPose) {
@@ -167,51 +206,63 @@ TEST(VertexAnimation, ALeafTurnsAndMovesWithItsPose) {
     return low + (256 * made->rgb[at] + made->rgb[at + half]) / 65535.0 * (high - low);
   };
   for (std::size_t frame = 0; frame < taken->frames; frame += 7) {
+    // Rows of an edge, the midrib and the other edge: the middle one's midrib is where the body is.
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      double middle = 0;
-      for (std::size_t point = 0; point < columns; ++point)
-        middle += place(frame, point, axis) / static_cast<double>(columns);
-      EXPECT_NEAR(middle, taken->at(frame, 0)[axis], 1e-3);
+      EXPECT_NEAR(place(frame, 3 * 6 + 1, axis), taken->at(frame, 0)[axis], 1e-3);
     }
-    double across = 0;
+    double along = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      across = std::hypot(across, place(frame, 0, axis) - place(frame, 12, axis));
-    EXPECT_NEAR(across, 2 * std::get<PoseView>(model.view).half_width, 1e-3);
+      along = std::hypot(along, place(frame, 1, axis) - place(frame, columns - 2, axis));
+    EXPECT_NEAR(along, 2 * std::get<PoseView>(model.view).half_length, 1e-3);
   }
 }
 
-TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheOutlineThatABankDraws) {
-  const Model model = flame_model();
-  auto bank = Bank::create(model, {.seed = 4, .polyline_points = 32});
+TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheRingsThatABankDraws) {
+  const Model model = *read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+  auto bank = Bank::create(*in_the_round(model), {.seed = 4, .polyline_points = 24});
   bank->spawn();
-  std::vector<float> polyline(64);
-  for (int k = 0; k < 120; ++k) bank->step();
-  const auto taken = take(model, {.seconds = 2, .seed = 4});
+  bank->set_common_inputs(std::vector<float>{0.4f, 0});
+  std::vector<float> rings(12 * kRingNumbers);
+  for (int k = 0; k < 240; ++k) bank->step();
+  const auto taken = take(model, {.seconds = 2, .seed = 4, .inputs = {0.4}, .round = true});
+  ASSERT_TRUE(taken) << taken.error().message;
   const Opened file = opened(*gltf_bytes(model, *taken));
   const Json& primitive = file.json["meshes"][0]["primitives"][0];
   const auto base = file.numbers(primitive["attributes"]["POSITION"].get<std::size_t>());
   const auto weights = keys(file, 0);
-  ASSERT_EQ(primitive["targets"].size(), 16u);
+  ASSERT_EQ(primitive["targets"].size(), 32u);
   EXPECT_EQ(file.json["meshes"][0]["extras"]["targetNames"][3], "p1.y");
+  EXPECT_EQ(file.json["meshes"][0]["extras"]["targetNames"][18], "side p1.x");
   std::vector<std::vector<float>> targets;
   for (const Json& target : primitive["targets"])
     targets.push_back(file.numbers(target["POSITION"].get<std::size_t>()));
-  // Rows of seven vertices: four below the base, then the chords, whose ends are the second and the sixth.
-  const auto vertex_of = [](std::size_t point) { return point < 16 ? (4 + point) * 7 + 1 : (4 + 31 - point) * 7 + 5; };
+  // The outermost shell comes first: three rings below the base, then the rings, of twelve vertices.
   for (std::size_t t = 0; t < taken->frames; ++t) {
     bank->step();
-    bank->polylines(polyline);
-    for (std::size_t p = 0; p < 32; ++p) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        double sum = base[3 * vertex_of(p) + axis];
-        for (std::size_t k = 0; k < 16; ++k) {
-          ASSERT_TRUE(weights[16 * t + k] >= 0 && weights[16 * t + k] <= 1);
-          sum += static_cast<double>(weights[16 * t + k]) * targets[k][3 * vertex_of(p) + axis];
-        }
-        ASSERT_NEAR(sum, polyline[2 * p + axis], 1e-5) << t;
-      }
+    ASSERT_TRUE(bank->body()->read_rings(bank->at(0), rings));
+    for (std::size_t ring = 0; ring < 12; ++ring) {
+      const float* at = &rings[ring * kRingNumbers];
+      const auto vertex = [&](std::size_t segment, std::size_t axis) {
+        const std::size_t place = 3 * ((3 + ring) * 12 + segment) + axis;
+        double sum = base[place];
+        for (std::size_t k = 0; k < 32; ++k) sum += double{weights[32 * t + k]} * targets[k][place];
+        return sum;
+      };
+      ASSERT_NEAR(vertex(0, 0), at[0] + at[3], 2e-5) << t;
+      ASSERT_NEAR(vertex(0, 1), at[1] + at[4], 2e-5) << t;
+      ASSERT_NEAR(vertex(3, 2), at[2] + at[3], 2e-5) << t;
+      ASSERT_NEAR(vertex(9, 1), at[1] - at[5], 2e-5) << t;
     }
   }
+  for (const float weight : weights) ASSERT_TRUE(weight >= 0 && weight <= 1);
+}
+
+TEST(Gltf, AFlameThatCannotBeInTheRoundIsABodyOfRevolution) {
+  const Model model = flame_model();
+  const auto taken = take(model, {.seconds = 1, .round = true});
+  ASSERT_TRUE(taken);
+  const Opened file = opened(*gltf_bytes(model, *taken));
+  EXPECT_EQ(file.json["meshes"][0]["primitives"][0]["targets"].size(), 16u);
 }
 
 // A cubic Bézier curve of a Lottie path at a parameter.

@@ -99,32 +99,33 @@ struct Job {
   const Model& model;
   const Arguments& arguments;
   std::string path;
+  std::size_t frames = 0;  // that are written
 };
 
 int given(const Job& job, const char* flag, int fallback) {
   return job.arguments.has(flag) ? job.arguments.integer(flag) : fallback;
 }
 
-Result<void> write_gltf(const Job& job, const Take& taken) {
+Result<void> write_gltf(Job& job, const Take& taken) {
   const auto bytes = gltf_bytes(job.model, taken);
   if (!bytes) return bytes.error();
   return write_file(job.path, *bytes);
 }
 
-Result<void> write_lottie(const Job& job, const Take& taken) {
+Result<void> write_lottie(Job& job, const Take& taken) {
   const auto text = lottie_text(job.model, taken, given(job, "size", kLottieHeight));
   if (!text) return text.error();
   return write_file(job.path, *text);
 }
 
-Result<void> write_pictures(const Job& job, const Take& taken) {
+Result<void> write_pictures(Job& job, const Take& taken) {
   const bool atlas = job.path.ends_with(".png");
   const int columns = given(job, "columns", kAtlasColumns), size = given(job, "size", kAtlasSize);
   if (atlas && (columns < 1 || columns > 64)) return Error{"--columns is not 1 to 64"};
   auto count = atlas ? static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) : taken.frames;
   if (job.arguments.has("frames")) count = static_cast<std::size_t>(std::max(1, job.arguments.integer("frames")));
   Pages pages{{}, atlas ? size / columns : given(job, "size", kFilmHeight), atlas ? size / columns : 0};
-  count = std::min(count, taken.frames);
+  job.frames = count = std::min(count, taken.frames);
   for (std::size_t k = 0; k < count; ++k) pages.frames.push_back(k * taken.frames / count);
   auto book = flame_flipbook(job.model, taken, pages);
   if (!book) return book.error();
@@ -133,7 +134,7 @@ Result<void> write_pictures(const Job& job, const Take& taken) {
 }
 
 // OUT.vat.png, and OUT.vat.json beside it.
-Result<void> write_vertices(const Job& job, const Take& taken) {
+Result<void> write_vertices(Job& job, const Take& taken) {
   const auto made = vertex_animation(job.model, taken);
   if (!made) return made.error();
   Image texture(static_cast<int>(made->columns), static_cast<int>(made->rows));
@@ -208,7 +209,7 @@ Result<void> check_flags(const Arguments& arguments, const std::string& extensio
 }
 
 Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
-  static const std::map<std::string, Result<void> (*)(const Job&, const Take&)> writers = {
+  static const std::map<std::string, Result<void> (*)(Job&, const Take&)> writers = {
       {".glb", write_gltf},      {".json", write_lottie},   {".png", write_pictures},
       {".apng", write_pictures}, {".webm", write_pictures},
   };
@@ -225,16 +226,18 @@ Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   const auto language = plant_language(*model, extension);
   if (auto ok = check_flags(arguments, extension, language || script); !ok) return ok;
-  const Job job{*model, arguments, path};
+  Job job{*model, arguments, path};
   if (language || script) return write_model_source(job, language, terminal);
-  const auto taken = take_from(*model, arguments, terminal);
+  const auto taken = take_from(*model, arguments, terminal, write == write_gltf || write == write_vertices);
   if (!taken) return taken.error();
+  job.frames = taken->frames;
   if (auto ok = write(job, *taken); !ok) {
     return ok.error().message.starts_with(path) ? ok : Error{path + ": " + ok.error().message};
   }
   terminal.add("output", path);
-  terminal.say("wrote " + path + ": " + std::to_string(taken->frames) + " frames at " + shown(taken->rate_hz, 5) +
-               " a second" + (taken->loop ? ", a loop" : ""));
+  const double rate = taken->rate_hz * static_cast<double>(job.frames) / static_cast<double>(taken->frames);
+  terminal.say("wrote " + path + ": " + std::to_string(job.frames) + " frames at " + shown(rate, 5) + " a second" +
+               (taken->loop ? ", a loop" : ""));
   return {};
 }
 

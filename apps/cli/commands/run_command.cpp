@@ -304,7 +304,6 @@ Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
   Player player(*play, *bank);
   if (auto ok = write_run(*play, *bank, player, path, terminal); !ok) return ok;
 
-  if (bank->noise() == 0) say_chain_loop(play->model, terminal);
   const auto clamped = bank->clamped();
   terminal.add("frames", play->frames);
   terminal.add("instances", bank->size());
@@ -346,8 +345,7 @@ std::vector<Flag> all_flags() {
        Kind::kChoice,
        "on|off",
        "on",
-       "the residual noise; off, a chain goes on with what is likeliest and joins best, and says how it repeats "
-       "itself",
+       "the residual noise; off, a chain goes on with what is likeliest and joins best",
        {"on", "off"}},
       {"camera", Kind::kNames, "AZIMUTH,ELEVATION", "",
        "see it from so many degrees round it, and above the level: a flame in the round, by rotational symmetry"},

@@ -67,14 +67,15 @@ Flag loop_flag() {
           "on by `travel`"};
 }
 
-Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal) {
+Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal, bool round) {
   if (model.inputs.empty() && arguments.number("wind") != 0) {
     return Error{"--wind drives a model's inputs, and " + arguments.positional() + " has none"};
   }
   TakeOptions options{.loop = arguments.has("loop"),
                       .instances = arguments.integer("instances"),
                       .seed = static_cast<std::uint64_t>(arguments.integer("seed")),
-                      .noise = arguments.text("noise") == "on"};
+                      .noise = arguments.text("noise") == "on",
+                      .round = round};
   options.seconds = arguments.number(options.loop ? "loop" : "seconds");
   options.inputs.assign(model.inputs.size(), arguments.number("wind"));
   if (arguments.has("input")) {

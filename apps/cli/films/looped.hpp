@@ -16,7 +16,7 @@ Flag loop_flag();
 
 /// Plays the take that --loop, --seconds, --instances, --seed, --noise and --wind describe; adds its size to the
 /// result. Errors: as take(); --wind for a model without inputs.
-Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal);
+Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal, bool round = false);
 
 /// `run --loop`: writes the loop as numbers (.csv) or, of outlines, as a film (.mp4) whose last frame meets its first.
 /// Errors: as take_from(); a flag that does not go with a loop; another name.

@@ -66,16 +66,6 @@ void warn_of_target(const Model& model, const std::optional<SteerTarget>& target
                 " m, and within " + shown(reach_ground, 2) + " m over ground; what is out of reach is not reached");
 }
 
-void say_chain_loop(const Model& model, Terminal& terminal) {
-  const auto loop = chain_loop(model);
-  if (!loop) return;
-  terminal.add("loop.segments", loop->segments);
-  terminal.add("loop.seconds", loop->seconds);
-  terminal.add("loop.lead_seconds", loop->lead_seconds);
-  terminal.say("without chance it repeats itself every " + shown(loop->seconds) + " s (" +
-               std::to_string(loop->segments) + " segments), from " + shown(loop->lead_seconds) + " s on");
-}
-
 void steer_all(const std::optional<SteerTarget>& target, Bank& bank) {
   ChainFacet* chain = bank.chain();
   if (!chain || !target) return;

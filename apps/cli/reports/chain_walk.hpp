@@ -23,9 +23,6 @@ Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const A
 /// Steers every instance that lives to a target, if there is one.
 void steer_all(const std::optional<SteerTarget>& target, Bank& bank);
 
-/// Says, of a chain, how it repeats itself without chance.
-void say_chain_loop(const Model& model, Terminal& terminal);
-
 /// Warns of a target that hardly any walk comes to, however it is steered.
 void warn_of_target(const Model& model, const std::optional<SteerTarget>& target, Terminal& terminal);
 

@@ -8,6 +8,8 @@ export interface BankOptions {
   capacity?: number;
   /** Points of an outline's polyline, 2 to 4096; default 32. */
   polylinePoints?: number;
+  /** Milliseconds that `advance()` lets pass at most, 1 to 10000; default 10000. */
+  longest?: number;
   /** Of all random streams of the bank; default 1. The same seed and inputs give the same life. */
   seed?: bigint | number;
 }
@@ -25,6 +27,13 @@ export interface FlameState {
   flameSize: number;
   sinceLit: number;
   sinceOut: number;
+  /** In the last call of `step()` or `advance()`, or by hand since. */
+  wentOut: boolean;
+  relit: boolean;
+  /** As a light: the middle of its outline (z in the round), its area against rest, its colour temperature. */
+  light: [number, number, number];
+  intensity: number;
+  kelvin: number;
 }
 
 /** Where in its chain an instance is. */
@@ -32,11 +41,21 @@ export interface ChainPlace {
   segment: number;
   step: number;
   mode: number;
+  /** Over the last step: metres and radians a second, z up. */
+  velocity: [number, number, number];
+  spin: [number, number, number];
+  /** At rest on the ground; touched it in the last call of `step()` or `advance()`. */
+  lies: boolean;
+  landed: boolean;
 }
 
 /** What was set of a chain; null: as at first. */
 export interface ChainSettings {
   ground: number | null;
+}
+
+function three(data: DataView, p: number): [number, number, number] {
+  return [data.getFloat32(p, true), data.getFloat32(p + 4, true), data.getFloat32(p + 8, true)];
 }
 
 type Three = readonly [number, number, number];
@@ -97,6 +116,7 @@ export class Bank {
   private readonly outputsRoom: Room;
   private readonly polylinesRoom: Room;
   private readonly sizesRoom: Room;
+  private readonly ringsRoom: Room;
 
   /** @internal */
   constructor(
@@ -115,6 +135,7 @@ export class Bank {
     this.outputsRoom = new Room(native, this.capacity * this.outputs);
     this.polylinesRoom = new Room(native, this.capacity * this.polylinePoints * 2);
     this.sizesRoom = new Room(native, this.capacity);
+    this.ringsRoom = new Room(native, 6 * this.ringCount);
   }
 
   private static create(native: Native, model: number, options: BankOptions): number {
@@ -125,6 +146,7 @@ export class Bank {
       if (options.polylinePoints !== undefined) {
         data.setUint32(p + at.bankOptions.polylinePoints, options.polylinePoints, true);
       }
+      if (options.longest !== undefined) data.setUint32(p + at.bankOptions.longest, options.longest, true);
       if (options.seed !== undefined) data.setBigUint64(p + at.bankOptions.seed, BigInt(options.seed), true);
       const made = p + at.bankOptions.size;
       native.check(native.functions.wisp_bank_create!(model, p, made));
@@ -231,6 +253,38 @@ export class Bank {
     return this.take('wisp_bank_polyline', this.polylinesRoom, this.polylinePoints * 2, instance);
   }
 
+  /** In the round: outputs and outlines as a level camera sees them whose right is (x, z), of length 1. */
+  look(rightX: number, rightZ: number): void {
+    this.call('wisp_bank_look', rightX, rightZ);
+  }
+
+  /**
+   * In the round: rings of one from the base to the tip, half as many as points. Six numbers each: the middle's x, y, z,
+   * the radius, and by how much it rises to its rim towards +x and +z. A view, as above.
+   */
+  rings(instance: Instance): Float32Array<ArrayBuffer> {
+    return this.take('wisp_bank_rings', this.ringsRoom, 6 * this.ringCount, instance);
+  }
+
+  /** In the round: the surface of one, rings × segments vertices of place and normal: a copy. */
+  mesh(instance: Instance, segments: number): Float32Array<ArrayBuffer> {
+    this.rings(instance);
+    return this.filled(6 * this.ringCount * segments, (room, count) => {
+      const { wisp_ring_mesh } = this.native.functions;
+      this.native.check(wisp_ring_mesh!(this.ringsRoom.pointer, this.ringCount, segments, room.pointer, count, 6));
+      return room.first(count).slice();
+    });
+  }
+
+  /** Three indices for each of the 2 × rings × segments − 4 triangles of `mesh()`, anticlockwise from outside. */
+  triangles(segments: number): Uint32Array {
+    return this.filled(6 * this.ringCount * segments - 12, (room, count) => {
+      this.native.check(this.native.functions.wisp_ring_triangles!(this.ringCount, segments, room.pointer, count));
+      const words = room.first(count);
+      return new Uint32Array(words.buffer, words.byteOffset, count).slice();
+    });
+  }
+
   /** Whether an instance burns. */
   flameState(instance: Instance): FlameState {
     return this.struct(at.flameState.size, 'wisp_bank_get_flame_state', instance, (data, p) => ({
@@ -238,6 +292,11 @@ export class Bank {
       flameSize: data.getFloat32(p + at.flameState.flameSize, true),
       sinceLit: nanoseconds(data.getBigInt64(p + at.flameState.sinceLit, true)),
       sinceOut: nanoseconds(data.getBigInt64(p + at.flameState.sinceOut, true)),
+      wentOut: (data.getUint32(p + at.flameState.events, true) & 1) !== 0,
+      relit: (data.getUint32(p + at.flameState.events, true) & 2) !== 0,
+      light: three(data, p + at.flameState.light),
+      intensity: data.getFloat32(p + at.flameState.intensity, true),
+      kelvin: data.getFloat32(p + at.flameState.kelvin, true),
     }));
   }
 
@@ -294,6 +353,10 @@ export class Bank {
       segment: data.getUint32(p + at.chainPlace.segment, true),
       step: data.getUint32(p + at.chainPlace.step, true),
       mode: data.getUint32(p + at.chainPlace.mode, true),
+      velocity: three(data, p + at.chainPlace.velocity),
+      spin: three(data, p + at.chainPlace.spin),
+      lies: data.getUint32(p + at.chainPlace.lies, true) === 1,
+      landed: data.getUint32(p + at.chainPlace.landed, true) === 1,
     }));
   }
 
@@ -335,7 +398,7 @@ export class Bank {
     this.native.functions.wisp_bank_free!(this.pointer);
     this.pointer = 0;
     this.native.free(this.scratch);
-    for (const room of [this.inputsRoom, this.outputsRoom, this.polylinesRoom, this.sizesRoom]) room.free();
+    for (const room of [this.inputsRoom, this.outputsRoom, this.polylinesRoom, this.sizesRoom, this.ringsRoom]) room.free();
   }
 
   private call(name: string, ...values: (number | bigint)[]): void {
@@ -346,6 +409,21 @@ export class Bank {
   // A freed bank has no scratch either.
   private living(): void {
     if (this.pointer === 0) this.native.check(this.native.functions.wisp_bank_step!(0));
+  }
+
+  // What is made in room for so many numbers.
+  private filled<T>(count: number, make: (room: Room, count: number) => T): T {
+    this.living();
+    const room = new Room(this.native, Math.max(count, 0));
+    try {
+      return make(room, Math.max(count, 0));
+    } finally {
+      room.free();
+    }
+  }
+
+  private get ringCount(): number {
+    return (this.polylinePoints + 1) >> 1;
   }
 
   private readFacts(): number {

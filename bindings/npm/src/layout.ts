@@ -42,7 +42,7 @@ export const chainFacts = {
   headingFree: 20,
 } as const;
 
-export const bankOptions = { size: 32, capacity: 4, polylinePoints: 8, seed: 16 } as const;
+export const bankOptions = { size: 32, capacity: 4, polylinePoints: 8, longest: 12, seed: 16 } as const;
 
 export const bankFacts = {
   size: 48,
@@ -56,9 +56,28 @@ export const bankFacts = {
   steps: 40,
 } as const;
 
-export const flameState = { size: 32, lit: 4, flameSize: 8, sinceLit: 16, sinceOut: 24 } as const;
+export const flameState = {
+  size: 56,
+  lit: 4,
+  flameSize: 8,
+  events: 12,
+  sinceLit: 16,
+  sinceOut: 24,
+  light: 32,
+  intensity: 44,
+  kelvin: 48,
+} as const;
 
-export const chainPlace = { size: 16, segment: 4, step: 8, mode: 12 } as const;
+export const chainPlace = {
+  size: 48,
+  segment: 4,
+  step: 8,
+  mode: 12,
+  velocity: 16,
+  spin: 28,
+  lies: 40,
+  landed: 44,
+} as const;
 
 export const chainSettings = { size: 12, hasGround: 4, ground: 8 } as const;
 

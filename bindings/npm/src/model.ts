@@ -123,9 +123,9 @@ export class Model {
   /** @internal */
   constructor(
     private readonly native: Native,
-    bytes: Uint8Array,
+    bytes: Uint8Array | number,
   ) {
-    this.pointer = native.allocating(() => Model.read(native, bytes));
+    this.pointer = typeof bytes === 'number' ? bytes : native.allocating(() => Model.read(native, bytes));
     this.name = native.text(native.functions.wisp_model_name!(this.pointer));
     const { facts, kind, view, inputs, outputs } = this.readFacts();
     this.facts = facts;
@@ -138,6 +138,21 @@ export class Model {
   /** Makes an empty bank of instances. */
   bank(options: BankOptions = {}): Bank {
     return new Bank(this.native, this.pointer, options, this.kind === 'chain');
+  }
+
+  /**
+   * The same flame in the round, by rotational symmetry: its wind is two inputs, x to the right of the camera that filmed
+   * it and z towards that camera. Throws where it is no flame of symmetric and antisymmetric components.
+   */
+  inTheRound(): Model {
+    const { native } = this;
+    const made = native.allocating(() =>
+      native.withRoom(4, (room) => {
+        native.check(native.functions.wisp_model_in_the_round!(this.pointer, room));
+        return native.data.getUint32(room, true);
+      }),
+    );
+    return new Model(native, made);
   }
 
   /** How the model was made and how good it is. */

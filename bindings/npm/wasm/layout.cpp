@@ -67,6 +67,7 @@ WISP_FIELD(wisp_chain_facts, heading_free, 20);
 WISP_SIZE(wisp_bank_options, 32);
 WISP_FIELD(wisp_bank_options, capacity, 4);
 WISP_FIELD(wisp_bank_options, polyline_points, 8);
+WISP_FIELD(wisp_bank_options, longest, 12);
 WISP_FIELD(wisp_bank_options, seed, 16);
 
 WISP_SIZE(wisp_bank_facts, 48);
@@ -79,16 +80,24 @@ WISP_FIELD(wisp_bank_facts, polyline_points, 24);
 WISP_FIELD(wisp_bank_facts, clamped, 32);
 WISP_FIELD(wisp_bank_facts, steps, 40);
 
-WISP_SIZE(wisp_flame_state, 32);
+WISP_SIZE(wisp_flame_state, 56);
 WISP_FIELD(wisp_flame_state, lit, 4);
 WISP_FIELD(wisp_flame_state, flame_size, 8);
 WISP_FIELD(wisp_flame_state, since_lit, 16);
 WISP_FIELD(wisp_flame_state, since_out, 24);
+WISP_FIELD(wisp_flame_state, events, 12);
+WISP_FIELD(wisp_flame_state, light, 32);
+WISP_FIELD(wisp_flame_state, intensity, 44);
+WISP_FIELD(wisp_flame_state, kelvin, 48);
 
-WISP_SIZE(wisp_chain_place, 16);
+WISP_SIZE(wisp_chain_place, 48);
 WISP_FIELD(wisp_chain_place, segment, 4);
 WISP_FIELD(wisp_chain_place, step, 8);
 WISP_FIELD(wisp_chain_place, mode, 12);
+WISP_FIELD(wisp_chain_place, velocity, 16);
+WISP_FIELD(wisp_chain_place, spin, 28);
+WISP_FIELD(wisp_chain_place, lies, 40);
+WISP_FIELD(wisp_chain_place, landed, 44);
 
 WISP_SIZE(wisp_chain_settings, 12);
 WISP_FIELD(wisp_chain_settings, has_ground, 4);

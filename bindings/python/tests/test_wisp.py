@@ -136,6 +136,32 @@ class Playing(unittest.TestCase):
         self.assertTrue(np.isfinite(out).all() and np.abs(out).max() > 0)
         self.assertEqual(bank.polylines().shape, (5, 32, 2))
 
+    def test_a_flame_in_the_round_leans_into_the_picture(self):
+        with self.assertRaisesRegex(wisp.Error, "about the vertical"):
+            wisp.read_model(flame).in_the_round()
+        shipped = pathlib.Path(__file__).parents[3] / "apps/web/public/models/flame.wisp"
+        bank = wisp.Bank(wisp.read_model(shipped).in_the_round())
+        bank.set_inputs([0.0, -0.6])
+        bank.step(60)
+        rings = bank.rings(bank.at(0))
+        self.assertEqual(rings.shape, (16, 6))
+        self.assertLess(rings[-1, 2], -0.2)
+        bank.look(0, -1)
+        np.testing.assert_allclose(bank.polylines()[0, 15:17].mean(0)[0], -rings[-1, 2], atol=1e-5)
+        vertices, triangles = bank.mesh(bank.at(0), segments=8)
+        self.assertEqual(vertices.shape, (16 * 8, 6))
+        self.assertEqual(triangles.max(), len(vertices) - 1)
+        np.testing.assert_allclose(np.linalg.norm(vertices[:, 3:], axis=1), 1, atol=1e-5)
+        light = bank.light(bank.at(0))
+        self.assertLess(light["position"][2], -0.05)
+        self.assertAlmostEqual(light["kelvin"], 1900, delta=60)
+        self.assertFalse(bank.flame(bank.at(0))["went_out"])
+        bank.extinguish()
+        self.assertTrue(bank.flame(bank.at(0))["went_out"])
+        self.assertLessEqual(wisp.Bank(wisp.read_model(shipped), longest_advance=0.1).advance(5), 6)
+        with self.assertRaisesRegex(wisp.Error, "longest advance"):
+            wisp.Bank(wisp.read_model(shipped), longest_advance=0)
+
     def test_the_same_seed_is_the_same_life_and_a_saved_bank_goes_on(self):
         model = wisp.read_model(flame)
         one, two = wisp.Bank(model, seed=3), wisp.Bank(pickle.loads(pickle.dumps(model)), seed=3)
@@ -212,7 +238,9 @@ class EveryModel(unittest.TestCase):
                     first = bank.at(0)
                     bank.ground = -2
                     bank.place(first, [0, 0, 1], velocity=[0.5, 0, 0])
-                    self.assertEqual((bank.ground, len(bank.chain_place(first))), (-2, 3))
+                    place = bank.chain_place(first)
+                    self.assertEqual((bank.ground, place["lies"], place["landed"]), (-2, False, False))
+                    self.assertEqual((place["velocity"].shape, place["spin"].shape), ((3,), (3,)))
                     if bank.can_steer:
                         bank.steer(first, [0, 0, -1], 2)
                         bank.release(first)

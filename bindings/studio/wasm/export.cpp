@@ -61,7 +61,8 @@ extern "C" __attribute__((export_name("studio_export"))) int studio_export(const
                             .loop = loop != 0,
                             .instances = instances,
                             .seed = static_cast<std::uint64_t>(seed),
-                            .inputs = std::vector<double>(model->inputs.size(), wind)};
+                            .inputs = std::vector<double>(model->inputs.size(), wind),
+                            .round = static_cast<Format>(format) == Format::kGltf};
   const auto written = write(*model, static_cast<Format>(format), options, height, name);
   return written ? kDone : fail(written.error());
 }

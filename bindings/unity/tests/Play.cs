@@ -147,6 +147,32 @@ internal static class Play
         }
     }
 
+    // A flame in the round leans towards a wind from behind, and has a surface.
+    private static void Round(Model plane, string path)
+    {
+        using (var model = plane.InTheRound())
+        using (var bank = new Bank(model))
+        {
+            ulong flame = bank.Spawn();
+            bank.SetInputs(flame, new[] { 0f, 0.6f });
+            for (int frame = 0; frame < 60; ++frame) bank.Step();
+            var rings = new float[16 * 6];
+            bank.Rings(flame, rings);
+            Expect(rings[15 * 6 + 2] > 0.05f, path + ": it leans into depth");
+            bank.Look(0, -1);
+            var vertices = new float[16 * 8 * 6];
+            var triangles = new uint[3 * (2 * 16 * 8 - 4)];
+            Bank.Mesh(rings, 8, vertices);
+            Bank.Triangles(16, 8, triangles);
+            Expect(Math.Abs(vertices[0] - rings[0] - rings[3]) < 1e-5f && triangles[triangles.Length - 1] < 128, path + ": its surface");
+            FlameState light = bank.Flame(flame);
+            Expect(light.Z > 0.05f && Math.Abs(light.Kelvin - 1900) < 60 && light.Intensity > 0.5f, path + ": its light");
+            Expect(light.Lit && !light.WentOut && !light.Relit, path + ": nothing happened to it");
+            bank.Extinguish(flame);
+            Expect(bank.Flame(flame).WentOut, path + ": it went out");
+        }
+    }
+
     // Every shipped model: what a component does with it, then save, many steps and what only some have.
     private static void Any(string path)
     {
@@ -161,6 +187,7 @@ internal static class Play
             bank.Outputs(outputs);
             Expect(outputs[3 * model.Outputs] == 0, path + ": a row of capacity that is empty");
             if (model.View == View.Outline) bank.Polylines(new float[4 * 64]);
+            if (Fine(() => model.InTheRound().Dispose())) Round(model, path);
             byte[] saved = bank.Save();
             bank.Step(3, null, again);
             float last = again[again.Length - 1];

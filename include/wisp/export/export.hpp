@@ -22,6 +22,8 @@ struct TakeOptions {
   std::uint64_t seed = 1;        ///< of the random streams
   bool noise = true;             ///< the residual noise; a loop without it stands still
   std::vector<double> inputs{};  ///< constant, per input of the model, in its unit; missing ones are 0
+  bool round =
+      false;  ///< a flame that can be is played in the round, for glTF and vertex shaders: its wind is to the right
   /// Rows of all inputs, a frame each, in the place of `inputs`; the last row stays. A flame may go out. Not for loops.
   std::vector<float> schedule{};
 };
@@ -33,14 +35,15 @@ struct Take {
   std::size_t frames = 0;  ///< of a loop: one round, without repeating the first frame
   std::size_t instances = 0;
   std::size_t outputs = 0;
-  std::vector<float> values;  ///< frames × instances × outputs
+  std::size_t sides = 1;      ///< 2 of a flame in the round: as seen from the front and, x being z, from the side
+  std::vector<float> values;  ///< sides × frames × instances × outputs
   /// Of a loop of bodies, per instance: how far one round leads, metres. A leaf falls; what returns is its attitude and
   /// its velocity, and the next round begins where this one ends.
   std::vector<std::array<double, 3>> travel;
 
   /// All outputs of one instance in one frame.
-  std::span<const float> at(std::size_t frame, std::size_t instance) const {
-    return std::span(values).subspan((frame * instances + instance) * outputs, outputs);
+  std::span<const float> at(std::size_t frame, std::size_t instance, std::size_t side = 0) const {
+    return std::span(values).subspan(((side * frames + frame) * instances + instance) * outputs, outputs);
   }
 };
 
@@ -51,11 +54,12 @@ struct Take {
 Result<Take> take(const Model& model, const TakeOptions& options);
 
 /// A take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with all times at the model's
-/// rate. A body is a node with translation and rotation; its mesh lies in its first two axes. An outline is a flat mesh
-/// with one morph target an output of the model, named after it: its weight is where the output is between `lowest` (0)
-/// and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive the same mesh live. The root
-/// node turns Wisp's z up into glTF's y up for bodies. A loop ends with its first frame again.
-/// Errors: the model's outputs are neither an outline nor a body; the take is not of this model.
+/// rate. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An outline is a
+/// body of revolution, of translucent shells that emit light, with one morph target an output of the model, named after
+/// it, and as many for the side of a flame in the round: its weight is where the output is between `lowest` (0) and
+/// `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive the same mesh live. The root node
+/// turns Wisp's z up into glTF's y up for bodies. A loop ends with its first frame again. Errors: the model's outputs
+/// are neither an outline nor a body; the take is not of this model.
 Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
 
 /// The outline of a take's first instance as a Lottie animation, `height` pixels high: one closed path of cubic Bézier
@@ -72,7 +76,7 @@ struct VertexAnimation {
   std::string json{};
 };
 
-/// Points of an outline, in its units, or the edge of a body's ellipse, in metres, z up.
+/// Points of the rings of an outline, a body of revolution, in its units, y up; or of a leaf, in metres, z up.
 /// Errors: the model's outputs are neither an outline nor a pose; the take is not of this model.
 Result<VertexAnimation> vertex_animation(const Model& model, const Take& take);
 

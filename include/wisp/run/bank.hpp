@@ -11,10 +11,12 @@
 //
 // A bank is used by one thread at a time (which may have others step it, set_crew()); different banks are independent.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "wisp/base/result.hpp"
@@ -25,7 +27,6 @@ namespace wisp {
 class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
-class SwitchedFacet;
 
 /// Names one living instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot
 /// has another generation.
@@ -36,11 +37,15 @@ struct InstanceId {
   friend bool operator==(const InstanceId&, const InstanceId&) = default;
 };
 
+/// A longer pause is cut to this by Bank::advance(): nobody has watched it.
+inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
+
 /// How a bank is made.
 struct BankOptions {
-  int capacity = 1;                  ///< most instances alive at once; 1 to 1 048 576
-  std::uint64_t seed = 1;            ///< of all random streams of the bank
-  int polyline_points = 32;          ///< points of an outline's polyline; 2 to 4096. 32 is smooth at 500 pixels' height
+  int capacity = 1;          ///< most instances alive at once; 1 to 1 048 576
+  std::uint64_t seed = 1;    ///< of all random streams of the bank
+  int polyline_points = 32;  ///< points of an outline's polyline; 2 to 4096. 32 is smooth at 500 pixels' height
+  std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< what advance() cuts pauses to: above 0, at most that
   std::span<std::byte> memory = {};  ///< where it lives, at least bank_bytes(); none: it allocates once
 };
 
@@ -51,11 +56,15 @@ Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 /// The time of one step of a model, as banks keep it: whole nanoseconds.
 std::chrono::nanoseconds step_time(const Model& model);
 
-/// A longer pause than this is cut to it by Bank::advance(): nobody has watched it.
-inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
-
 /// Share of the trained or seen range by which inputs and outputs may go beyond it, on either side.
 inline constexpr double kRangeMargin = 0.5;
+
+/// A flame as a source of light.
+struct FlameLight {
+  std::array<float, 3> position{};  ///< the middle of its outline, in the outline's units; z in the round, 0 elsewhere
+  float intensity = 0;              ///< its area against that of the flame at rest
+  float kelvin = 0;                 ///< colour temperature: 1900 K at rest, times the 16th root of the intensity
+};
 
 /// Threads of the caller's that step parts of a bank at once. `run` calls task(of, part) for every part below `parts`,
 /// each once and on any thread, and returns when all calls have returned.
@@ -121,8 +130,7 @@ class Bank {
   /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step costs less.
   /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
   /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
-  /// later repeat themselves (chain_loop() in wisp/run/chain_facet.hpp computes when). Any other scale leaves a chain
-  /// as it is.
+  /// later repeat themselves. Any other scale leaves a chain as it is.
   void set_noise(float scale);
   float noise() const;
 
@@ -137,8 +145,8 @@ class Bank {
   void step(int count, std::span<const float> inputs = {}, std::span<float> outputs = {});
 
   /// Lets time pass: makes the steps that fall into it, and shows the outputs between the last two steps in proportion
-  /// (one step of latency). A negative time counts as none, a longer one than kLongestAdvance as that. Returns the
-  /// number of steps made.
+  /// (one step of latency). A negative time counts as none, a longer one than BankOptions::longest_advance as that.
+  /// Returns the number of steps made.
   int advance(std::chrono::nanoseconds time);
 
   /// The same with seconds; what is not a number counts as none.
@@ -166,6 +174,12 @@ class Bank {
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
   bool polyline(InstanceId id, std::span<float> values) const;
 
+  /// The light of an instance whose view is an outline; nothing where it is none or `id` is not valid.
+  std::optional<FlameLight> light(InstanceId id) const;
+
+  /// The mode of a switched ARX model that made an instance's newest sample; nothing where there is none.
+  std::optional<int> mode(InstanceId id) const;
+
   /// What only some models have is asked of a facet, which is null where the model has none of it. Facets live as long
   /// as the bank, move with it, and may be asked for every frame.
   ChainFacet* chain();  ///< of a segment chain (wisp/run/chain_facet.hpp)
@@ -174,7 +188,6 @@ class Bank {
   const ExtinctionFacet* extinction() const;
   BodyFacet* body();  ///< of a model in the round (wisp/run/body_facet.hpp)
   const BodyFacet* body() const;
-  const SwitchedFacet* switched() const;  ///< of a switched ARX model (wisp/run/switched_facet.hpp)
 
   /// Puts one instance, or all that live and the bank's time, back to where they were when spawned, lit; streams and
   /// inputs stay. Returns false when `id` is not valid.

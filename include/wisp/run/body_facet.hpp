@@ -6,6 +6,7 @@
 // and z components.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "wisp/run/bank.hpp"
@@ -15,6 +16,20 @@ namespace wisp {
 /// Numbers of a ring: the middle's x, y and z, the radius, and by how much the ring rises from its middle to its rim
 /// towards +x and towards +z.
 inline constexpr std::size_t kRingNumbers = 6;
+
+/// Numbers of a vertex: its place and its normal.
+inline constexpr std::size_t kVertexNumbers = 6;
+
+/// Writes the surface of a body from two rings or more: 3 to 256 vertices a ring, `stride` numbers from one to the
+/// next. Returns false, and writes nothing, where it is not so, or there is no room for rings × segments × stride.
+bool ring_mesh(std::span<const float> rings, int segments, std::span<float> numbers,
+               std::size_t stride = kVertexNumbers);
+
+/// Its triangles, three indices each, anticlockwise from outside, the base's and the tip's caps included.
+constexpr int ring_triangle_count(int rings, int segments) { return 2 * rings * segments - 4; }
+
+/// Returns false likewise, or where there are not exactly 3 × ring_triangle_count() indices.
+bool ring_triangles(int rings, int segments, std::span<std::uint32_t> indices);
 
 /// The bodies of a bank. It lives as long as the bank, and moves with it. Nothing here allocates.
 class BodyFacet {

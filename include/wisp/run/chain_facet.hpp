@@ -11,11 +11,15 @@
 
 namespace wisp {
 
-/// Where an instance of a segment chain is.
+/// Where an instance of a segment chain is, and how it moves.
 struct ChainPlace {
-  std::uint32_t segment = 0;  ///< index into ChainModel::segments
-  std::uint32_t step = 0;     ///< of that segment; at 0 it was joined to the one before
-  std::uint32_t mode = 0;     ///< of that segment
+  std::uint32_t segment = 0;        ///< index into ChainModel::segments
+  std::uint32_t step = 0;           ///< of that segment; at 0 it was joined to the one before
+  std::uint32_t mode = 0;           ///< of that segment
+  std::array<float, 3> velocity{};  ///< over the last step, metres a second
+  std::array<float, 3> spin{};      ///< over the last step, radians a second, world axes
+  bool lies = false;                ///< at rest on the ground
+  bool landed = false;  ///< touched it in the last call of step() or advance(), in the last 0.35 s of a longer one
 };
 
 /// A body at one moment, in the world: metres, seconds, radians, z up.
@@ -49,10 +53,10 @@ class ChainFacet {
   bool can_steer() const;
 
   /// Steers an instance: at joins it prefers what leads to the target, weighed against how likely that is, until the
-  /// time has come; then it falls on as before. What lies beyond its reach is not reached. A new target takes the place
-  /// of the one before; placing and resetting end it. A join costs more meanwhile; docs/explanation/chains.md has
-  /// figures. Returns false, and does nothing, when `id` is not valid, a number is out of its range, or can_steer() is
-  /// false.
+  /// time has come; then it falls on as before. In the last second it is carried to it, at no more than the speed that
+  /// falls have at joins: what lies beyond that reach is not reached. A new target takes the place of the one before;
+  /// placing and resetting end it. A join costs more meanwhile; docs/explanation/chains.md has figures. Returns false,
+  /// and does nothing, when `id` is not valid, a number is out of its range, or can_steer() is false.
   bool steer(InstanceId id, const SteerTarget& target);
 
   /// Lets an instance fall as it will. Returns false when `id` is not valid.
@@ -72,18 +76,5 @@ class ChainFacet {
 
   Bank::State* state_;
 };
-
-/// A walk that repeats itself.
-struct ChainLoop {
-  std::size_t lead = 0;      ///< segments that are played before the loop
-  std::size_t segments = 0;  ///< of one round, ≥ 1
-  double lead_seconds = 0;
-  double seconds = 0;  ///< of one round
-};
-
-/// The loop in which every instance of a chain ends that is spawned after Bank::set_noise(0) has taken its chance away.
-/// It allocates: not for every frame.
-/// Returns nothing where the dynamics are not a chain, or the model is not valid (check()).
-std::optional<ChainLoop> chain_loop(const Model& model);
 
 }  // namespace wisp

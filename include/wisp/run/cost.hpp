@@ -21,8 +21,6 @@ struct Cost {
           ///< residual in an input that swings, or shrinks a flame that goes out; without any of them the same
   std::int64_t steered_operations = 0;  ///< the most in any frame of a chain that is steered, where a join weighs
                                         ///< --best-of x modes candidates; 0: it can't be steered
-  std::int64_t between_operations = 0;  ///< that a frame between two steps takes more than one at a step; the sum has
-                                        ///< them where frames have rates of their own, as an ARX model's
   std::int64_t extinction_operations =
       0;  ///< of the rule of extinction, where there is one, while it burns; on numbers
 };

@@ -21,6 +21,8 @@ struct LitState {
   float size = 1;  ///< of what is seen, 0 … 1; outputs and polylines are already multiplied by it
   std::chrono::nanoseconds since_lit = kNever;  ///< since it was last lit again; one that was spawned lit was not
   std::chrono::nanoseconds since_out = kNever;  ///< since it last went out
+  bool relit = false;                           ///< in the last call of step() or advance(), or by hand since
+  bool went_out = false;                        ///< likewise
 };
 
 /// Going out and being lit again. It lives as long as the bank, and moves with it; it allocates nothing.

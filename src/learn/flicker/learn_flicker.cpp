@@ -19,7 +19,6 @@
 #include "learn/numeric/spectrum.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/bank.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
 namespace flicker {
@@ -291,7 +290,7 @@ Play play_of(const Model& model, std::uint64_t seed) {
     bank->outputs(outputs);
     for (std::size_t k = 0; k < kInstances && t >= kSettle * model.rate_hz; ++k) {
       play.traces[k].push_back(outputs[k]);
-      play.modes[k].push_back(*bank->switched()->mode_of(bank->at(static_cast<int>(k))));
+      play.modes[k].push_back(*bank->mode(bank->at(static_cast<int>(k))));
     }
   }
   return play;

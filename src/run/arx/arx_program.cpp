@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 
 #include "run/state/model_hash.hpp"
@@ -134,56 +133,6 @@ ArxProgram lay_out(const Regression& regression, const ResampledProgram& resampl
   return program;
 }
 
-std::span<const TapRun> runs_of(const ArxProgram& program, int row) {
-  const std::uint32_t begin = row == 0 ? 0 : program.row_end[row - 1];
-  return program.runs.subspan(begin, program.row_end[row] - begin);
-}
-
-// The numbers of every mode from one index on.
-std::span<const float> of_modes(const ArxProgram& program, std::span<const float> numbers, std::size_t first,
-                                std::size_t size = 1) {
-  const auto modes = static_cast<std::size_t>(program.modes);
-  return numbers.subspan(first * modes, size * modes);
-}
-
-template <class T, class Same = std::equal_to<>>
-bool all_same(std::span<const T> a, std::span<const T> b, Same same = {}) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
-
-bool are_opposite(std::span<const float> a, std::span<const float> b) {
-  return all_same(a, b, [](float x, float y) { return x == -y; });
-}
-
-// Whether output b looks back at itself as a does at itself, and at all else with opposite coefficients.
-bool taps_mirror(const ArxProgram& program, int a, int b) {
-  const auto mirrors = [&](const TapRun& x, const TapRun& y) {
-    const bool own = x.channel == static_cast<std::uint32_t>(a) && y.channel == static_cast<std::uint32_t>(b);
-    const bool common = x.channel == y.channel;
-    if (!(own || common) || x.first_lag != y.first_lag || x.count != y.count) return false;
-    const auto ours = of_modes(program, program.coefficients, x.coefficient, x.count);
-    const auto theirs = of_modes(program, program.coefficients, y.coefficient, y.count);
-    return own ? all_same(ours, theirs) : are_opposite(ours, theirs);
-  };
-  return all_same(runs_of(program, a), runs_of(program, b), mirrors);
-}
-
-bool noise_mirrors(const ArxProgram& program, int a, int b) {
-  if (!program.resampled.empty()) return residuals_mirror(program.resampled, a, b);
-  const auto begin = [&](int row) { return row == 0 ? 0U : program.shock_end[row - 1]; };
-  const std::uint32_t size = program.shock_end[a] - begin(a);
-  if (program.shock_end[b] - begin(b) != size) return false;
-  const std::span<const std::uint32_t> shock = program.shock;
-  return all_same(shock.subspan(begin(a), size), shock.subspan(begin(b), size)) &&
-         are_opposite(of_modes(program, program.shock_size, begin(a), size),
-                      of_modes(program, program.shock_size, begin(b), size));
-}
-
-bool ranges_mirror(const OutputChannel& a, const OutputChannel& b) {
-  return a.scale == b.scale && a.mean == -b.mean && a.low == -b.high && a.high == -b.low && a.lowest == -b.highest &&
-         a.highest == -b.lowest && a.start == -b.start;
-}
-
 double total(std::span<const float> numbers) {
   double sum = 0;
   for (float number : numbers) sum += std::abs(number);
@@ -249,18 +198,6 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
 
 ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena) {
   return lay_out(regression_of(model, switched), {}, arena);
-}
-
-void mark_mirrored(const ArxProgram& program, std::span<OutputChannel> outputs) {
-  for (int b = 0; b < program.outputs; ++b) {
-    for (int a = 0; a < b && outputs[b].mirrors < 0; ++a) {
-      const bool opposite =
-          outputs[a].mirrors < 0 && ranges_mirror(outputs[a], outputs[b]) &&
-          are_opposite(of_modes(program, program.constant, a), of_modes(program, program.constant, b)) &&
-          taps_mirror(program, a, b) && noise_mirrors(program, a, b);
-      if (opposite) outputs[b].mirrors = a;
-    }
-  }
 }
 
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {

@@ -77,10 +77,6 @@ void keep(std::vector<ModeWeights>& list, ModeWeights weights);
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena);
 ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena);
 
-/// Marks the outputs that are always the negative of an earlier one: the two ends of an outline are, since the base's
-/// middle lies between them.
-void mark_mirrored(const ArxProgram& program, std::span<OutputChannel> outputs);
-
 /// A hash of the program, over a hash of what came before.
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before);
 

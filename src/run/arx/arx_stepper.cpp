@@ -3,5 +3,6 @@
 namespace wisp {
 
 template class ArxStepper<LiveNumbers>;
+template class ArxStepper<LiveNumbers, ModeLanes<LiveNumbers>>;
 
 }  // namespace wisp

@@ -164,7 +164,6 @@ class ArxStepper : public ChannelHistory<N> {
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
         shock_size_(arena.take<float>(program.shocks * modes.count())) {
     if (arena.measures()) return;
-    mark_mirrored(program_, channels_.outputs);
     own_shocks_ = program.shock_channels == program.outputs && program.shocks == channels.outputs.size();
   }
 
@@ -205,9 +204,7 @@ class ArxStepper : public ChannelHistory<N> {
     if (noisy_) make_shocks(block, step, moment);
     std::fill_n(moment.clamped, kBlocks * kLanes, 0U);
     for (int i = 0; i < program_.outputs;) {
-      if (channels_.outputs[i].mirrors >= 0) {
-        mirror(i++, step);
-      } else if (kTwins<kBlocks> && has_twin(i)) {
+      if (kTwins<kBlocks> && program_.twin[i] != 0) {
         make_rows<2>(i, step);
         i += 2;
       } else {
@@ -230,14 +227,6 @@ class ArxStepper : public ChannelHistory<N> {
   // Two rows at once where registers hold their sums and as much again.
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
-
-  bool has_twin(int i) const { return program_.twin[i] != 0 && channels_.outputs[i + 1].mirrors < 0; }
-
-  template <int kBlocks>
-  void mirror(int i, const Step<kBlocks>& step) const {
-    using Values = BlockReals<N, kBlocks>;
-    store_blocks<N>(negative(load_blocks<N, Values>(step.output(channels_.outputs[i].mirrors))), step.output(i));
-  }
 
   // Outputs from i on whose sums are over the same samples: each sample is read once for all of them.
   template <int kRows, int kBlocks>

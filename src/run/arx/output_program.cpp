@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "run/arx/arx_program.hpp"
-#include "run/arx/mode_program.hpp"
+#include "run/arx/mode_lanes.hpp"
 #include "run/arx/output_program.hpp"
 #include "run/state/model_hash.hpp"
 

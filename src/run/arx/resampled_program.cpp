@@ -240,15 +240,6 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   return program;
 }
 
-bool residuals_mirror(const ResampledProgram& program, int a, int b) {
-  if (program.across > 0) return false;
-  const auto ny = static_cast<std::size_t>(program.outputs);
-  for (std::size_t row = 0; row < program.rows.size(); row += ny) {
-    if (program.rows[row + a] != -program.rows[row + b]) return false;
-  }
-  return true;
-}
-
 // What the tree is follows from the rest.
 std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
   if (program.empty()) return before;

@@ -73,9 +73,6 @@ struct ResampledProgram {
 /// Precondition: the model has passed check().
 ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx, Arena& arena);
 
-/// Whether output b always gets the negative of what output a gets.
-bool residuals_mirror(const ResampledProgram& program, int a, int b);
-
 /// A hash of the program, over a hash of what came before: the latter itself where nothing is resampled.
 std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before);
 

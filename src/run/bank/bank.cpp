@@ -21,6 +21,10 @@ Result<void> check_options(const BankOptions& options) {
   if (options.polyline_points < 2 || options.polyline_points > kMaxPolylinePoints) {
     return Error{"a bank's polyline has " + std::to_string(options.polyline_points) + " points, expected 2 to 4096"};
   }
+  if (options.longest_advance.count() <= 0 || options.longest_advance > kLongestAdvance) {
+    return Error{"a bank's longest advance is " + std::to_string(options.longest_advance.count()) +
+                 " ns, expected above 0 and at most 10 s"};
+  }
   return {};
 }
 
@@ -100,7 +104,12 @@ ExtinctionFacet* Bank::extinction() { return state_->extinction.present ? &state
 const ExtinctionFacet* Bank::extinction() const { return const_cast<Bank*>(this)->extinction(); }
 BodyFacet* Bank::body() { return state_->shape.across > 0 ? &state_->body_facet : nullptr; }
 const BodyFacet* Bank::body() const { return const_cast<Bank*>(this)->body(); }
-const SwitchedFacet* Bank::switched() const { return state_->switched_stepper() ? &state_->switched_facet : nullptr; }
+
+std::optional<int> Bank::mode(InstanceId id) const {
+  const auto* switched = state_->switched_stepper();
+  if (!switched || !valid(id)) return {};
+  return switched->mode(static_cast<int>(id.slot) / State::kLanes, static_cast<int>(id.slot) % State::kLanes);
+}
 
 InstanceId Bank::at(int slot) const {
   if (slot < 0 || slot >= state_->rows || !state_->alive[slot]) return {};
@@ -167,6 +176,7 @@ void Bank::set_crew(const Crew& crew) {
 }
 
 void Bank::step() {
+  state_->called = state_->steps;
   state_->passed = 0;
   state_->between = false;
   state_->step_all({});
@@ -180,6 +190,7 @@ void Bank::step(int count, std::span<const float> inputs, std::span<float> outpu
   if (!inputs.empty() && !check_size("Bank::step()", inputs.size(), static_cast<std::size_t>(count) * row_in)) return;
   if (!outputs.empty() && !check_size("Bank::step()", outputs.size(), static_cast<std::size_t>(count) * row_out))
     return;
+  s.called = s.steps;
   s.passed = 0;
   s.between = false;
   if (kAhead) {
@@ -194,8 +205,8 @@ void Bank::step(int count, std::span<const float> inputs, std::span<float> outpu
 
 int Bank::advance(std::chrono::nanoseconds time) {
   State& s = *state_;
-  const auto most = static_cast<std::int64_t>(kLongestAdvance.count());
-  s.passed += std::clamp<std::int64_t>(time.count(), 0, most);
+  s.called = s.steps;
+  s.passed += std::clamp<std::int64_t>(time.count(), 0, s.longest);
   const auto steps = static_cast<int>(s.passed / s.step_time);
   s.passed %= s.step_time;
   s.between = true;

@@ -56,7 +56,8 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
       shape(make_shape_program(model, arena)),
       visible(model.outputs.size()),
       polyline(make_view(model, options.polyline_points, arena)),
-      extinction(make_extinction_program(model, arena)) {
+      extinction(make_extinction_program(model, arena)),
+      longest(options.longest_advance.count()) {
   const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
   model_hash = std::visit([&](const auto& dynamics) { return dynamics.hash(hash_of(channels, step_time)); }, stepper);
   model_hash = hash_of(extinction, hash_of(shape, model_hash));
@@ -79,6 +80,8 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
   }
   if (arena.measures()) return;
   for (std::size_t slot = 0; slot < lanes; ++slot) start(static_cast<int>(slot));
+  rest_area = 1;
+  if (polyline.points > 0) rest_area = light_of(0).intensity;
 }
 
 void Bank::State::start(int slot) {
@@ -128,7 +131,9 @@ LitState Bank::State::lit_state(int slot) const {
     const auto ago = static_cast<std::int64_t>(steps - then) * step_time - shown_late;
     return std::chrono::nanoseconds(std::max<std::int64_t>(ago, 0));
   };
-  LitState state{lit[slot] != 0.0f, size[slot], since(lit_at[slot]), since(out_at[slot])};
+  const auto just = [&](std::uint64_t then) { return steps - then < steps - called; };
+  LitState state{lit[slot] != 0.0f,   size[slot],         since(lit_at[slot]),
+                 since(out_at[slot]), just(lit_at[slot]), just(out_at[slot])};
   if (between) {
     const float share = static_cast<float>(passed) / static_cast<float>(step_time);
     state.size = previous_size[slot] + share * (size[slot] - previous_size[slot]);
@@ -156,9 +161,9 @@ void Bank::State::set_noise(float scale) {
   std::visit([&](auto& dynamics) { dynamics.set_noise(scale); }, stepper);
 }
 
-void Bank::State::set_chain(const ChainSettings& settings) {
-  chain = settings;
-  if (auto* stepped = chain_stepper()) stepped->set_chain(settings);
+void Bank::State::set_ground(float height) {
+  ground = height;
+  if (auto* stepped = chain_stepper()) stepped->set_ground(height);
 }
 
 // Work is divided into whole groups of blocks, so that no two threads write to one cache line.
@@ -332,8 +337,6 @@ Fields read_fields(ByteReader& in) {
           in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
 }
 
-ChainSettings chain_settings(const Fields& fields) { return {float_of(fields.ground)}; }
-
 bool chain_is_sound(const Fields& fields) {
   const float ground = float_of(fields.ground);
   return fields.ground >> 32 == 0 && (ground == kNoGround || within(ground, -kFarthest, kFarthest));
@@ -395,7 +398,7 @@ void Bank::save(std::span<std::byte> bytes) const {
   ByteWriter out(payload.data());
   for (std::uint64_t field : {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned,
                               static_cast<std::uint64_t>(s.passed), std::uint64_t{s.between}, bits_of(s.noise),
-                              s.clamped.clamped, s.clamped.steps, std::uint64_t{0}, bits_of(s.chain.ground)}) {
+                              s.clamped.clamped, s.clamped.steps, std::uint64_t{0}, bits_of(s.ground)}) {
     out.put(field);
   }
   for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);
@@ -423,8 +426,9 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   s.passed = static_cast<std::int64_t>(fields.passed);
   s.between = fields.between != 0;
   s.set_noise(float_of(fields.noise));
-  s.set_chain(chain_settings(fields));
+  s.set_ground(float_of(fields.ground));
   s.clamped = {fields.clamped, fields.steps};
+  s.called = s.steps;
   s.living = s.rows = s.lowest_free = 0;
   for (int slot = 0; slot < s.capacity; ++slot) restore_slot(s, slot, in);
   s.show();

@@ -10,7 +10,6 @@
 #include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
 
@@ -52,6 +51,7 @@ struct Bank::State {
   void relight(int slot);
   void extinguish(int slot);
   LitState lit_state(int slot) const;
+  FlameLight light_of(int slot) const;
   template <class LanesOf>
   void take_inputs(int block, const LanesOf& lanes_of);
   void set_inputs(int block, const float* all_rows);
@@ -86,7 +86,7 @@ struct Bank::State {
   void show_life(int block, std::size_t count, float* values) const;
   void see_round(int block) const;
   void set_noise(float scale);
-  void set_chain(const ChainSettings& settings);  // where it is a chain
+  void set_ground(float height);  // where it is a chain
   void read_outputs(int slot, float* values) const;
   template <class Show>
   void polyline_of(int block, const Show& show,
@@ -142,17 +142,19 @@ struct Bank::State {
   int rows = 0;         // one more than the highest slot in use
   int lowest_free = 0;  // no slot below it is free
   std::uint64_t spawned = 0;
-  std::uint64_t steps = 0;  // of the bank
-  std::int64_t passed = 0;  // nanoseconds since the last step
-  LevelView view;           // of what is in the round
-  bool between = false;     // whether `shown` lies between the last two steps, in proportion to `passed`
+  std::uint64_t steps = 0;   // of the bank
+  std::uint64_t called = 0;  // its value before the last call of step() or advance()
+  float rest_area = 0;       // of an outline at the operating point
+  std::int64_t longest;      // nanoseconds that advance() lets pass at most
+  std::int64_t passed = 0;   // nanoseconds since the last step
+  LevelView view;            // of what is in the round
+  bool between = false;      // whether `shown` lies between the last two steps, in proportion to `passed`
   float noise = 0.0f;
-  ChainSettings chain;
+  float ground = kNoGround;
   Crew crew;
   Clamped clamped;
   ChainFacet chain_facet{*this};
   ExtinctionFacet extinction_facet{*this};
-  SwitchedFacet switched_facet{*this};
   BodyFacet body_facet{*this};
 };
 

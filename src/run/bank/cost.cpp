@@ -104,15 +104,6 @@ OperationCount count_view(const Channels& channels, const Stepper& stepper, cons
   });
 }
 
-// Counts an interpolation between two steps.
-template <class Stepper>
-std::int64_t count_between(const Channels& channels, const Stepper& stepper) {
-  std::vector<CountingReal> shown(channels.outputs.size());
-  const OperationCount between = count([&] { stepper.show_between(0, 0.5f, shown.data()); });
-  const OperationCount newest = count([&] { stepper.show(0, shown.data()); });
-  return between.numbers - newest.numbers;
-}
-
 struct ExtinctionCount {
   std::int64_t burning = 0;    // taking in the wind, and a step
   std::int64_t shrinking = 0;  // in addition, for an instance that goes out or catches fire
@@ -164,7 +155,6 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
     const std::int64_t steered = stepper.can_steer() ? count_step(stepper, blowing, 1, Course::kSteered).most : 0;
     if (steered > 0) cost.steered_operations = cost.worst_operations - most + steered;
   }
-  cost.between_operations = count_between(channels, stepper);
   return cost;
 }
 

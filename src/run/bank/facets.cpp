@@ -4,7 +4,6 @@
 #include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -38,7 +37,16 @@ bool is_sound(const SteerTarget& target) {
 
 std::optional<ChainPlace> ChainFacet::place_of(InstanceId id) const {
   if (!state_->valid(id)) return {};
-  return state_->chain_stepper()->place_of(block_of(id), lane_of(id));
+  const auto& chain = *state_->chain_stepper();
+  ChainPlace place = chain.place_of(block_of(id), lane_of(id));
+  const auto [velocity, spin] = chain.rates(block_of(id), lane_of(id));
+  place.velocity = velocity, place.spin = spin;
+  // It touched the ground so many steps ago, of those that the last call made.
+  const float settled = chain.settled(block_of(id), lane_of(id));
+  const float ago = settled * kSettleSeconds / (static_cast<float>(state_->step_time) * 1e-9f);
+  place.lies = settled >= 1;
+  place.landed = settled >= 0 && settled < 1 && ago + 0.5f < static_cast<float>(state_->steps - state_->called);
+  return place;
 }
 
 bool ChainFacet::place(InstanceId id, const BodyMoment& body) {
@@ -65,14 +73,12 @@ bool ChainFacet::release(InstanceId id) {
 }
 
 void ChainFacet::set_ground(std::optional<float> height) {
-  ChainSettings settings = state_->chain;
-  settings.ground = height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround;
-  state_->set_chain(settings);
+  state_->set_ground(height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround);
 }
 
 std::optional<float> ChainFacet::ground() const {
-  if (state_->chain.ground == kNoGround) return {};
-  return state_->chain.ground;
+  if (state_->ground == kNoGround) return {};
+  return state_->ground;
 }
 
 std::optional<LitState> ExtinctionFacet::state_of(InstanceId id) const {
@@ -98,12 +104,6 @@ bool ExtinctionFacet::extinguish(InstanceId id) {
   if (!state_->valid(id)) return false;
   state_->extinguish(static_cast<int>(id.slot));
   return true;
-}
-
-std::optional<int> SwitchedFacet::mode_of(InstanceId id) const {
-  if (!state_->valid(id)) return {};
-  constexpr int kLanes = Bank::State::kLanes;
-  return state_->switched_stepper()->mode(static_cast<int>(id.slot) / kLanes, static_cast<int>(id.slot) % kLanes);
 }
 
 namespace {

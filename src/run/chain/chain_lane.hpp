@@ -16,11 +16,6 @@ inline constexpr float kFarthest = 1e6f;
 /// Lower than anything falls.
 inline constexpr float kNoGround = -4.0f * kFarthest;
 
-/// What may be set of a playing chain, of all instances of a bank alike.
-struct ChainSettings {
-  float ground = kNoGround;
-};
-
 /// How fast a body moves and turns, in the world.
 template <class Real>
 struct BodyRates {

@@ -60,7 +60,7 @@ class ChainStepper : private ChainLives<N> {
   /// A chain has no residual noise; its chance is in the walk, and there or not.
   void set_noise(float scale) { choice_.set_chance(scale > 0); }
 
-  void set_chain(const ChainSettings& settings) { ground_ = settings.ground; }
+  void set_ground(float height) { ground_ = height; }
 
   void turn(int = 1) {}
 
@@ -133,6 +133,26 @@ class ChainStepper : private ChainLives<N> {
     joining().meet_one(block, lane, {});
     begin_at(block, lane);
   }
+
+  /// How a lane moves from its last sample but one to the last.
+  BodyRates<Real> rates(int block, int lane) const {
+    const Real *from = previous(block) + lane, *to = newest(block) + lane, rate(1.0f / program_.step_seconds);
+    BodyRates<Real> moves;
+    for (int k = 0; k < 3; ++k) {
+      moves.velocity[static_cast<std::size_t>(k)] = (to[k * kLanes] - from[k * kLanes]) * rate;
+    }
+    if (program_.channels < 7) return moves;
+    // The vector part of the rotation between them, the sine of half its angle: half the angle.
+    const auto q = [](const Real* at) { return Quaternion<Real>{at[0], at[kLanes], at[2 * kLanes], at[3 * kLanes]}; };
+    const auto a = q(from + 3 * kLanes), b = q(to + 3 * kLanes);
+    const Vector3<Real> u{a[1], a[2], a[3]}, v{b[1], b[2], b[3]};
+    const auto half = added(taken(scaled(v, a[0]), scaled(u, b[0])), cross(u, v));
+    moves.spin = scaled(half, (dot(a, b) < Real(0.0f) ? Real(-2.0f) : Real(2.0f)) * rate);
+    return moves;
+  }
+
+  /// How much of coming to rest on the ground has passed: below 0 it falls, from 1 on it lies.
+  Real settled(int block, int lane) const { return played_of(block).settled[lane]; }
 
   /// Where a lane is in the chain.
   ChainPlace place_of(int block, int lane) const {
@@ -249,6 +269,7 @@ class ChainStepper : private ChainLives<N> {
   using ChainLives<N>::sample_size;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr float kMaxSlip = 1e12f;
+  static constexpr float kCarrySeconds = 1.0f;
   static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
 
   template <class Visit>
@@ -321,6 +342,7 @@ class ChainStepper : private ChainLives<N> {
     std::fill_n(moment.clamped, kLanes, 0U);
     const int lanes = moment.lanes();
     if (program_.gust.order > 0) drift(block, lanes);
+    for (int lane = 0; steered_ && lane < lanes; ++lane) carry(block, lane);
     course.use(lanes);
     lanes_of(block).go(course);
   }
@@ -387,6 +409,22 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
+  // Moves a segment in the last second of its steering by a share of what its body, if it drifted on as bodies do on
+  // average, would miss: what is missed falls as the square of the time that is left.
+  void carry(int block, int lane) {
+    const Real left = played_of(block).left[lane], all(kCarrySeconds / program_.step_seconds), one(1.0f);
+    if (!falls(block, lane) || !(left > Real(0.0f)) || !(left < all)) return;
+    const Real share = (one - left / all) * Real(2.0f) / left, gain = left > one && share < one ? share : one;
+    Vector3<Real> miss;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Real drifts(program_.drift[k] * program_.step_seconds);
+      miss[k] =
+          plan_of(block, lane).target[k] - newest(block)[k * kLanes + static_cast<std::size_t>(lane)] - drifts * left;
+    }
+    const auto way = Mover::bounded(scaled(miss, gain), program_.speed_unit * program_.step_seconds);
+    for (std::size_t k = 0; k < 3; ++k) played_of(block).base[k][lane] = played_of(block).base[k][lane] + way[k];
+  }
+
   // Moves the segments of a block by what the wind has done to their velocity.
   void drift(int block, int lanes) {
     std::uint8_t& stirred = stirred_[static_cast<std::size_t>(block)];
@@ -443,10 +481,7 @@ class ChainStepper : private ChainLives<N> {
     Body body;
     for (std::size_t k = 0; k < 3; ++k) body.position[k] = newest(block)[k * kLanes + static_cast<std::size_t>(lane)];
     if (program_.channels >= 7) body.orientation = shown_orientation(block, lane);
-    const Real rate = Real(1.0f / program_.step_seconds);
-    for (std::size_t k = 0; k < 3; ++k) {
-      body.rates.velocity[k] = (body.position[k] - previous(block)[k * kLanes + static_cast<std::size_t>(lane)]) * rate;
-    }
+    body.rates = rates(block, lane);
     newest_of(block)[2 * kLanes + lane] = Real(ground_) + reach;
     touch(life, body, ground_);
     put(block, lane, life);

@@ -68,13 +68,6 @@ inline Quaternion<Real> turned(Real half_cos, Real half_sin, const Quaternion<Re
           half_cos * q[3] + half_sin * q[0]};
 }
 
-/// The same turn the other way.
-template <class Real>
-inline Quaternion<Real> turned_back(Real half_cos, Real half_sin, const Quaternion<Real>& q) {
-  return {half_cos * q[0] + half_sin * q[3], half_cos * q[1] + half_sin * q[2], half_cos * q[2] - half_sin * q[1],
-          half_cos * q[3] - half_sin * q[0]};
-}
-
 /// How fast an orientation's components change under an angular velocity on the world's side.
 template <class Real>
 inline Quaternion<Real> quaternion_rate(const Vector3<Real>& spin, const Quaternion<Real>& q) {
@@ -87,12 +80,6 @@ inline Quaternion<Real> quaternion_rate(const Vector3<Real>& spin, const Quatern
 template <class Real>
 inline Vector3<Real> turned(Real cos, Real sin, const Vector3<Real>& v) {
   return {cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]};
-}
-
-/// The same turn the other way.
-template <class Real>
-inline Vector3<Real> turned_back(Real cos, Real sin, const Vector3<Real>& v) {
-  return {cos * v[0] + sin * v[1], cos * v[1] - sin * v[0], v[2]};
 }
 
 /// Cosine and sine of half a turn about z, both times the same.
@@ -150,14 +137,6 @@ inline Quaternion<Real> rotated(const Vector3<Real>& g, const Quaternion<Real>& 
   const Vector3<Real> axis{q[1], q[2], q[3]};
   const auto v = added(added(axis, scaled(g, q[0])), cross(g, axis));
   return unit<Real>({q[0] - dot(g, axis), v[0], v[1], v[2]});
-}
-
-/// A vector of the world in the body's axes.
-template <class Real>
-inline Vector3<Real> in_body(const Quaternion<Real>& q, const Vector3<Real>& v) {
-  const Vector3<Real> axis{q[1], q[2], q[3]};
-  const auto once = scaled(cross(v, axis), Real(2.0f));
-  return added(added(v, scaled(once, q[0])), cross(once, axis));
 }
 
 }  // namespace wisp

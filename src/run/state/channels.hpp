@@ -22,8 +22,7 @@ struct OutputChannel {
   float high;
   float lowest;
   float highest;
-  float start;                ///< z of a newborn instance: the operating point
-  std::int32_t mirrors = -1;  ///< index of an earlier output whose negative this always is, or −1
+  float start;  ///< z of a newborn instance: the operating point
 };
 
 /// How a regressor is made from its input. Of a wind vector: from its length, by the sign of its x (kLength…), or from
@@ -199,12 +198,6 @@ class Presentation {
   bool scales_;
 };
 
-/// Negated numbers; −0 becomes +0.
-template <class Part, int kParts>
-inline auto negative(const Pack<Part, kParts>& values) {
-  return all<Pack<Part, kParts>>(0.0f) - values;
-}
-
 /// One part of the values of consecutive blocks, `after` numbers from the beginning of each.
 template <class N, class Value, int kBlocks>
 inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
@@ -222,8 +215,7 @@ inline void show_blocks(std::span<const OutputChannel> outputs, typename N::Real
   for (const OutputChannel& channel : outputs) {
     const Presentation<Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, 1>> presentation(channel);
     unrolled<PartsOfBlocks<N, kBlocks>::kParts>([&](auto i) {
-      const auto y = channel.mirrors < 0 ? presentation.of(z(after, i))
-                                         : negative(load_part<N>(shown, channel.mirrors * N::kLanes, i));
+      const auto y = presentation.of(z(after, i));
       store_block_part<N>(y.part[0], shown, after, i);
     });
     after += N::kLanes;

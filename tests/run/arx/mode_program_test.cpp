@@ -1,4 +1,4 @@
-#include "run/arx/mode_program.hpp"
+#include "run/arx/mode_lanes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,6 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp::switched_test {
 namespace {
@@ -59,7 +58,7 @@ TEST(SwitchedBank, EveryModeStepsAsTheEquationsSay) {
     bank.set_inputs(bank.at(0), std::span(&input, 1));
     bank.step();
     u.push_back(std::clamp<double>(input, -2.5, 3.5) - dynamics.input_mean[0]);
-    const int mode = *bank.switched()->mode_of(bank.at(0));
+    const int mode = *bank.mode(bank.at(0));
     ++seen[mode];
     const double next[] = {next_of(dynamics, mode, 0, y, u), next_of(dynamics, mode, 1, y, u)};
     float shown[2];
@@ -81,7 +80,7 @@ TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
   for (int step = 0; step < kSteps; ++step) {
     bank.step();
     for (int k = 0; k < kInstances; ++k) {
-      const int mode = *bank.switched()->mode_of(bank.at(k));
+      const int mode = *bank.mode(bank.at(k));
       before[k] < 0 ? ++first[mode] : (++from[before[k]], ++counts[before[k] * 3 + mode]);
       before[k] = mode;
     }
@@ -100,10 +99,10 @@ TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
 TEST(SwitchedBank, WithoutNoiseAMarkovChainTakesTheLikeliestStep) {
   Bank bank = bank_of(sample_switched(), 2);
   bank.set_noise(0);
-  EXPECT_FALSE(bank.switched()->mode_of(bank.at(0)));
+  EXPECT_FALSE(bank.mode(bank.at(0)));
   for (int step = 0; step < 50; ++step) {
     bank.step();
-    ASSERT_EQ(bank.switched()->mode_of(bank.at(0)), 1);
+    ASSERT_EQ(bank.mode(bank.at(0)), 1);
   }
 }
 
@@ -114,7 +113,7 @@ TEST(SwitchedBank, TheLikeliestStepMayBeAnyOfThree) {
   Bank bank = bank_of(model, 1);
   bank.set_noise(0);
   bank.step();
-  EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 2);
+  EXPECT_EQ(bank.mode(bank.at(0)), 2);
   model = sample_switched();
   std::get<SwitchedArxModel>(model.dynamics).initial = {1, 0, 0};
   std::get<SwitchedArxModel>(model.dynamics).transitions = {0.3, 0.5, 0.2, 0.6, 0.25, 0.15, 0.2, 0.35, 0.45};
@@ -122,7 +121,7 @@ TEST(SwitchedBank, TheLikeliestStepMayBeAnyOfThree) {
   bank.set_noise(0);
   for (const int mode : {0, 1, 0, 1}) {
     bank.step();
-    EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), mode);
+    EXPECT_EQ(bank.mode(bank.at(0)), mode);
   }
 }
 
@@ -140,7 +139,7 @@ TEST(SwitchedBank, ResidualsHaveTheCovarianceOfTheirMode) {
   double rows = 0, xx = 0, xy = 0, yy = 0;
   for (int step = 0; step < 20'000; ++step) {
     bank.step();
-    if (bank.switched()->mode_of(bank.at(0)) != 2) continue;
+    if (bank.mode(bank.at(0)) != 2) continue;
     float y[2];
     bank.outputs(bank.at(0), y);
     const double e[] = {y[0] - 0.25, y[1] + 0.5};
@@ -175,7 +174,7 @@ TEST(SwitchedBank, AnInstancePlaysTheSameAloneAndAmongOthersAndAfterBeingRestore
     many.outputs(many.at(11), b);
     ASSERT_EQ(a[0], b[0]) << step;
     ASSERT_EQ(a[1], b[1]) << step;
-    ASSERT_EQ(alone.switched()->mode_of(one), many.switched()->mode_of(many.at(11)));
+    ASSERT_EQ(alone.mode(one), many.mode(many.at(11)));
   }
 }
 
@@ -221,7 +220,7 @@ TEST(SwitchedBank, ManyStepsOfOneOutputKnowTheirMode) {
   filter.dynamics = switched_of(arx);
   Bank bank = bank_of(filter, 1);
   bank.step(20);
-  EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 0);
+  EXPECT_EQ(bank.mode(bank.at(0)), 0);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 namespace wisp::facet_test {
 namespace {
@@ -24,7 +23,7 @@ TEST(Facets, AnArxModelHasNone) {
   Bank bank = bank_of(flame_model());
   EXPECT_EQ(bank.chain(), nullptr);
   EXPECT_EQ(bank.extinction(), nullptr);
-  EXPECT_EQ(bank.switched(), nullptr);
+  EXPECT_FALSE(bank.mode(bank.at(0)));
 }
 
 TEST(Facets, EachKindHasItsOwn) {
@@ -35,8 +34,10 @@ TEST(Facets, EachKindHasItsOwn) {
   EXPECT_EQ(flame.chain(), nullptr);
   EXPECT_NE(leaf.chain(), nullptr);
   EXPECT_EQ(leaf.extinction(), nullptr);
-  EXPECT_EQ(leaf.switched(), nullptr);
-  EXPECT_NE(tank.switched(), nullptr);
+  EXPECT_FALSE(leaf.mode(leaf.at(0)));
+  EXPECT_FALSE(tank.mode(tank.at(0)));
+  tank.step();
+  EXPECT_TRUE(tank.mode(tank.at(0)));
   EXPECT_EQ(tank.chain(), nullptr);
 }
 

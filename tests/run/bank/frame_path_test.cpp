@@ -23,7 +23,6 @@
 #include "wisp/run/body_facet.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
-#include "wisp/run/switched_facet.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WISP_SANITIZED 1
@@ -134,7 +133,7 @@ struct Stage {
       body->look(0.6f, -0.8f);
       body->read_rings(rings);
     }
-    if (const SwitchedFacet* switched = b.switched()) switched->mode_of(next);
+    b.mode(next);
     if (ExtinctionFacet* extinction = b.extinction()) {
       extinction->extinguish(next);
       extinction->states(states);

@@ -178,6 +178,54 @@ TEST(InTheRound, RingsAreTheOutlinesFromAllSides) {
   }
 }
 
+TEST(InTheRound, AMeshIsClosedAndItsNormalsPointOutwards) {
+  Bank bank = bank_of(round_of(shipped_flame()));
+  bank.set_common_inputs(std::array{0.4f, 0.2f});
+  for (int frame = 0; frame < 40; ++frame) bank.step();
+  const std::vector<float> rings = rings_of(bank, bank.at(0));
+  constexpr int kSegments = 12;
+  constexpr std::size_t kStride = 8;
+  const int count = bank.body()->rings();
+  std::vector<float> mesh(static_cast<std::size_t>(count * kSegments) * kStride, -7.0f);
+  std::vector<std::uint32_t> triangles(static_cast<std::size_t>(3 * ring_triangle_count(count, kSegments)));
+  ring_mesh(rings, kSegments, mesh, kStride);
+  ring_triangles(count, kSegments, triangles);
+  EXPECT_EQ(mesh[6], -7.0f);
+  double volume = 0;
+  int agree = 0;
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const float* v[3];
+    for (int k = 0; k < 3; ++k) v[k] = &mesh[triangles[t + static_cast<std::size_t>(k)] * kStride];
+    const auto d = [&](int k, int axis) { return double{v[k][axis]} - v[0][axis]; };
+    const double n[3] = {d(1, 1) * d(2, 2) - d(1, 2) * d(2, 1), d(1, 2) * d(2, 0) - d(1, 0) * d(2, 2),
+                         d(1, 0) * d(2, 1) - d(1, 1) * d(2, 0)};
+    volume += (n[0] * v[0][0] + n[1] * v[0][1] + n[2] * v[0][2]) / 6;
+    const double along = n[0] * v[1][3] + n[1] * v[1][4] + n[2] * v[1][5];
+    agree += along > 0 ? 1 : 0;
+  }
+  EXPECT_GT(volume, 0.01);
+  EXPECT_LT(volume, 0.2);
+  EXPECT_GT(agree, 0.9 * static_cast<double>(triangles.size()) / 3);
+}
+
+TEST(InTheRound, AVertexIsItsRingsRimAndASphereHasItsOwnNormals) {
+  // Rings of a ball of radius 1 round (0, 1, 0), without its poles.
+  std::vector<float> rings;
+  for (int k = 1; k < 40; ++k) {
+    const double angle = 3.14159265358979 * k / 40;
+    for (const double number : {0.0, 1 - std::cos(angle), 0.0, std::sin(angle), 0.0, 0.0}) {
+      rings.push_back(static_cast<float>(number));
+    }
+  }
+  std::vector<float> mesh(39 * 32 * kVertexNumbers);
+  ring_mesh(rings, 32, mesh);
+  for (std::size_t v = 3 * 32 * kVertexNumbers; v < mesh.size() - 3 * 32 * kVertexNumbers; v += kVertexNumbers) {
+    EXPECT_NEAR(std::hypot(mesh[v], mesh[v + 1] - 1, mesh[v + 2]), 1, 1e-5);
+    const double along = mesh[v] * mesh[v + 3] + (mesh[v + 1] - 1) * mesh[v + 4] + mesh[v + 2] * mesh[v + 5];
+    EXPECT_NEAR(along, 1, 1e-3);
+  }
+}
+
 TEST(InTheRound, ASavedBodyGoesOnWithTheSameBits) {
   const Model round = round_of(shipped_flame());
   Bank bank = bank_of(round, 3), other = bank_of(round);

@@ -27,7 +27,7 @@ separate_arguments(OPTIONS)
 
 # What is compiled anew each time: all that computes on a frame's path, or for it. The rest, once.
 file(GLOB_RECURSE computing RELATIVE ${SOURCE}/src ${SOURCE}/src/run/*.cpp)
-list(FILTER computing EXCLUDE REGEX "/(cost|chain_loop)[^/]*$")
+list(FILTER computing EXCLUDE REGEX "/(cost)[^/]*$")
 list(APPEND computing model/bspline.cpp)
 file(GLOB ground RELATIVE ${SOURCE}/src ${SOURCE}/src/model/*.cpp)
 list(FILTER ground EXCLUDE REGEX "/(bspline|file|.*payload)\\.cpp$")  # on the path; not needed

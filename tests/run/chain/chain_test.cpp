@@ -81,11 +81,9 @@ TEST(ChainBank, ModesFollowEachOtherAsTheChainSays) {
   EXPECT_NEAR(seen[1][0] / (seen[1][0] + seen[1][1]), 0.5, 0.04);
 }
 
-TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoopThatIsKnown) {
+TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoop) {
   const Model model = sample_chain();
   const auto& segments = std::get<ChainModel>(model.dynamics).segments;
-  const auto loop = chain_loop(model);
-  ASSERT_TRUE(loop);
   auto bank = Bank::create(model, {.capacity = 2, .seed = 9});
   ASSERT_TRUE(bank);
   bank->set_noise(0);
@@ -101,13 +99,13 @@ TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoopThatIsKnown) {
   }
   // The likeliest beginning is mode 0; the sample's likeliest modes are 1 after 0 and, of two alike, 0 after 1.
   EXPECT_EQ(segments.mode[walk[0]], 0);
-  double seconds = 0;
-  for (std::size_t k = 0; k < loop->segments; ++k) seconds += segments.steps[walk[loop->lead + k]] / 60.0;
-  EXPECT_NEAR(loop->seconds, seconds, 1e-9);
-  for (std::size_t k = loop->lead; k + loop->segments < walk.size(); ++k) {
-    EXPECT_EQ(walk[k], walk[k + loop->segments]);
+  // From its second half on it repeats itself.
+  std::size_t round = 1;
+  while (round < 15 && !std::equal(walk.begin() + 30, walk.end() - static_cast<std::ptrdiff_t>(round),
+                                   walk.begin() + 30 + static_cast<std::ptrdiff_t>(round))) {
+    ++round;
   }
-  EXPECT_FALSE(chain_loop(sample_model()));
+  EXPECT_LT(round, 15u);
 }
 
 TEST(ChainBank, WhatIsHeldFarFromTheOriginIsCounted) {

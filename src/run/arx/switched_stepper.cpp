@@ -1,7 +1,0 @@
-#include "run/arx/arx_stepper.hpp"
-
-namespace wisp {
-
-template class ArxStepper<LiveNumbers, ModeLanes<LiveNumbers>>;
-
-}  // namespace wisp
