@@ -20,16 +20,13 @@ using namespace wisp;
 // A second of wind that swings between calm and 1 m/s, so that nothing is left to rest.
 double swinging(int frame) { return 0.5 + 0.5 * ((frame / 15) % 2 == 0 ? 1 : -1) * ((frame % 15) / 15.0); }
 
-void rig_second(benchmark::State& state, CandleGrid grid) {
-  CandleRig rig = *CandleRig::create(candle_rig_options(grid));
+void BM_rig(benchmark::State& state) {
+  CandleRig rig = *CandleRig::create({});
   for (int frame = 0; frame < 60; ++frame) rig.step_frame(0);
   for (auto _ : state)
     for (int frame = 0; frame < 60; ++frame) rig.step_frame(swinging(frame));
   state.SetItemsProcessed(state.iterations());
 }
-
-void BM_rig_coarse(benchmark::State& state) { rig_second(state, CandleGrid::kCoarse); }
-void BM_rig_fine(benchmark::State& state) { rig_second(state, CandleGrid::kFine); }
 
 void BM_camera(benchmark::State& state) {
   CandleRig rig = *CandleRig::create({});
@@ -61,7 +58,6 @@ void BM_clip(benchmark::State& state) {
   CandleClipOptions options;
   options.seconds = 4;
   options.settle_seconds = 0;
-  options.threads = 1;
   CandleClipOutputs outputs;
   outputs.on_frame = [](const CandleFrame&) -> Result<void> { return {}; };
   outputs.on_sound = [](std::span<const float>) -> Result<void> { return {}; };
@@ -69,8 +65,7 @@ void BM_clip(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * 4);
 }
 
-BENCHMARK(BM_rig_coarse)->Unit(benchmark::kMillisecond);
-BENCHMARK(BM_rig_fine)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_rig)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_camera)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_outline)->Unit(benchmark::kMillisecond);
 BENCHMARK(BM_microphone)->Unit(benchmark::kMillisecond);

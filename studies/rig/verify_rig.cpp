@@ -24,9 +24,18 @@ using verify::Bounds;
 
 struct Named {
   const char* name;
-  CandleGrid grid;
+  CandleRigOptions options;
 };
-constexpr std::array kGrids = {Named{"R", CandleGrid::kCoarse}, Named{"M", CandleGrid::kFine}};
+// The rig's own grid, and a finer one with calibrated values of its own.
+constexpr std::array kGrids = {Named{"R", {}}, Named{"M",
+                                                     {.columns = 112,
+                                                      .rows = 192,
+                                                      .cell_mm = 1.25 / 3,
+                                                      .steps_a_second = 600,
+                                                      .wick_damping = 250,
+                                                      .wick_cold = 450,
+                                                      .wick_warm = 750,
+                                                      .fuel_rate = 1.4e-4}}};
 
 CandleRig rig_with(const CandleRigOptions& options) {
   auto rig = CandleRig::create(options);
@@ -44,7 +53,7 @@ void let_burn(CandleRig& rig, double seconds, double wind) {
 
 /// Means over a stretch of frames.
 struct Means {
-  double lean = 0, tip = 0, width = 0, brightness = 0, variation = 0;
+  double lean = 0, tip = 0, brightness = 0, variation = 0;
   int with_flame = 0, frames = 0;
 };
 
@@ -61,22 +70,20 @@ Means watch(CandleRig& rig, int count, const auto& wind) {
     ++m.with_flame;
     m.lean += outline.lean;
     m.tip += outline.tip.y;
-    m.width += outline.width;
   }
   m.brightness /= m.frames;
   m.variation = std::sqrt(std::max(0.0, squares / m.frames - m.brightness * m.brightness)) / m.brightness;
-  for (double* value : {&m.lean, &m.tip, &m.width}) *value /= std::max(1, m.with_flame);
+  for (double* value : {&m.lean, &m.tip}) *value /= std::max(1, m.with_flame);
   return m;
 }
 
 void calm(Bounds& bounds) {
   std::printf("\nCalm flame, 4 s after 2 s\n");
   for (const Named& grid : kGrids) {
-    CandleRig rig = rig_with(candle_rig_options(grid.grid));
+    CandleRig rig = rig_with(grid.options);
     let_burn(rig, 2, 0);
     const Means m = watch(rig, frames(rig, 4), [](int) { return 0.0; });
-    std::printf("  %s: tip %.1f mm above the rim, %.1f mm wide at a quarter, brightness varies %.2f %%\n", grid.name,
-                m.tip, m.width, 100 * m.variation);
+    std::printf("  %s: tip %.1f mm above the rim, brightness varies %.2f %%\n", grid.name, m.tip, 100 * m.variation);
     const std::string name = grid.name;
     bounds.at_least(name + ": height of the tip, mm", m.tip, 20);
     bounds.at_most(name + ": height of the tip, mm", m.tip, 40);
@@ -96,7 +103,7 @@ void wind(Bounds& bounds) {
   std::printf("\nSteady wind (reached in 0.8 s, then 1.2 s): found and reference\n");
   for (const Named& grid : kGrids)
     for (const WindRow& row : kWindTable) {
-      CandleRig rig = rig_with(candle_rig_options(grid.grid));
+      CandleRig rig = rig_with(grid.options);
       let_burn(rig, 0.5, 0);
       const int rise = frames(rig, 0.8);
       for (int frame = 0; frame < rise; ++frame) rig.step_frame(row.wind * frame / rise);
@@ -127,7 +134,7 @@ void step(Bounds& bounds) {
   std::printf("\nA step of wind to %.1f m/s: the tip's way sideways at 10, 50, 90 %%, ms; reference 35, 78, 144\n",
               kWind);
   for (const Named& grid : kGrids) {
-    CandleRigOptions options = candle_rig_options(grid.grid);
+    CandleRigOptions options = grid.options;
     options.rate_hz = 120;
     CandleRig rig = rig_with(options);
     let_burn(rig, 2, 0);
@@ -156,7 +163,7 @@ void blow_out(Bounds& bounds) {
   std::printf("\nPuffs at a calm flame, and lighting again\n");
   for (const Named& grid : kGrids)
     for (const Puff& puff : kPuffs) {
-      CandleRig rig = rig_with(candle_rig_options(grid.grid));
+      CandleRig rig = rig_with(grid.options);
       let_burn(rig, 1.5, 0);
       const double height = flame_outline(rig.light_of_frame()).tip.y;
       let_burn(rig, puff.seconds, puff.wind);
@@ -187,7 +194,7 @@ void long_run(Bounds& bounds) {
   options.both_sides = true;
   options.seed = 7;
   const WindSignal signal = *WindSignal::generate(options, 600);
-  CandleRig rig = rig_with(candle_rig_options(CandleGrid::kCoarse));
+  CandleRig rig = rig_with({});
   constexpr int kLighting = 30;  // frames from the lighter's first until its own heat has risen out of the picture
   double hottest = 0;
   double hottest_lighting = 0;
@@ -225,7 +232,7 @@ void lives(Bounds& bounds) {
     WindSignalOptions options;
     options.seed = seed;
     const WindSignal signal = *WindSignal::generate(options, 40);
-    CandleRig rig = rig_with(candle_rig_options(CandleGrid::kCoarse));
+    CandleRig rig = rig_with({});
     let_burn(rig, 1.5, 0);
     const Means m = watch(rig, 40 * 60, [&](int frame) { return signal.at((frame + 1) / 60.0); });
     std::printf("  seed %d: mean lean %.1f°, mean tip %.1f mm, brightness varies %.0f %%\n", static_cast<int>(seed),
@@ -240,7 +247,7 @@ void resolution(Bounds& bounds) {
   options.seed = 3;
   const WindSignal signal = *WindSignal::generate(options, 10);
   for (const Named& grid : kGrids) {
-    const CandleRigOptions whole = candle_rig_options(grid.grid);
+    const CandleRigOptions whole = grid.options;
     CandleRigOptions half_step = whole;
     half_step.steps_a_second *= 2;
     CandleRigOptions half_cell = whole;
@@ -269,7 +276,6 @@ void resolution(Bounds& bounds) {
 void cost(Bounds& bounds) {
   CandleClipOptions options;
   options.seconds = 10;
-  options.threads = 1;
   CandleClipOutputs outputs;
   outputs.on_frame = [](const CandleFrame&) -> Result<void> { return {}; };
   outputs.on_sound = [](std::span<const float>) -> Result<void> { return {}; };

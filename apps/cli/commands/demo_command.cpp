@@ -1,25 +1,18 @@
-// `wisp demo`: the whole job, with the commands that would do it by hand.
+// `wisp demo`: the whole job, by the commands that would do it by hand.
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <utility>
 
 #include "commands/commands.hpp"
-#include "films/simulated_clip.hpp"
-#include "films/validation_pictures.hpp"
 #include "flags/capture_flags.hpp"
-#include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
-#include "wisp/capture/capture.hpp"
 #include "wisp/describe/json.hpp"
-#include "wisp/learn/learn.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/record/csv.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -45,17 +38,6 @@ Report part_of_whole(const std::string& name, const std::string& line, Report st
   return step;
 }
 
-// Does one step of the demo below the line that would do it by hand; its figures go into the result under `name`.
-Result<void> step(const std::string& name, const std::string& line, Terminal& terminal,
-                  const std::function<Result<void>()>& work) {
-  terminal.say("\n$ wisp " + line);
-  Report all = std::exchange(terminal.result(), {});
-  auto outcome = work();
-  all.append(part_of_whole(name, line, std::move(terminal.result())));
-  terminal.result() = std::move(all);
-  return outcome;
-}
-
 struct Places {
   fs::path folder;
   std::string at(const char* name) const { return (folder / name).string(); }
@@ -72,16 +54,42 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
-// Flags of capture that the demo takes, and those of them that were given, as words.
-constexpr std::array kCaptureFlags{"points", "channel", "flame", "region", "frames", "rate"};
+// A command with what it is given. Flags that are not given have their defaults.
+struct Step {
+  std::string name;  // of its figures in the summary
+  Command command;
+  std::vector<std::string> files;
+  std::vector<std::pair<std::string, std::string>> flags;
+};
 
-std::string capture_words(const Arguments& arguments) {
-  std::string words;
-  for (const char* flag : kCaptureFlags) {
-    if (arguments.has(flag)) words += " --" + std::string(flag) + " " + quoted(arguments.text(flag));
-  }
-  return words;
+// The line that does a step by hand.
+std::string line_of(const Step& step) {
+  std::string line = step.command.name;
+  for (const std::string& file : step.files) line += " " + quoted(file);
+  for (const auto& [flag, value] : step.flags) line += (flag == "output" ? " -o " : " --" + flag + " ") + quoted(value);
+  return line;
 }
+
+Result<void> run(const Step& step, Terminal& terminal) {
+  const std::string line = line_of(step);
+  terminal.say("\n$ wisp " + line);
+  Arguments arguments;
+  for (const Flag& flag : step.command.flags) {
+    if (!flag.fallback.empty()) arguments.set(flag.name, flag.fallback);
+  }
+  for (const auto& [flag, value] : step.flags) arguments.set(flag, value);
+  arguments.set_positionals(step.files);
+  Report all = std::exchange(terminal.result(), {});
+  auto outcome = step.command.run(arguments, terminal);
+  const auto verdict = terminal.result().verdict;
+  all.append(part_of_whole(step.name, line, std::move(terminal.result())));
+  terminal.result() = std::move(all);
+  if (!outcome || step.name != "capture" || !verdict || verdict->usable) return outcome;
+  return Error{step.files.front() + ": no flame is learned from it: " + verdict->reason};
+}
+
+// Flags of capture that the demo takes.
+constexpr std::array kCaptureFlags{"points", "channel", "flame", "region", "frames", "rate"};
 
 // What the model is learned from, and what it is validated on.
 struct Clips {
@@ -89,122 +97,41 @@ struct Clips {
   std::string validate;
 };
 
-Result<void> simulate(const std::string& path, double seconds, std::uint64_t seed, Terminal& terminal) {
-  CandleClipOptions options;
-  options.seconds = seconds;
-  options.wind.seed = options.microphone.seed = options.camera.seed = seed;
-  const auto truth = write_simulated_clip(path, options, terminal);
-  if (!truth) return truth.error();
-  terminal.add("frames", truth->rows());
-  return {};
-}
-
-Result<Clips> simulate_clips(const Places& places, std::uint64_t seed, Terminal& terminal) {
+Result<Clips> simulate_clips(const Places& places, int seed, Terminal& terminal) {
   const Clips clips{places.at("training.mp4"), places.at("validation.mp4")};
-  const auto one = [&](const std::string& name, const std::string& path, int seconds, std::uint64_t clip_seed) {
-    const std::string line = "simulate candle -o " + quoted(path) + " --seconds " + std::to_string(seconds) +
-                             " --seed " + std::to_string(clip_seed);
-    return step(name, line, terminal, [&] { return simulate(path, seconds, clip_seed, terminal); });
+  const auto simulate = [&](const char* name, const std::string& clip, const char* seconds, int own_seed) {
+    const std::string number = std::to_string(own_seed);
+    return run({name, simulate_candle_command(), {}, {{"output", clip}, {"seconds", seconds}, {"seed", number}}},
+               terminal);
   };
-  if (auto ok = one("simulate_training", clips.learn, 40, seed); !ok) return ok.error();
-  if (auto ok = one("simulate_validation", clips.validate, 20, seed + 1); !ok) return ok.error();
+  if (auto ok = simulate("simulate_training", clips.learn, "40", seed); !ok) return ok.error();
+  if (auto ok = simulate("simulate_validation", clips.validate, "20", seed + 1); !ok) return ok.error();
   return clips;
 }
 
-Result<Recording> capture_step(const Places& places, const std::string& clip, const ClipCapture& options,
-                               const std::string& words, Terminal& terminal) {
-  const std::string path = places.at("recording.csv");
-  Recording recording;
-  const std::string line = "capture flame " + quoted(clip) + " -o " + quoted(path) + words;
-  auto ok = step("capture", line, terminal, [&]() -> Result<void> {
-    auto captured = capture(clip, options, terminal.progress());
-    if (!captured) return captured.error();
-    terminal.show(captured->report);
-    recording = std::move(captured->recording);
-    if (auto written = write_csv(path, recording); !written) return written;
-    const auto& verdict = captured->report.verdict;
-    if (!verdict || verdict->usable) return {};
-    return Error{clip + ": no flame is learned from it: " + verdict->reason};
-  });
-  if (!ok) return ok.error();
-  return recording;
-}
-
-Result<Model> learn_step(const Places& places, const Recording& recording, Terminal& terminal) {
-  const std::string path = places.at("flame.wisp");
-  Model model;
-  auto ok = step("learn", "learn flame " + quoted(places.at("recording.csv")) + " -o " + quoted(path), terminal,
-                 [&]() -> Result<void> {
-                   FlameRecipe recipe;
-                   recipe.name = "flame";
-                   auto fit = learn(recording, recipe, terminal.progress());
-                   if (!fit) return fit.error();
-                   model = std::move(fit->model);
-                   terminal.show(fit->report);
-                   return write_model(path, model);
-                 });
-  if (!ok) return ok.error();
-  return model;
-}
-
-Result<void> validate(const Places& places, const Clips& clips, const Model& model, ClipCapture options,
-                      Terminal& terminal) {
-  const auto curve = curve_of(model);
-  if (!curve) return curve.error();
-  options.curve = *curve;
-  auto captured = capture(clips.validate, options, terminal.progress());
-  if (!captured) return captured.error();
-  for (const std::string& warning : captured->report.warnings) terminal.warn(warning);
-  const auto found = validate_outline(model, captured->recording, {}, terminal.progress());
-  if (!found) return found.error();
-  terminal.show(found->report);
-  ValidationSubject subject{
-      std::move(captured->recording), {clips.validate, options.rate_hz}, std::move(captured->report)};
-  if (options.frames) subject.clip.first_frame = static_cast<std::size_t>(options.frames->first - 1);
-  return draw_validation(*found, model, subject,
-                         {places.at("overlay.mp4"), places.at("film-strip.png"), places.at("figures")}, terminal);
-}
-
-Result<void> validate_step(const Places& places, const Clips& clips, const Model& model, const ClipCapture& options,
-                           const std::string& words, Terminal& terminal) {
-  const std::string line = "validate " + quoted(places.at("flame.wisp")) + " " + quoted(clips.validate) + words +
-                           " --overlay " + quoted(places.at("overlay.mp4")) + " --film-strip " +
-                           quoted(places.at("film-strip.png")) + " --figures " + quoted(places.at("figures"));
-  return step("validate", line, terminal, [&] { return validate(places, clips, model, options, terminal); });
-}
-
-// A command with its defaults and these flags.
-Result<void> run_command_with(const Command& command, const std::vector<std::pair<std::string, std::string>>& flags,
-                              const std::string& model, Terminal& terminal) {
-  Arguments arguments;
-  for (const Flag& flag : command.flags) {
-    if (!flag.fallback.empty()) arguments.set(flag.name, flag.fallback);
-  }
-  for (const auto& [name, value] : flags) arguments.set(name, value);
-  arguments.set_positionals({model});
-  return command.run(arguments, terminal);
-}
-
-Result<void> film_step(const Places& places, const Model& model, Terminal& terminal) {
-  const std::string frames = std::to_string(std::max(1, static_cast<int>(20 * model.rate_hz)));
-  std::vector<std::pair<std::string, std::string>> flags{{"frames", frames}, {"output", places.at("flame.mp4")}};
-  if (!model.inputs.empty()) flags.push_back({"input", places.at("recording.csv")});
-  std::string line = "run " + quoted(places.at("flame.wisp")) + " --frames " + frames;
-  if (!model.inputs.empty()) line += " --input " + quoted(places.at("recording.csv"));
-  return step("run", line + " -o " + quoted(places.at("flame.mp4")), terminal,
-              [&] { return run_command_with(run_command(), flags, places.at("flame.wisp"), terminal); });
-}
-
 Result<void> all_steps(const Places& places, const Clips& clips, const Arguments& arguments, Terminal& terminal) {
-  const auto options = capture_options(arguments);
-  if (!options) return options.error();
-  const std::string words = capture_words(arguments);
-  const auto recording = capture_step(places, clips.learn, *options, words, terminal);
-  if (!recording) return recording.error();
-  const auto model = learn_step(places, *recording, terminal);
+  const std::string recording = places.at("recording.csv"), path = places.at("flame.wisp");
+  Step capture{"capture", capture_flame_command(), {clips.learn}, {{"output", recording}}};
+  Step validate{"validate",
+                validate_command(),
+                {path, clips.validate},
+                {{"overlay", places.at("overlay.mp4")},
+                 {"film-strip", places.at("film-strip.png")},
+                 {"figures", places.at("figures")}}};
+  for (const std::string flag : kCaptureFlags) {
+    if (!arguments.has(flag)) continue;
+    capture.flags.push_back({flag, arguments.text(flag)});
+    if (flag != "points") validate.flags.push_back(capture.flags.back());  // the model says how many
+  }
+  if (auto ok = run(capture, terminal); !ok) return ok;
+  if (auto ok = run({"learn", learn_flame_command(), {recording}, {{"output", path}}}, terminal); !ok) return ok;
+  if (auto ok = run(validate, terminal); !ok) return ok;
+  const auto model = read_model(path);
   if (!model) return model.error();
-  if (auto ok = validate_step(places, clips, *model, *options, words, terminal); !ok) return ok;
-  return film_step(places, *model, terminal);
+  const std::string frames = std::to_string(std::max(1, static_cast<int>(20 * model->rate_hz)));
+  Step film{"run", run_command(), {path}, {{"output", places.at("flame.mp4")}, {"frames", frames}}};
+  if (!model->inputs.empty()) film.flags.push_back({"input", recording});
+  return run(film, terminal);
 }
 
 void say_what_next(const Places& places, Terminal& terminal) {
@@ -229,7 +156,7 @@ void say_what_next(const Places& places, Terminal& terminal) {
 Result<void> fill(const Places& places, const Arguments& arguments, Terminal& terminal) {
   Clips clips;
   if (arguments.positionals().empty()) {
-    auto simulated = simulate_clips(places, static_cast<std::uint64_t>(arguments.integer("seed")), terminal);
+    auto simulated = simulate_clips(places, arguments.integer("seed"), terminal);
     if (!simulated) return simulated.error();
     clips = *simulated;
   } else {
@@ -239,8 +166,7 @@ Result<void> fill(const Places& places, const Arguments& arguments, Terminal& te
   if (auto ok = write_file(places.at("summary.json"), to_json(terminal.result(), 1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
   if (!arguments.on("window")) return {};
-  return step("play", "play " + quoted(places.at("flame.wisp")), terminal,
-              [&] { return run_command_with(play_command(), {}, places.at("flame.wisp"), terminal); });
+  return run({"play", play_command(), {places.at("flame.wisp")}, {}}, terminal);
 }
 
 // The outermost of a folder and those that it lies in that is not there; empty where all are.

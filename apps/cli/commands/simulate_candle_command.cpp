@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "commands/commands.hpp"
-#include "films/simulated_clip.hpp"
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -33,13 +35,38 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   return options;
 }
 
+// CLIP.truth.csv for CLIP.mp4.
+std::filesystem::path truth_path(std::filesystem::path clip) { return clip.replace_extension(".truth.csv"); }
+
+// Simulates, encodes as it goes, and writes clip and truth, each whole or not at all. Returns the truth.
+Result<Recording> write_clip(const std::filesystem::path& path, const CandleClipOptions& options, Terminal& terminal) {
+  auto film =
+      VideoWriter::create(path, {.width = options.camera.width,
+                                 .height = options.camera.height,
+                                 .rate_hz = options.rig.rate_hz,
+                                 .crf = 12,  // keeps the sensor's noise, so that a calm flame is not a still picture
+                                 .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
+  if (!film) return film.error();
+  CandleClipOutputs outputs;
+  outputs.on_frame = [&](const CandleFrame& frame) {
+    return film->write(Image::from_rgb(frame.picture, frame.width, frame.height));
+  };
+  outputs.on_sound = [&](std::span<const float> sound) { return film->write_sound(sound); };
+  outputs.on_progress = [&](double share) { terminal.progress("simulating", share); };
+  auto truth = simulate_candle(options, outputs);
+  if (!truth) return truth;
+  if (auto ok = film->finish(); !ok) return ok.error();
+  if (auto ok = write_csv(truth_path(path), *truth); !ok) return ok.error();
+  return truth;
+}
+
 Result<void> run_simulate_candle(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto options = options_from(arguments);
   if (!options) return options.error();
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".mp4") return Error{"--output " + path.string() + ": expected a name that ends in .mp4"};
-  const auto truth = write_simulated_clip(path, *options, terminal);
+  const auto truth = write_clip(path, *options, terminal);
   if (!truth) return truth.error();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   terminal.add("frames", truth->rows());

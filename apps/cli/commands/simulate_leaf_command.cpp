@@ -92,7 +92,7 @@ Result<void> check_pairs(const Arguments& arguments) {
 
 Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
   const std::string& word = arguments.text("wind");
-  if (word == "gusts") drops.wind.kind = LeafWindKind::kGusts;
+  drops.gusts = word == "gusts";
   if (word == "calm" || word == "gusts") return {};
   if (std::filesystem::path(word).extension() != ".csv") {
     return Error{"--wind is " + word + ", expected calm, gusts or a recording, FILE.csv"};

@@ -12,15 +12,7 @@
 
 namespace wisp {
 
-/// Grids whose parameters have been calibrated together. The tip's height depends on cell and time step, so take one
-/// of these and change what you must.
-enum class CandleGrid {
-  kCoarse,  ///< 64 × 128 cells of 0.667 mm, 1200 steps a second: the demo's
-  kFine,    ///< 112 × 192 cells of 0.417 mm, 600 steps a second
-};
-
-/// The rig. Lengths in millimetres, all else in SI units. "Calibrated" values were chosen so that the flame looks and
-/// leans like a real one; the others are properties of matter.
+/// The rig. Its parameters have been calibrated together: the height of the tip depends on cell and time step.
 struct CandleRigOptions {
   // The grid and its time.
   int columns = 64;              ///< 16 … 1024
@@ -31,55 +23,21 @@ struct CandleRigOptions {
                                  ///< on the camera's rate
 
   // The candle.
-  double position = 0.35;       ///< of the candle's axis, as a share of the width, 0.1 … 0.9: room on the lee side
-  double candle_width_mm = 12;  ///< of the wax, solid
-  double candle_height_mm = 10;
-  double wick_gap_mm = 4;         ///< from the wax to the box that gives off fuel
-  double wick_width_mm = 5;       ///< calibrated: of that box; at 6 mm the flame is near puffing
-  double wick_height_mm = 4;      ///< calibrated
-  double wick_damping = 80;       ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
-  double wick_time = 0.15;        ///< s, calibrated: time constant of the fuel behind the wick's heat
-  double wick_cold = 500;         ///< K, calibrated: temperature around the wick at which it emits nothing
-  double wick_warm = 900;         ///< K, calibrated: and at which it emits fuel_rate
-  double fuel_rate = 1.35e-4;     ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
-  double fuel_temperature = 600;  ///< K
-
-  // The gas.
-  double diffusivity = 2.0e-5;   ///< m²/s at 300 K; grows as T^1.75
-  double viscosity = 1.5e-5;     ///< m²/s at 300 K
-  double stoichiometric = 0.08;  ///< mixture fraction where fuel and oxygen match
-  double flame_heating = 1700;   ///< K of heating there
-  double reaction_rate = 2000;   ///< 1/s at full temperature
-  double ignition_low = 900;     ///< K: below it nothing burns
-  double ignition_high = 1300;   ///< K: above it the reaction has its full rate
-  double updraught = 0.25;       ///< m/s, calibrated: the air that rises with a candle
-  double max_expansion = 1500;   ///< 1/s: ∇·u is clamped to it
-
-  // The wind, and soot as a camera sees it.
-  double wind_share = 0.4;    ///< calibrated: how much of the wind reaches the flame, most of it goes around
-  double wind_rate = 20;      ///< 1/s, calibrated: how fast the air at the flame takes it up
-  double soot_rate = 60;      ///< 1/s, calibrated
-  double soot_burnout = 400;  ///< 1/s, calibrated
-  double exposure = 0.5;      ///< share of a frame's time that its shutter is open, (0, 1]
-
-  double pressure_tolerance = 0.5;  ///< 1/s, root mean square of the remaining divergence error
+  double position = 0.35;      ///< of the candle's axis, as a share of the width, 0.1 … 0.9: room on the lee side
+  double wick_damping = 80;    ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
+  double wick_cold = 500;      ///< K, calibrated: temperature around the wick at which it emits nothing
+  double wick_warm = 900;      ///< K, calibrated: and at which it emits fuel_rate
+  double fuel_rate = 1.35e-4;  ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
 };
-
-/// The options of a calibrated grid.
-CandleRigOptions candle_rig_options(CandleGrid grid);
 
 /// The camera. Colours are chosen to look like a photograph of a candle; they are not colorimetry.
 struct VirtualCameraOptions {
-  int width = 320;             ///< pixels, 16 … 4096; even, as video wants it
-  int height = 480;            ///< pixels, 16 … 4096; even
-  double pixels_per_mm = 7.5;  ///< 0.5 … 100; at 7.5 a calm flame is about 260 pixels high
-  double wick_x = 0.35;        ///< where the candle's axis is, as a share of the width from the left, 0 … 1
-  double rim_y = 0.06;         ///< where the candle's upper rim is, as a share of the height from below, 0 … 1
-  double gain = 2.5;           ///< exposure: higher is brighter and whiter, 0.01 … 100
-  double contrast = 1.8;       ///< steepness of the tone curve, 0.5 … 4: higher gives the flame a sharper edge
-  double glow = 0.05;          ///< light scattered in the lens, as a share of the flame's, 0 … 1
-  double noise = 1.2;          ///< standard deviation of the sensor's noise in steps of 255, 0 … 50
-  std::uint64_t seed = 1;      ///< of the noise
+  int width = 320;         ///< pixels, 16 … 4096; even, as video wants it
+  int height = 480;        ///< pixels, 16 … 4096; even
+  double gain = 2.5;       ///< exposure: higher is brighter and whiter, 0.01 … 100
+  double glow = 0.05;      ///< light scattered in the lens, as a share of the flame's, 0 … 1
+  double noise = 1.2;      ///< standard deviation of the sensor's noise in steps of 255, 0 … 50
+  std::uint64_t seed = 1;  ///< of the noise
 };
 
 /// The microphone.
@@ -91,17 +49,7 @@ struct VirtualMicrophoneOptions {
   double corner_hz = 300;  ///< the spectrum is flat below and falls with 12 dB an octave above, 20 … 5000
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
   double other_sounds = 0.05;  ///< sounds that are not wind, a second on average, 0 … 10: half voice, half knocks
-  double other_level = 0.05;   ///< their typical root mean square, 0 … 1
   std::uint64_t seed = 1;
-};
-
-/// Extraction of the outline.
-struct FlameOutlineRecipe {
-  double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
-                       ///< the default camera, (0, 10]
-  int points = 8;      ///< control points of the cubic B-spline, 4 … 32
-  double cut = 0.03;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
-                       ///< bottom of a contour has no corners to fix control points to
 };
 
 /// Kinds of wind.
@@ -130,17 +78,13 @@ struct WindSignalOptions {
 
 /// The clip. Its frame rate is rig.rate_hz.
 struct CandleClipOptions {
-  CandleRigOptions rig;
-  VirtualCameraOptions camera;
-  VirtualMicrophoneOptions microphone;
-  FlameOutlineRecipe outline;
-  WindSignalOptions wind;
-  std::optional<Recording> wind_recording;  ///< where set, its wind is taken and `wind` is not
-  std::string wind_channel;                 ///< of that recording; empty: its only input
-  double seconds = 60;                      ///< length, more than 0, at most 86400
+  CandleRigOptions rig{};
+  VirtualCameraOptions camera{};
+  VirtualMicrophoneOptions microphone{};
+  WindSignalOptions wind{};
+  std::optional<Recording> wind_recording{};  ///< where set, its only input is the wind and `wind` is not
+  double seconds = 60;                        ///< length, more than 0, at most 86400
   double settle_seconds = 1.5;  ///< simulated in still air before the first frame, 0 … 60: until the flame burns evenly
-  int threads = 2;              ///< 1 or 2: the second draws and writes frames while the first simulates; the clip is
-                                ///< the same to the last bit
 };
 
 /// A frame of the clip.

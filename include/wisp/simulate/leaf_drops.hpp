@@ -33,23 +33,6 @@ struct Leaf {
   LeafAir air{};
 };
 
-/// What the wind does.
-enum class LeafWindKind {
-  kCalm,   ///< nothing
-  kGusts,  ///< gusts of random strength, length and direction that travel, with rests between them
-};
-
-/// The wind. Gusts blow to any direction of the horizontal plane.
-struct LeafWindOptions {
-  LeafWindKind kind = LeafWindKind::kCalm;
-  double speed = 1;            ///< m/s, 0 … 30: of a typical gust
-  double gust_seconds = 0.3;   ///< a typical gust's length, 0.02 … 60; each is 0.6 to 1.8 times as long
-  double rest_seconds = 1.5;   ///< typical calm between gusts, 0 … 60
-  double edge_seconds = 0.06;  ///< in which a gust rises and falls, 0.001 … 10; what begins at once has no derivative
-  double travel_speed = 8;     ///< m/s, 0.1 … 1000: how fast a gust's front comes along
-  std::uint64_t seed = 1;
-};
-
 /// A wind that was measured: the same everywhere, between its rows along a smooth curve through them, before the first
 /// and after the last as there.
 struct MeasuredWind {
@@ -62,7 +45,8 @@ struct MeasuredWind {
 /// be joined.
 struct LeafDropsOptions {
   Leaf leaf{};
-  LeafWindOptions wind{};     ///< each drop has gusts of its own
+  bool gusts = false;         ///< each drop has gusts of its own, of random strength, length and direction, with rests
+                              ///< between them
   MeasuredWind track{};       ///< where it has rows, this is the wind of every drop, from where the recording begins
   int drops = 200;            ///< episodes, 1 … 100000
   double seconds = 20;        ///< recorded of each, 0.1 … 3600
@@ -82,11 +66,8 @@ Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options);
 /// Gusts that hit a leaf in many states, each many times over. Falls are chaotic, and only the mean over clones that
 /// differ a little tells what the wind did and what chance.
 struct LeafPairsOptions {
-  LeafDropsOptions
-      drops{};      ///< `drops` is the number of gusts; `wind` says how they blow, its kind and `track` are ignored
-  int clones = 32;  ///< of each, 1 … 10000
-  double difference = 0.05;   ///< between clones when the recording begins, 0 … 1: radians, m/s, tenths of a rad/s
-  double lead_seconds = 0.5;  ///< from there to the gust's onset, give or take a fifth, 0 … 60
+  LeafDropsOptions drops{};  ///< `drops` is the number of gusts; its own `gusts` and `track` are ignored
+  int clones = 32;           ///< of each, 1 … 10000
 };
 
 /// The same falls with a gust each, and without. Episode k of both began alike; clones of one gust follow each other.

@@ -14,6 +14,9 @@ namespace wisp::chain {
 namespace {
 
 constexpr double kPercentile = 0.99;
+constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
+constexpr std::size_t kMaxWindows = 500;  // a side
+constexpr int kSynthesizedPerReal = 2;    // falls
 
 struct Jumps {
   std::vector<double> position;
@@ -149,10 +152,9 @@ FallFigures figures_of(const Motion& motion, std::span<const Segment> segments) 
 }
 
 // Energy distance of two sets of series through windows of one length.
-double energy_of(std::span<const Stretch> reference, std::span<const Stretch> other, std::size_t rows,
-                 std::size_t max_windows) {
-  FeatureWindows x = thinned(series_windows(reference, rows), max_windows);
-  FeatureWindows y = thinned(series_windows(other, rows), max_windows);
+double energy_of(std::span<const Stretch> reference, std::span<const Stretch> other, std::size_t rows) {
+  FeatureWindows x = thinned(series_windows(reference, rows), kMaxWindows);
+  FeatureWindows y = thinned(series_windows(other, rows), kMaxWindows);
   if (x.size() == 0 || y.size() == 0) return kMissing;
   standardise(x, y);
   return energy_distance(x, y);
@@ -160,17 +162,14 @@ double energy_of(std::span<const Stretch> reference, std::span<const Stretch> ot
 
 // Between what two halves of the real falls differ by (every other fall to a side; a single one is cut in time) and
 // what their rows in random order do.
-Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::size_t rows,
-                 const ChainFidelityOptions& options) {
+Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::size_t rows, std::uint64_t seed) {
   Halves halves;
   if (real.size() == 1) halves = halves_of(real);
   for (std::size_t k = 0; real.size() > 1 && k < real.size(); ++k) {
     (k % 2 == 0 ? halves.first : halves.second).push_back(real[k]);
   }
-  const auto apart = [&](std::span<const Stretch> a, std::span<const Stretch> b) {
-    return energy_of(a, b, rows, options.max_windows);
-  };
-  return {apart(real, made), apart(halves.first, halves.second), apart(real, shuffled(real, options.seed))};
+  const auto apart = [&](std::span<const Stretch> a, std::span<const Stretch> b) { return energy_of(a, b, rows); };
+  return {apart(real, made), apart(halves.first, halves.second), apart(real, shuffled(real, seed))};
 }
 
 }  // namespace
@@ -249,7 +248,7 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   if (!cut) return cut.error();
   std::size_t longest = 0;
   for (const MotionPiece& piece : seen->pieces) longest = std::max(longest, piece.rows());
-  const int falls = static_cast<int>(seen->pieces.size()) * options.synthesized_per_real;
+  const int falls = static_cast<int>(seen->pieces.size()) * kSynthesizedPerReal;
   auto made = made_falls(model, falls, longest, options.seed);
   if (!made) return made.error();
   // A fall that was seen only so far is only so far compared.
@@ -264,16 +263,15 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   ChainFidelity out;
   out.real = figures_of(*seen, cut->segments);
   out.synthesized = figures_of(*played, played_segments);
-  const auto rows =
-      static_cast<std::size_t>(std::lround(options.window_segments * out.real.event_seconds * model.rate_hz));
+  const auto rows = static_cast<std::size_t>(std::lround(kWindowSegments * out.real.event_seconds * model.rate_hz));
   out.window_seconds = static_cast<double>(rows) / model.rate_hz;
   const auto seen_series = motion_series(*seen, cut->segments);
   const auto played_series = motion_series(*played, played_segments);
-  out.energy_distance = compared(seen_series, played_series, std::max<std::size_t>(2, rows), options);
-  out.windows = std::min(series_windows(seen_series, std::max<std::size_t>(2, rows)).size(), options.max_windows);
+  out.energy_distance = compared(seen_series, played_series, std::max<std::size_t>(2, rows), options.seed);
+  out.windows = std::min(series_windows(seen_series, std::max<std::size_t>(2, rows)).size(), kMaxWindows);
   const auto long_rows = static_cast<std::size_t>(std::lround(kLongWindowSeconds * model.rate_hz));
-  out.long_energy_distance = compared(seen_series, played_series, long_rows, options);
-  out.seconds = seconds_fidelity(*seen, *played, options.max_windows, options.seed);
+  out.long_energy_distance = compared(seen_series, played_series, long_rows, options.seed);
+  out.seconds = seconds_fidelity(*seen, *played, kMaxWindows, options.seed);
   out.join_defect = join_defect(*seen, cut->segments, *played, made->joins);
   return out;
 }

@@ -39,10 +39,7 @@ FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows)
 
 struct ChainFidelityOptions {
   SegmentationOptions segmentation{};
-  double window_segments = 2.5;   ///< ≥ 2: length of a window in mean segments
-  std::size_t max_windows = 500;  ///< ≥ 2, a side
-  int smooth_rows = 0;            ///< as motion_of()
-  int synthesized_per_real = 2;   ///< ≥ 1: synthesized falls for each recorded one
+  int smooth_rows = 0;  ///< as motion_of()
   std::uint64_t seed = 1;
 };
 

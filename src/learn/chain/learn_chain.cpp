@@ -92,21 +92,11 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   }
 }
 
-// However well a model plays what was tracked, it is no better than the tracks.
-void refuse_what_capture_refused(std::span<const Recording> recordings, Usable& usable) {
-  for (const Recording& recording : recordings) {
-    const auto verdict = verdict_of(recording);
-    if (!verdict || verdict->usable) continue;
-    usable = {false, recording.source + " was captured as not usable: " + verdict->reason};
-    return;
-  }
-}
-
 // The response to gusts, from a windy recording and its calm twin.
 Result<void> take_gusts(std::span<const Recording> paired, Fit& fit) {
   if (paired.empty()) return {};
   const Recording &windy = paired[0], &calm = paired[1];
-  auto gusts = learn_gusts(windy, calm, {});
+  auto gusts = learn_gusts(windy, calm);
   if (!gusts) return gusts.error();
   std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
   fit.model.inputs = std::move(gusts->inputs);
@@ -152,7 +142,7 @@ Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe
   if (!go_on(progress, "learning gusts", 0)) return Error{std::string(kStopped)};
   if (auto ok = chain::take_gusts(data->paired, fit); !ok) return ok.error();
   Usable& usable = fit.model.training.usable;
-  chain::refuse_what_capture_refused(data->falls, usable);
+  if (const auto why = refused_by_capture(data->falls)) usable = {false, *why};
   fit.report.verdict = {usable.verdict, usable.reason};
   return fit;
 }

@@ -163,14 +163,6 @@ void take_channels(const Sides& sides, const Distances& value, const Distances& 
   }
 }
 
-void take_verbatim(const Sides& sides, Fidelity& out) {
-  const auto seconds = [&](std::size_t rows) { return static_cast<double>(rows) / sides.rate_hz; };
-  out.verbatim_seconds = seconds(longest_verbatim_run(sides.real, sides.synthesized, kVerbatimTolerance));
-  out.verbatim_floor_seconds =
-      seconds(longest_verbatim_run(sides.halves.first, sides.halves.second, kVerbatimTolerance));
-  out.verbatim_ceiling_seconds = seconds(longest(sides.real));
-}
-
 void take_long(const Sides& sides, const Stretches& pieces, const FidelityOptions& options, Fidelity& out) {
   const LongOptions how{sides.rate_hz};
   const LongDistances value = long_distances(sides.real, pieces, how);
@@ -182,11 +174,6 @@ void take_long(const Sides& sides, const Stretches& pieces, const FidelityOption
 }
 
 }  // namespace
-
-double Bounded::floor_ratio() const {
-  if (floor > 0) return value / floor;
-  return value > 0 ? std::numeric_limits<double>::infinity() : 1;
-}
 
 Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recording> synthesized,
                           const FidelityOptions& options) {
@@ -201,7 +188,8 @@ Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recor
   take_channels(*sides, value, floor, ceiling, out);
   out.energy_distance = {value.energy, floor.energy, ceiling.energy};
   take_long(*sides, pieces, options, out);
-  take_verbatim(*sides, out);
+  out.verbatim_seconds =
+      static_cast<double>(longest_verbatim_run(sides->real, sides->synthesized, kVerbatimTolerance)) / sides->rate_hz;
   out.welch_samples = lengths.welch;
   return out;
 }

@@ -28,9 +28,6 @@ struct Bounded {
   double value = 0;    ///< real against synthesized
   double floor = 0;    ///< real against real: one half of the recordings against the other, or of a single one in time
   double ceiling = 0;  ///< real against its own frames in random order
-
-  /// value / floor; infinite where the floor is 0 and the value is not, 1 where both are.
-  double floor_ratio() const;
 };
 
 /// One channel.
@@ -53,9 +50,7 @@ struct Fidelity {
   Bounded long_spectra;  ///< the same of log spectra in geometric bands
   Bounded tails;         ///< mean |ln| of the ratio of the 99th and 99.9th percentile of accelerations
 
-  double verbatim_seconds = 0;          ///< longest stretch of synthesized behaviour that is copied from the real one
-  double verbatim_floor_seconds = 0;    ///< the same of one half of the real one in the other
-  double verbatim_ceiling_seconds = 0;  ///< longest stretch that there is to copy
+  double verbatim_seconds = 0;  ///< longest stretch of synthesized behaviour that is copied from the real one
 
   std::size_t welch_samples = 0;  ///< that were used
 };

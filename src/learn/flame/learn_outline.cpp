@@ -77,17 +77,6 @@ void note_what_is_borrowed(OutlineFit& fit) {
   fit.model.training.usable = fit.summary.usable;
 }
 
-// A model is no better than the outline that it was learned from.
-void refuse_what_capture_refused(std::span<const Recording> recordings, OutlineFit& fit) {
-  for (const Recording& recording : recordings) {
-    const auto verdict = verdict_of(recording);
-    if (!verdict || verdict->usable) continue;
-    fit.summary.usable = {false, recording.source + " was captured as not usable: " + verdict->reason};
-    fit.model.training.usable = fit.summary.usable;
-    return;
-  }
-}
-
 }  // namespace
 
 Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
@@ -111,7 +100,9 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   const auto extinction = seen->complete(fit->model, recipe.extinction);
   if (!extinction) return extinction.error();
   note_what_is_borrowed(*fit);
-  refuse_what_capture_refused(recordings, *fit);
+  if (const auto why = refused_by_capture(recordings)) {
+    fit->summary.usable = fit->model.training.usable = {false, *why};
+  }
   Report report;
   report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason};
   report.warnings = std::move(warnings);

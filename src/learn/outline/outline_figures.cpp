@@ -113,8 +113,9 @@ void add_figures(const PredictionFigures& fit, const Shapes& shapes, OutlineFigu
 
 }  // namespace
 
-Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::span<const Recording> recordings,
-                                       const OutlineLayout& layout, const std::vector<int>& steps) {
+Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
+                                       const PreparedOutlines& prepared, const std::vector<int>& steps) {
+  const OutlineLayout& layout = prepared.layout;
   OutlineFigures out;
   out.steps = steps;
   for (std::size_t c : layout.outputs) out.channels.push_back({recordings.front().channels[c].name, {}});
@@ -125,11 +126,11 @@ Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::s
   for (int k : steps) {
     Shapes shapes;
     Errors errors(layout.outputs.size());
-    for (std::size_t r = 0; r < recordings.size(); ++r) {
-      const auto series = predicted(r, k);
+    for (const Recording& recording : recordings) {
+      const auto series = predict_outline(dynamics, recording, prepared, {.steps = k});
       if (!series) return series.error();
-      errors.add(recordings[r], layout, *series);
-      add_shapes(curve, recordings[r], layout, *series, stride, shapes);
+      errors.add(recording, layout, *series);
+      add_shapes(curve, recording, layout, *series, stride, shapes);
     }
     if (errors.tally.rows() == 0) {
       return Error{recordings.front().source + ": no row can be predicted: no stretch without gaps is long enough"};
@@ -137,14 +138,6 @@ Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::s
     add_figures(errors.tally.figures(k), shapes, out);
   }
   return out;
-}
-
-Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
-                                       const PreparedOutlines& prepared, const std::vector<int>& steps) {
-  const auto predicted = [&](std::size_t recording, int k) {
-    return predict_outline(dynamics, recordings[recording], prepared, {.steps = k});
-  };
-  return outline_figures(predicted, recordings, prepared.layout, steps);
 }
 
 double fit_percent(std::span<const double> measured, std::span<const double> predicted) {

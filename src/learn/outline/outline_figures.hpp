@@ -2,7 +2,6 @@
 // How well a model follows recordings of an outline: per channel, per control point, at the tip, and as a filled shape.
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,20 +34,12 @@ struct OutlineFigures {
   std::vector<double> overlap;  ///< mean intersection over union of predicted and captured filled outlines
 };
 
-/// What is predicted of one of several recordings, so many steps ahead: as predict() returns it.
-using OutlinePredictor = std::function<Result<std::vector<std::vector<double>>>(std::size_t recording, int steps)>;
-
-/// Judges predictions of recordings in a model's units.
-/// Errors: as `predicted`; no row that is measured and predicted.
-///
-/// Preconditions: at least one recording; all have the layout.
-Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::span<const Recording> recordings,
-                                       const OutlineLayout& layout, const std::vector<int>& steps);
-
 /// Judges dynamics on prepared recordings. Without inputs, simulated freely, they are their mean shape: figures at
 /// kFreeRun say how much the outline moves, not how good the dynamics are. Tip and overlap of long recordings are of at
 /// most 2000 frames, evenly spread.
 /// Errors: as predict_outline(); no row that is measured and predicted.
+///
+/// Precondition: at least one recording.
 Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
                                        const PreparedOutlines& prepared, const std::vector<int>& steps = kJudgedSteps);
 

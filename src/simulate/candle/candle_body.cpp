@@ -36,7 +36,7 @@ bool inside(int i, int j, const Box& box) {
 // The axis lies on a line between cells where the candle is an even number of cells wide, else in the middle of one,
 // so that the wax is as wide to its left as to its right.
 double axis_of(const FlowGrid& grid, const CandleRigOptions& options) {
-  const int half_cells = static_cast<int>(std::lround(options.candle_width_mm / options.cell_mm));
+  const int half_cells = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
   const double wanted = options.position * grid.nx;
   return half_cells % 2 == 0 ? std::round(wanted) : std::floor(wanted) + 0.5;
 }
@@ -46,11 +46,11 @@ double axis_of(const FlowGrid& grid, const CandleRigOptions& options) {
 CandleBody candle_body(const FlowGrid& grid, const CandleRigOptions& o) {
   const double cells = 1 / o.cell_mm;
   const double axis = axis_of(grid, o);
-  const double rim = std::round(o.candle_height_mm * cells);
-  const double foot = rim + o.wick_gap_mm * cells;
-  const Box wax = {axis - o.candle_width_mm * cells / 2, axis + o.candle_width_mm * cells / 2, 0, rim};
-  const Box wick = {axis - o.wick_width_mm * cells / 2, axis + o.wick_width_mm * cells / 2, foot,
-                    foot + o.wick_height_mm * cells};
+  const double rim = std::round(kCandleHeightMm * cells);
+  const double foot = rim + kWickGapMm * cells;
+  const Box wax = {axis - kCandleWidthMm * cells / 2, axis + kCandleWidthMm * cells / 2, 0, rim};
+  const Box wick = {axis - kWickWidthMm * cells / 2, axis + kWickWidthMm * cells / 2, foot,
+                    foot + kWickHeightMm * cells};
   const double near = kNearWickMm * cells;
   const Box near_wick = {wick.left - near, wick.right + near, wick.bottom - near, wick.top + near};
 

@@ -3,10 +3,18 @@
 
 #include <vector>
 
-#include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/flow_grid.hpp"
+#include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp::flow {
+
+// Millimetres. "Calibrated" values, here and in other constants of the rig, were chosen so that the flame looks and
+// leans like a real one; the others are properties of matter.
+inline constexpr double kCandleWidthMm = 12;  ///< of the wax, solid
+inline constexpr double kCandleHeightMm = 10;
+inline constexpr double kWickGapMm = 4;     ///< from the wax to the box that gives off fuel
+inline constexpr double kWickWidthMm = 5;   ///< calibrated: of that box; at 6 mm the flame is near puffing
+inline constexpr double kWickHeightMm = 4;  ///< calibrated
 
 struct CandleBody {
   Plane open_x, open_y;         ///< 1 on faces that air passes, 0 on those of the wax

@@ -25,7 +25,7 @@ constexpr std::size_t kFramesAhead = 16;  // by which the simulation may lead th
 
 // Output of the rig after each frame.
 struct Shot {
-  FlameLight light;
+  RigLight light;
   CandleState state;
   double wind = 0;
 };
@@ -96,7 +96,7 @@ class Scene {
 // Columns of the truth.
 class Truth {
  public:
-  Truth(const CandleClipOptions& options, const CameraView& view) : view_(view), points_(options.outline.points) {
+  Truth(const CandleClipOptions& options, const CameraView& view) : view_(view) {
     recording_.source = "simulated candle";
     recording_.rate_hz = options.rig.rate_hz;
     add("wind", "m/s", Role::kInput);
@@ -104,7 +104,7 @@ class Truth {
     add("lean", "deg", Role::kOutput);
     add("brightness", "mm2", Role::kOutput);
     add("lit", "1", Role::kOutput);
-    for (int k = 0; k < points_; ++k)
+    for (int k = 0; k < kOutlinePoints; ++k)
       for (const char* axis : {".x", ".y"}) {
         std::string name = "p";
         add(name.append(std::to_string(k)).append(axis), "px", Role::kOutput);
@@ -113,7 +113,7 @@ class Truth {
     note("origin_x", view.origin_x);
     note("origin_y", view.origin_y);
     note("cell_mm", options.rig.cell_mm);
-    note("steps_a_second", options.rig.rate_hz * steps_per_frame(options.rig));
+    note("steps_a_second", options.rig.rate_hz * flow::steps_per_frame(options.rig));
     recording_.attributes.push_back({"seed", std::to_string(options.wind.seed)});
   }
 
@@ -127,7 +127,7 @@ class Truth {
     }
     row.push_back(outline.brightness);
     row.push_back(shot.state.lit ? 1 : 0);
-    for (int k = 0; k < points_; ++k) {
+    for (int k = 0; k < kOutlinePoints; ++k) {
       row.push_back(outline.found ? view_.pixel_x(outline.control_points[k].x) : kMissing);
       row.push_back(outline.found ? view_.pixel_y(outline.control_points[k].y) : kMissing);
     }
@@ -143,7 +143,6 @@ class Truth {
   void note(const char* name, double value) { set_numbers_attribute(recording_, name, {&value, 1}); }
 
   CameraView view_;
-  int points_;
   Recording recording_;
 };
 
@@ -165,7 +164,7 @@ class Crew {
       return Error{"candle rig: frame " + std::to_string(frame_ + 1) +
                    " holds a number that is not finite; this is a "
                    "defect of the simulation, take a smaller time step and report it"};
-    truth_.add_row(shot, flame_outline(shot.light, options_.outline));
+    truth_.add_row(shot, flame_outline(shot.light));
     if (auto filmed = film(shot); !filmed) return filmed;
     if (auto heard = listen(); !heard) return heard;
     ++frame_;
@@ -210,13 +209,8 @@ class Crew {
   std::vector<float> wind_block_, sound_;
 };
 
-Result<void> shoot_alone(Scene& scene, Crew& crew, std::uint64_t frames) {
-  for (std::uint64_t frame = 0; frame < frames; ++frame)
-    if (auto taken = crew.take(scene.next()); !taken) return taken;
-  return {};
-}
-
-Result<void> shoot_by_two(Scene& scene, Crew& crew, std::uint64_t frames) {
+// One thread simulates while this one draws and writes.
+Result<void> shoot(Scene& scene, Crew& crew, std::uint64_t frames) {
   ShotQueue queue;
   std::thread simulation([&] {
     for (std::uint64_t frame = 0; frame < frames; ++frame)
@@ -233,10 +227,6 @@ Result<void> check(const CandleClipOptions& o) {
   return flow::check_ranges("candle clip", {
                                                {"seconds", o.seconds, 1e-3, 86400},
                                                {"settle_seconds", o.settle_seconds, 0, 60},
-                                               {"threads", static_cast<double>(o.threads), 1, 2},
-                                               {"outline.level", o.outline.level, 1e-3, 10},
-                                               {"outline.points", static_cast<double>(o.outline.points), 4, 32},
-                                               {"outline.cut", o.outline.cut, 0, 0.499},
                                            });
 }
 
@@ -244,7 +234,7 @@ Result<void> check(const CandleClipOptions& o) {
 
 Result<Recording> simulate_candle(const CandleClipOptions& options, const CandleClipOutputs& outputs) {
   if (auto good = check(options); !good) return good.error();
-  auto wind = options.wind_recording ? WindSignal::from_recording(*options.wind_recording, options.wind_channel)
+  auto wind = options.wind_recording ? WindSignal::from_recording(*options.wind_recording)
                                      : WindSignal::generate(options.wind, options.seconds);
   if (!wind) return wind.error();
   auto camera = VirtualCamera::create(options.camera);
@@ -257,7 +247,7 @@ Result<Recording> simulate_candle(const CandleClipOptions& options, const Candle
   const auto frames = static_cast<std::uint64_t>(std::max(1.0, std::round(options.seconds * options.rig.rate_hz)));
   Scene scene(std::move(*rig), *wind, options.settle_seconds);
   Crew crew(options, outputs, std::move(*camera), std::move(*microphone), *wind, frames);
-  const Result<void> shot = options.threads == 2 ? shoot_by_two(scene, crew, frames) : shoot_alone(scene, crew, frames);
+  const Result<void> shot = shoot(scene, crew, frames);
   if (!shot) return shot.error();
   return crew.truth();
 }

@@ -12,25 +12,37 @@ constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;
 constexpr float kLighterFuel = 0.6F;  // share of the fuel rate that a lighter's heat draws from the wick
 constexpr int kMaxIterations = 40;
+constexpr float kWickTime = 0.15F;          // s, calibrated: time constant of the fuel behind the wick's heat
+constexpr float kFuelTemperature = 600.0F;  // K
+constexpr float kDiffusivity = 2.0e-5F;     // m²/s at 300 K; grows as T^1.75
+constexpr float kViscosity = 1.5e-5F;       // m²/s at 300 K
+constexpr float kUpdraught = 0.25F;         // m/s, calibrated: the air that rises with a candle
+constexpr float kMaxExpansion = 1500.0F;    // 1/s: ∇·u is clamped to it
+constexpr float kWindShare = 0.4F;  // calibrated: how much of the wind reaches the flame, most of it goes around
+constexpr float kWindRate = 20.0F;  // 1/s, calibrated: how fast the air at the flame takes it up
+constexpr float kPressureTolerance = 0.5F;              // 1/s, root mean square of the remaining divergence error
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot does not diffuse
 
 }  // namespace
+
+int steps_per_frame(const CandleRigOptions& options) {
+  return std::max(1, static_cast<int>(std::lround(options.steps_a_second / options.rate_hz)));
+}
 
 CandleFlow::CandleFlow(const CandleRigOptions& options)
     : options_(options),
       grid_{options.columns, options.rows, static_cast<float>(options.cell_mm * 1e-3)},
       step_(static_cast<float>(1 / (options.rate_hz * steps_per_frame(options)))),
       body_(candle_body(grid_, options)),
-      combustion_(options, step_),
+      combustion_(step_),
       pressure_(grid_) {
   const Plane zero(grid_.size(), 0.0F);
   u_ = v_ = u_scratch_ = v_scratch_ = way_x_ = way_y_ = zero;
   conductance_ = corner_ = flux_x_ = flux_y_ = scale_ = fuel_source_ = glow_ = blue_ = zero;
   temperature_ = moved_temperature_ = Plane(grid_.size(), kAmbientTemperature);
   cells_ = cells_scratch_ = ScalarPlane(grid_.size(), kAmbient);
-  const auto updraught = static_cast<float>(options.updraught);
   for (int j = 0; j <= grid_.ny; ++j)
-    for (int i = 0; i < grid_.nx; ++i) v_[grid_.at(i, j)] = updraught * body_.open_y[grid_.at(i, j)];
+    for (int i = 0; i < grid_.nx; ++i) v_[grid_.at(i, j)] = kUpdraught * body_.open_y[grid_.at(i, j)];
   set_drag();
 }
 
@@ -78,7 +90,7 @@ void CandleFlow::feed_wick() {
   const auto cold = static_cast<float>(options_.wick_cold);
   const auto warm = static_cast<float>(options_.wick_warm);
   const float wanted = most * std::clamp((wick_temperature() - cold) / (warm - cold), 0.0F, 1.0F);
-  fuel_ += step_ / static_cast<float>(options_.wick_time) * (wanted - fuel_);
+  fuel_ += step_ / kWickTime * (wanted - fuel_);
 }
 
 void CandleFlow::hold_flame_to_wick() {
@@ -146,8 +158,8 @@ void CandleFlow::set_scalar_fluxes() {
 }
 
 // scale = strength · T/T0 between the cells `offset` apart, where open.
-void CandleFlow::set_scale(double material, int offset, const Plane* open) {
-  const float strength = static_cast<float>(material) * step_ / (grid_.h * grid_.h) * (0.5F / kAmbientTemperature);
+void CandleFlow::set_scale(float material, int offset, const Plane* open) {
+  const float strength = material * step_ / (grid_.h * grid_.h) * (0.5F / kAmbientTemperature);
   for (int j = 0; j <= grid_.ny; ++j) {
     const int row = grid_.at(0, j);
     const float* __restrict t = temperature_.data() + row;
@@ -167,21 +179,21 @@ void CandleFlow::mix() {
   const int nx = grid_.nx;
   const int ny = grid_.ny;
 
-  set_scale(options_.diffusivity, 0, nullptr);
-  diffuse(grid_, {nx, ny, flux_x_.data(), flux_y_.data()}, scale_,
-          rkl1_stages(spread * static_cast<float>(options_.diffusivity)), kDiffuses, cells_, cells_scratch_);
+  set_scale(kDiffusivity, 0, nullptr);
+  diffuse(grid_, {nx, ny, flux_x_.data(), flux_y_.data()}, scale_, rkl1_stages(spread * kDiffusivity), kDiffuses,
+          cells_, cells_scratch_);
 
-  const int stages = rkl1_stages(spread * static_cast<float>(options_.viscosity));
-  set_scale(options_.viscosity, 1, &body_.open_x);
+  const int stages = rkl1_stages(spread * kViscosity);
+  set_scale(kViscosity, 1, &body_.open_x);
   diffuse(grid_, {nx + 1, ny, conductance_.data() - 1, corner_.data()}, scale_, stages, u_, u_scratch_);
-  set_scale(options_.viscosity, grid_.stride(), &body_.open_y);
+  set_scale(kViscosity, grid_.stride(), &body_.open_y);
   diffuse(grid_, {nx, ny + 1, corner_.data(), conductance_.data() - grid_.stride()}, scale_, stages, v_, v_scratch_);
 }
 
 // Fuel vapour displaces hot gas, so its volume source has the factor T/T0. Without it a cooled wick would emit three
 // times too much.
 void CandleFlow::release_fuel() {
-  const Float4 vapour = {1.0F, 1.0F, static_cast<float>(options_.fuel_temperature), 0.0F};
+  const Float4 vapour = {1.0F, 1.0F, kFuelTemperature, 0.0F};
   for (const int k : body_.fuel_cells) {
     const float theta = cells_[k][kTemperature] * (1.0F / kAmbientTemperature);
     const float source = body_.fuel_share[k] * fuel_ * theta;
@@ -195,8 +207,8 @@ void CandleFlow::release_fuel() {
 
 void CandleFlow::push(float wind) {
   const int stride = grid_.stride();
-  const float share = 1.0F - 1.0F / (1.0F + static_cast<float>(options_.wind_rate) * step_);
-  const float target = static_cast<float>(options_.wind_share) * wind;
+  const float share = 1.0F - 1.0F / (1.0F + kWindRate * step_);
+  const float target = kWindShare * wind;
   const float lift = 0.5F * step_ * kGravity / kAmbientTemperature;
   for (int j = 0; j <= grid_.ny; ++j) {
     const int row = grid_.at(0, j);
@@ -210,15 +222,13 @@ void CandleFlow::push(float wind) {
       v[i] = keep_v[i] * (v[i] + lift * ((t[i] - kAmbientTemperature) + (t[i - stride] - kAmbientTemperature)));
     }
   }
-  const auto updraught = static_cast<float>(options_.updraught);
-  for (int k = grid_.at(0, 0), end = k + grid_.nx; k < end; ++k) v_[k] = updraught * body_.open_y[k];
+  for (int k = grid_.at(0, 0), end = k + grid_.nx; k < end; ++k) v_[k] = kUpdraught * body_.open_y[k];
 }
 
 // The right side −h² (∇·u − expansion) and the coefficients T/T0.
 void CandleFlow::set_divergence() {
   const int stride = grid_.stride();
   const float h = grid_.h;
-  const float most = static_cast<float>(options_.max_expansion);
   const float rate = 1.0F / step_;
   constexpr float kHalf = 0.5F / kAmbientTemperature;
   for (int j = 0; j <= grid_.ny; ++j) {
@@ -243,7 +253,7 @@ void CandleFlow::set_divergence() {
       const float ratio = (t[i] - moved[i]) / (t[i] + moved[i]);
       const float square = ratio * ratio;
       const float expansion = rate * 2.0F * ratio * (1.0F + square * (1.0F / 3 + square * 0.2F));
-      const float held = std::min(std::max(expansion, -most), most) + fuel[i];
+      const float held = std::min(std::max(expansion, -kMaxExpansion), kMaxExpansion) + fuel[i];
       right[i] = h * (h * held - ((u[i + 1] - u[i]) + (v[i + stride] - v[i])));
     }
   }
@@ -269,7 +279,7 @@ void CandleFlow::apply_pressure() {
 PressureSolve CandleFlow::project() {
   set_divergence();
   pressure_.prepare();
-  const float tolerance = static_cast<float>(options_.pressure_tolerance) * grid_.h * grid_.h;
+  const float tolerance = kPressureTolerance * grid_.h * grid_.h;
   const PressureSolve result = pressure_.solve(tolerance, kMaxIterations);
   apply_pressure();
   return result;

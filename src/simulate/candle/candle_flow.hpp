@@ -2,12 +2,15 @@
 // The candle's flow: the state of the grid, advanced by one time step.
 
 #include "simulate/candle/candle_body.hpp"
-#include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/combustion.hpp"
 #include "simulate/candle/flow_grid.hpp"
 #include "simulate/candle/pressure_solver.hpp"
+#include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp::flow {
+
+/// Steps that a frame is simulated in.
+int steps_per_frame(const CandleRigOptions& options);
 
 /// Figures of one step.
 struct FlowStep {
@@ -46,7 +49,7 @@ class CandleFlow {
   void take_temperature();
   void set_conductance();
   void set_scalar_fluxes();
-  void set_scale(double material, int offset, const Plane* open);
+  void set_scale(float material, int offset, const Plane* open);
   void mix();
   void release_fuel();
   void push(float wind);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "simulate/candle/candle_flow.hpp"
 #include "simulate/option_range.hpp"
 
 namespace wisp {
@@ -14,6 +13,7 @@ namespace {
 constexpr double kMaxWind = 10;  // m/s
 constexpr double kLighterSeconds = 0.25;
 constexpr double kLitShare = 0.1;
+constexpr double kExposure = 0.5;  // share of a frame's time that the shutter is open
 
 Result<void> check_options(const CandleRigOptions& o) {
   return flow::check_ranges("candle rig", {
@@ -23,43 +23,22 @@ Result<void> check_options(const CandleRigOptions& o) {
                                               {"rate_hz", o.rate_hz, 1, 1000},
                                               {"steps_a_second", o.steps_a_second, 100, 100000},
                                               {"position", o.position, 0.1, 0.9},
-                                              {"candle_width_mm", o.candle_width_mm, 1, 100},
-                                              {"candle_height_mm", o.candle_height_mm, 1, 100},
-                                              {"wick_gap_mm", o.wick_gap_mm, 0, 50},
-                                              {"wick_width_mm", o.wick_width_mm, 1, 50},
-                                              {"wick_height_mm", o.wick_height_mm, 1, 50},
                                               {"wick_damping", o.wick_damping, 0, 10000},
-                                              {"wick_time", o.wick_time, 0.001, 10},
                                               {"wick_cold", o.wick_cold, 300, 2000},
                                               {"wick_warm", o.wick_warm, o.wick_cold + 1, 3000},
                                               {"fuel_rate", o.fuel_rate, 0, 1e-2},
-                                              {"fuel_temperature", o.fuel_temperature, 300, 1500},
-                                              {"diffusivity", o.diffusivity, 1e-6, 1e-4},
-                                              {"viscosity", o.viscosity, 1e-6, 1e-4},
-                                              {"stoichiometric", o.stoichiometric, 0.01, 0.5},
-                                              {"flame_heating", o.flame_heating, 0, 3000},
-                                              {"reaction_rate", o.reaction_rate, 0, 1e5},
-                                              {"ignition_low", o.ignition_low, 400, 2000},
-                                              {"ignition_high", o.ignition_high, o.ignition_low + 1, 3000},
-                                              {"updraught", o.updraught, 0, 2},
-                                              {"max_expansion", o.max_expansion, 100, 1e5},
-                                              {"wind_share", o.wind_share, 0, 1},
-                                              {"wind_rate", o.wind_rate, 0, 1000},
-                                              {"soot_rate", o.soot_rate, 0, 1e4},
-                                              {"soot_burnout", o.soot_burnout, 0, 1e4},
-                                              {"exposure", o.exposure, 1e-3, 1},
-                                              {"pressure_tolerance", o.pressure_tolerance, 1e-3, 100},
                                           });
 }
 
 Result<void> check_fit(const CandleRigOptions& o) {
   const double width = o.columns * o.cell_mm;
   const double axis = o.position * width;
-  const double half = std::max(o.candle_width_mm, o.wick_width_mm) / 2 + 2 * o.cell_mm;
+  const double half = std::max(flow::kCandleWidthMm, flow::kWickWidthMm) / 2 + 2 * o.cell_mm;
   if (axis - half < 0 || axis + half > width)
-    return Error{"candle rig: a candle " + std::to_string(o.candle_width_mm) + " mm wide at " + std::to_string(axis) +
-                 " mm does not fit into a grid " + std::to_string(width) + " mm wide; use more columns"};
-  const double top = o.candle_height_mm + o.wick_gap_mm + o.wick_height_mm + 2 * o.cell_mm;
+    return Error{"candle rig: a candle " + std::to_string(flow::kCandleWidthMm) + " mm wide at " +
+                 std::to_string(axis) + " mm does not fit into a grid " + std::to_string(width) +
+                 " mm wide; use more columns"};
+  const double top = flow::kCandleHeightMm + flow::kWickGapMm + flow::kWickHeightMm + 2 * o.cell_mm;
   if (top > o.rows * o.cell_mm)
     return Error{"candle rig: candle and wick reach up to " + std::to_string(top) + " mm in a grid " +
                  std::to_string(o.rows * o.cell_mm) + " mm high; use more rows"};
@@ -73,107 +52,66 @@ void copy_light(const flow::FlowGrid& grid, const flow::Plane& from, float facto
 
 }  // namespace
 
-int steps_per_frame(const CandleRigOptions& options) {
-  return std::max(1, static_cast<int>(std::lround(options.steps_a_second / options.rate_hz)));
+CandleRig::CandleRig(const CandleRigOptions& o) : options_(o), flow_(o) {
+  light_.columns = o.columns;
+  light_.rows = o.rows;
+  light_.cell_mm = o.cell_mm;
+  light_.wick_x_mm = static_cast<double>(flow_.body().axis) * 1e3;
+  light_.wick_y_mm = static_cast<double>(flow_.body().rim) * 1e3;
+  light_.soot.resize(static_cast<std::size_t>(o.columns) * o.rows);
+  light_.blue = light_.soot;
 }
-
-CandleRigOptions candle_rig_options(CandleGrid grid) {
-  CandleRigOptions options;
-  if (grid == CandleGrid::kFine) {
-    options.columns = 112;
-    options.rows = 192;
-    options.cell_mm = 1.25 / 3;
-    options.steps_a_second = 600;
-    options.wick_damping = 250;
-    options.wick_cold = 450;
-    options.wick_warm = 750;
-    options.fuel_rate = 1.4e-4;
-  }
-  return options;
-}
-
-struct CandleRig::Parts {
-  explicit Parts(const CandleRigOptions& o) : options(o), flow(o) {
-    light.columns = o.columns;
-    light.rows = o.rows;
-    light.cell_mm = o.cell_mm;
-    light.wick_x_mm = static_cast<double>(flow.body().axis) * 1e3;
-    light.wick_y_mm = static_cast<double>(flow.body().rim) * 1e3;
-    light.soot.resize(static_cast<std::size_t>(o.columns) * o.rows);
-    light.blue = light.soot;
-  }
-
-  CandleRigOptions options;
-  flow::CandleFlow flow;
-  FlameLight light;
-  long long frames = 0;
-  int lighter_steps = 0;
-  double wind = 0;
-  double burning = 0;
-  double iterations = 0;
-};
-
-CandleRig::CandleRig(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-CandleRig::CandleRig(CandleRig&&) noexcept = default;
-CandleRig& CandleRig::operator=(CandleRig&&) noexcept = default;
-CandleRig::~CandleRig() = default;
 
 Result<CandleRig> CandleRig::create(const CandleRigOptions& options) {
   if (auto ranges = check_options(options); !ranges) return ranges.error();
   if (auto fit = check_fit(options); !fit) return fit.error();
-  CandleRig rig(std::make_unique<Parts>(options));
+  CandleRig rig(options);
   rig.light();
   return rig;
 }
 
 void CandleRig::light() {
-  const CandleRigOptions& o = parts_->options;
-  parts_->lighter_steps = static_cast<int>(std::ceil(kLighterSeconds * o.rate_hz * steps_per_frame(o)));
+  lighter_steps_ = static_cast<int>(std::ceil(kLighterSeconds * options_.rate_hz * flow::steps_per_frame(options_)));
 }
 
 void CandleRig::step_frame(double wind) {
-  Parts& p = *parts_;
   const double next = std::isnan(wind) ? 0.0 : std::clamp(wind, -kMaxWind, kMaxWind);
-  const int steps = steps_per_frame(p.options);
-  const int closed = steps - std::max(1, static_cast<int>(std::lround(p.options.exposure * steps)));
-  p.flow.clear_light();
+  const int steps = flow::steps_per_frame(options_);
+  const int closed = steps - std::max(1, static_cast<int>(std::lround(kExposure * steps)));
+  flow_.clear_light();
   double burnt = 0;
   double iterations = 0;
   for (int s = 0; s < steps; ++s) {
-    const double now = p.wind + (next - p.wind) * (s + 1) / steps;
-    if (p.lighter_steps > 0) {
-      p.flow.hold_flame_to_wick();
-      --p.lighter_steps;
+    const double now = wind_ + (next - wind_) * (s + 1) / steps;
+    if (lighter_steps_ > 0) {
+      flow_.hold_flame_to_wick();
+      --lighter_steps_;
     }
-    const flow::FlowStep step = p.flow.step(static_cast<float>(now), s >= closed);
+    const flow::FlowStep step = flow_.step(static_cast<float>(now), s >= closed);
     burnt += step.burnt;
     iterations += step.pressure.iterations;
   }
-  p.wind = next;
-  p.burning = burnt / steps / std::max(p.options.fuel_rate, 1e-12);
-  p.iterations = iterations / steps;
-  ++p.frames;
-  const float share = 1.0F / static_cast<float>(p.flow.exposed_steps());
-  copy_light(p.flow.grid(), p.flow.glow(), share, p.light.soot);
-  copy_light(p.flow.grid(), p.flow.blue(), share, p.light.blue);
+  wind_ = next;
+  burning_ = burnt / steps / std::max(options_.fuel_rate, 1e-12);
+  iterations_ = iterations / steps;
+  ++frames_;
+  const float share = 1.0F / static_cast<float>(flow_.exposed_steps());
+  copy_light(flow_.grid(), flow_.glow(), share, light_.soot);
+  copy_light(flow_.grid(), flow_.blue(), share, light_.blue);
 }
 
 CandleState CandleRig::state() const {
-  const Parts& p = *parts_;
   CandleState state;
-  state.seconds = static_cast<double>(p.frames) / p.options.rate_hz;
-  state.lit = p.burning >= kLitShare;
-  state.fuel = static_cast<double>(p.flow.fuel()) / std::max(p.options.fuel_rate, 1e-12);
-  state.burning = p.burning;
-  state.wick_temperature = static_cast<double>(p.flow.wick_temperature());
-  state.hottest = static_cast<double>(p.flow.hottest());
-  state.fastest = static_cast<double>(p.flow.fastest());
-  state.finite = p.flow.finite();
-  state.pressure_iterations = p.iterations;
+  state.seconds = static_cast<double>(frames_) / options_.rate_hz;
+  state.lit = burning_ >= kLitShare;
+  state.fuel = static_cast<double>(flow_.fuel()) / std::max(options_.fuel_rate, 1e-12);
+  state.burning = burning_;
+  state.wick_temperature = static_cast<double>(flow_.wick_temperature());
+  state.hottest = static_cast<double>(flow_.hottest());
+  state.fastest = static_cast<double>(flow_.fastest());
+  state.finite = flow_.finite();
+  state.pressure_iterations = iterations_;
   return state;
 }
-
-const CandleRigOptions& CandleRig::options() const { return parts_->options; }
-const FlameLight& CandleRig::light_of_frame() const { return parts_->light; }
 
 }  // namespace wisp

@@ -7,19 +7,16 @@
 // docs/explanation/candle-rig.md has the equations, says which parameters are physics and which are calibrated, and
 // what was measured.
 
-#include <memory>
 #include <vector>
 
+#include "simulate/candle/candle_flow.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp {
 
-/// Steps that a frame is simulated in.
-int steps_per_frame(const CandleRigOptions& options);
-
 /// Light of the flame while the shutter was open, cell by cell from the lower left, and the candle's place.
-struct FlameLight {
+struct RigLight {
   int columns = 0;
   int rows = 0;
   double cell_mm = 0;
@@ -49,10 +46,6 @@ class CandleRig {
   /// Errors: an option outside its range, or a candle that does not fit into the grid.
   static Result<CandleRig> create(const CandleRigOptions& options = {});
 
-  CandleRig(CandleRig&&) noexcept;
-  CandleRig& operator=(CandleRig&&) noexcept;
-  ~CandleRig();
-
   /// One frame of 1/rate_hz under a wind in m/s, positive towards +x, that goes in a straight line from the last
   /// frame's value to this one. Clamped to ±10 m/s; NaN counts as calm.
   void step_frame(double wind);
@@ -61,15 +54,22 @@ class CandleRig {
   void light();
 
   CandleState state() const;
-  const CandleRigOptions& options() const;
+  const CandleRigOptions& options() const { return options_; }
 
   /// Light of the last frame.
-  const FlameLight& light_of_frame() const;
+  const RigLight& light_of_frame() const { return light_; }
 
  private:
-  struct Parts;
-  explicit CandleRig(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  explicit CandleRig(const CandleRigOptions& options);
+
+  CandleRigOptions options_;
+  flow::CandleFlow flow_;
+  RigLight light_;
+  long long frames_ = 0;
+  int lighter_steps_ = 0;
+  double wind_ = 0;
+  double burning_ = 0;
+  double iterations_ = 0;
 };
 
 }  // namespace wisp

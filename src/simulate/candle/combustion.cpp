@@ -13,6 +13,12 @@ constexpr double kGlowActivation = 9000;  // K: second radiation constant over a
                                           // soot absorption that falls as 1/wavelength folded in; calibrated
 constexpr double kGlowUnit = 1800;        // K: where soot of unit density glows with 1
 constexpr float kMaxSoot = 1.2F;
+constexpr float kStoichiometric = 0.08F;         // mixture fraction where fuel and oxygen match
+constexpr float kHeat = 1700 / 0.08;             // K by burning fuel alone: 1700 K where both match
+constexpr float kReactionRate = 2000.0F;         // 1/s at full temperature
+constexpr float kIgnitionLow = 900.0F;           // K: below it nothing burns
+constexpr float kIgnitionWidth = 400.0F;         // K: above that much more the reaction has its full rate
+constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated
 
 // 0 below a, 1 above a + width, smooth between.
 float smoothstep(float x, float a, float width) {
@@ -28,41 +34,33 @@ float share_of_step(float x) {
 
 }  // namespace
 
-Combustion::Combustion(const CandleRigOptions& o, float step)
-    : step_(step),
-      stoichiometric_(static_cast<float>(o.stoichiometric)),
-      heat_(static_cast<float>(o.flame_heating / o.stoichiometric)),
-      rate_(static_cast<float>(o.reaction_rate)),
-      ignition_low_(static_cast<float>(o.ignition_low)),
-      ignition_width_(static_cast<float>(o.ignition_high - o.ignition_low)),
-      soot_rate_(static_cast<float>(o.soot_rate)),
-      soot_burnout_(static_cast<float>(o.soot_burnout)) {
+Combustion::Combustion(float step) : step_(step) {
   for (float t = kGlowFrom; t <= kGlowTo + 2 * kGlowStep; t += kGlowStep)
     glow_.push_back(static_cast<float>(std::exp(-kGlowActivation * (1.0 / static_cast<double>(t) - 1.0 / kGlowUnit))));
 }
 
 float Combustion::burn_cell(Float4& cell) const {
-  const float oxygen_per_fuel = stoichiometric_ / (1.0F - stoichiometric_);
+  const float oxygen_per_fuel = kStoichiometric / (1.0F - kStoichiometric);
   const float oxygen = (1.0F - cell[kMixture]) - (cell[kMixture] - cell[kFuel]) / oxygen_per_fuel;
   const float burnable = std::min(cell[kFuel], std::max(oxygen, 0.0F) * oxygen_per_fuel);
-  const float hot = smoothstep(cell[kTemperature], ignition_low_, ignition_width_);
-  const float burnt = burnable * share_of_step(rate_ * step_ * hot);
+  const float hot = smoothstep(cell[kTemperature], kIgnitionLow, kIgnitionWidth);
+  const float burnt = burnable * share_of_step(kReactionRate * step_ * hot);
   cell[kFuel] -= burnt;
-  cell[kTemperature] += heat_ * burnt;
+  cell[kTemperature] += kHeat * burnt;
   soot_cell(cell, oxygen - burnt / oxygen_per_fuel);
   return burnt;
 }
 
 void Combustion::soot_cell(Float4& cell, float oxygen) const {
-  const float richness = cell[kMixture] / stoichiometric_;
+  const float richness = cell[kMixture] / kStoichiometric;
   const float temperature = cell[kTemperature];
-  const float made = soot_rate_ * smoothstep(richness, 1.05F, 0.75F) * smoothstep(temperature, 1250.0F, 300.0F);
-  const float lost = soot_burnout_ * smoothstep(oxygen, 0.02F, 0.1F) * smoothstep(temperature, 1000.0F, 400.0F);
+  const float made = kSootRate * smoothstep(richness, 1.05F, 0.75F) * smoothstep(temperature, 1250.0F, 300.0F);
+  const float lost = kBurnout * smoothstep(oxygen, 0.02F, 0.1F) * smoothstep(temperature, 1000.0F, 400.0F);
   cell[kSoot] = (cell[kSoot] + step_ * made * kMaxSoot) / (1.0F + step_ * (made + lost));
 }
 
 double Combustion::burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const {
-  const float coldest = std::min(ignition_low_, 1000.0F);
+  const float coldest = std::min(kIgnitionLow, 1000.0F);
   double total = 0;
   for (int j = 0; j < grid.ny; ++j) {
     float row_total = 0;

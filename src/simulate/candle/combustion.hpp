@@ -1,13 +1,12 @@
 #pragma once
 // One-step combustion of a mixture fraction, soot, and the light of both.
 
-#include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/flow_grid.hpp"
 
 namespace wisp::flow {
 
 struct Combustion {
-  explicit Combustion(const CandleRigOptions& options, float step);
+  explicit Combustion(float step);
 
   /// Burns fuel, forms and burns soot in all hot cells. Adds the fuel burnt a second to `blue`, if given.
   /// Returns the volume of cold fuel burnt, summed over cells.
@@ -22,7 +21,6 @@ struct Combustion {
   float glow(float temperature) const;
 
   float step_;
-  float stoichiometric_, heat_, rate_, ignition_low_, ignition_width_, soot_rate_, soot_burnout_;
   Plane glow_;  // table over temperature
 };
 

@@ -11,6 +11,9 @@
 namespace wisp {
 namespace {
 
+constexpr double kLevel = 0.3;  // light of glowing soot at the contour: half of full brightness in a camera's picture
+constexpr double kCut = 0.03;   // the base lies this share of the flame's height above its lowest point: the round
+                                // bottom of a contour has no corners to fix control points to
 constexpr int kSamplesPerCell = 3;
 constexpr int kContourPoints = 200;
 constexpr double kTipShare = 0.02;
@@ -23,7 +26,7 @@ struct Extent {
   int left = 0, right = -1, bottom = 0, top = -1;
 };
 
-Extent lit_extent(const FlameLight& light, double level) {
+Extent lit_extent(const RigLight& light, double level) {
   Extent e{light.columns, -1, light.rows, -1};
   for (int j = 0; j < light.rows; ++j)
     for (int i = 0; i < light.columns; ++i) {
@@ -35,7 +38,7 @@ Extent lit_extent(const FlameLight& light, double level) {
 
 // The largest closed contour, in millimetres. The lattice ends outside the grid, where all is dark, so that a flame
 // that leaves the grid is closed along its rim.
-std::vector<PointMm> largest_contour(const FlameLight& light, double level) {
+std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   const Extent e = lit_extent(light, level);
   if (e.right < e.left) return {};
   const double step = 1.0 / kSamplesPerCell;
@@ -182,57 +185,29 @@ PointMm farthest(std::vector<PointMm> line, PointMm base) {
   return {mean.x / static_cast<double>(count), mean.y / static_cast<double>(count)};
 }
 
-// Width across the line from base to tip, a quarter of the way up.
-double quarter_width(const std::vector<PointMm>& line, PointMm base, PointMm tip) {
-  const double length = distance(base, tip);
-  if (!(length > 0)) return 0;
-  const PointMm along = {(tip.x - base.x) / length, (tip.y - base.y) / length};
-  double lowest = 0;
-  double highest = 0;
-  for (std::size_t k = 1; k < line.size(); ++k) {
-    const auto rise = [&](PointMm p) { return (p.x - base.x) * along.x + (p.y - base.y) * along.y - length / 4; };
-    const double a = rise(line[k - 1]);
-    const double b = rise(line[k]);
-    if (a * b > 0 || a == b) continue;
-    const double t = a / (a - b);
-    const PointMm p = {line[k - 1].x + t * (line[k].x - line[k - 1].x),
-                       line[k - 1].y + t * (line[k].y - line[k - 1].y)};
-    const double side = (p.y - base.y) * along.x - (p.x - base.x) * along.y;
-    lowest = std::min(lowest, side);
-    highest = std::max(highest, side);
-  }
-  return highest - lowest;
-}
-
 }  // namespace
 
-FlameOutline flame_outline(const FlameLight& light, const FlameOutlineRecipe& options) {
+FlameOutline flame_outline(const RigLight& light) {
   FlameOutline outline;
   double sum = 0;
   for (const float value : light.soot) sum += static_cast<double>(value);
   outline.brightness = sum * light.cell_mm * light.cell_mm;
 
-  const std::vector<PointMm> closed = largest_contour(light, options.level);
+  const std::vector<PointMm> closed = largest_contour(light, kLevel);
   outline.area = flow::clockwise_area(closed);
   if (outline.area < 4 * light.cell_mm * light.cell_mm) return outline;
   const auto lower = [](PointMm a, PointMm b) { return a.y < b.y; };
   const auto [bottom, top] = std::minmax_element(closed.begin(), closed.end(), lower);
-  outline.contour = evenly_spaced(cut_open(closed, bottom->y + options.cut * (top->y - bottom->y)), kContourPoints);
+  outline.contour = evenly_spaced(cut_open(closed, bottom->y + kCut * (top->y - bottom->y)), kContourPoints);
   const PointMm left = outline.contour.front();
   const PointMm right = outline.contour.back();
   outline.base = {(left.x + right.x) / 2, (left.y + right.y) / 2};
   outline.tip = farthest(outline.contour, outline.base);
   outline.height = outline.tip.y - outline.base.y;
-  outline.length = distance(outline.base, outline.tip);
   outline.lean = std::atan2(outline.tip.x - outline.base.x, outline.height) * 180 / 3.14159265358979323846;
-  outline.width = quarter_width(outline.contour, outline.base, outline.tip);
-  outline.control_points = fit_spline(outline.contour, options.points);
+  outline.control_points = fit_spline(outline.contour, kOutlinePoints);
   outline.found = true;
   return outline;
-}
-
-PointMm outline_point(const std::vector<PointMm>& control_points, double s) {
-  return combine(control_points, basis(uniform_knots(static_cast<int>(control_points.size())), s));
 }
 
 }  // namespace wisp

@@ -9,6 +9,8 @@
 
 namespace wisp {
 
+inline constexpr int kOutlinePoints = 8;  ///< control points
+
 /// A point in millimetres: x from the candle's axis, y up from its upper rim.
 struct PointMm {
   double x = 0;
@@ -24,9 +26,7 @@ struct FlameOutline {
   PointMm base;                         ///< middle between the contour's ends
   PointMm tip;                          ///< mean of the 2 % of the contour farthest from the base
   double height = 0;                    ///< mm, of the tip above the base
-  double length = 0;                    ///< mm, from base to tip
   double lean = 0;                      ///< degrees from upright, positive towards +x
-  double width = 0;                     ///< mm, at a quarter of the way from base to tip, across it
   double area = 0;                      ///< mm² inside the contour
   double brightness = 0;                ///< light summed over the whole grid, in mm² of unit light
 };
@@ -34,11 +34,6 @@ struct FlameOutline {
 /// Takes the outline of a frame's light.
 ///
 /// Precondition: light.soot has columns × rows entries, each of at least 4.
-FlameOutline flame_outline(const FlameLight& light, const FlameOutlineRecipe& options = {});
-
-/// Point of the spline at parameter s in [0, 1].
-///
-/// Precondition: at least 4 control points.
-PointMm outline_point(const std::vector<PointMm>& control_points, double s);
+FlameOutline flame_outline(const RigLight& light);
 
 }  // namespace wisp

@@ -4,14 +4,17 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "simulate/candle/light_sampling.hpp"
 #include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"
 
 namespace wisp {
 namespace {
+
+constexpr double kPixelsPerMm = 7.5;  // a calm flame is about 260 pixels high
+constexpr double kWickX = 0.35;       // where the candle's axis is, as a share of the width from the left
+constexpr double kRimY = 0.06;        // where the candle's upper rim is, as a share of the height from below
+constexpr double kContrast = 1.8;     // steepness of the tone curve: higher gives the flame a sharper edge
 
 // Tones are kept in sixteenths of an 8-bit step until noise has been added.
 constexpr int kToneUnit = 16;
@@ -33,11 +36,7 @@ Result<void> check(const VirtualCameraOptions& o) {
   const auto ranges = flow::check_ranges("virtual camera", {
                                                                {"width", double(o.width), 16, 4096},
                                                                {"height", double(o.height), 16, 4096},
-                                                               {"pixels_per_mm", o.pixels_per_mm, 0.5, 100},
-                                                               {"wick_x", o.wick_x, 0, 1},
-                                                               {"rim_y", o.rim_y, 0, 1},
                                                                {"gain", o.gain, 0.01, 100},
-                                                               {"contrast", o.contrast, 0.5, 4},
                                                                {"glow", o.glow, 0, 1},
                                                                {"noise", o.noise, 0, 50},
                                                            });
@@ -75,115 +74,89 @@ float smooth_fall(double x, double from, double to) {
 double CameraView::pixel_x(double mm) const { return origin_x + mm * pixels_per_mm; }
 double CameraView::pixel_y(double mm) const { return origin_y - mm * pixels_per_mm; }
 
-struct VirtualCamera::Parts {
-  explicit Parts(const VirtualCameraOptions& o);
+std::int16_t VirtualCamera::tone(float exposure) const {
+  return tones_[static_cast<int>(std::min(exposure, kBrightest) * ((kTones - 1) / kBrightest))];
+}
 
-  void set_places(const FlameLight& light);
-  void scatter(const FlameLight& light);
-  void expose_row(const FlameLight& light, int row);
-  std::int16_t tone(float exposure) const {
-    return tones[static_cast<int>(std::min(exposure, kBrightest) * ((kTones - 1) / kBrightest))];
-  }
-
-  VirtualCameraOptions options;
-  CameraView view;
-  std::vector<std::int16_t> tones, noise;
-  std::vector<float> steep;  // exposure by soot, raised to the contrast
-  flow::SamplePlaces columns, rows;
-  FlameLight seen;  // the grid that the places are for
-  std::vector<float> soot, scattered, mixed_soot, mixed_blue;
-  std::vector<std::int16_t> line;
-  std::vector<std::uint8_t> picture;
-};
-
-VirtualCamera::Parts::Parts(const VirtualCameraOptions& o)
-    : options(o),
-      line(3 * static_cast<std::size_t>(o.width)),
-      picture(3 * static_cast<std::size_t>(o.width) * o.height) {
-  view = {o.wick_x * o.width - 0.5, (1 - o.rim_y) * o.height - 0.5, o.pixels_per_mm};
+VirtualCamera::VirtualCamera(const VirtualCameraOptions& o)
+    : options_(o),
+      line_(3 * static_cast<std::size_t>(o.width)),
+      picture_(3 * static_cast<std::size_t>(o.width) * o.height) {
+  view_ = {kWickX * o.width - 0.5, (1 - kRimY) * o.height - 0.5, kPixelsPerMm};
   for (int k = 0; k < kTones; ++k) {
     const double exposure = static_cast<double>(kBrightest) * k / (kTones - 1);
-    steep.push_back(static_cast<float>(std::pow(exposure, o.contrast)));
-    tones.push_back(static_cast<std::int16_t>(std::lround(255 * kToneUnit * (1 - std::exp(-exposure)))));
+    steep_.push_back(static_cast<float>(std::pow(exposure, kContrast)));
+    tones_.push_back(static_cast<std::int16_t>(std::lround(255 * kToneUnit * (1 - std::exp(-exposure)))));
   }
   flow::RandomNumbers random(o.seed, 0x6e6f697365U);
   for (int k = 0; k < kNoiseValues; ++k)
-    noise.push_back(static_cast<std::int16_t>(std::lround(o.noise * kToneUnit * random.normal())));
+    noise_.push_back(static_cast<std::int16_t>(std::lround(o.noise * kToneUnit * random.normal())));
 }
 
-void VirtualCamera::Parts::set_places(const FlameLight& light) {
-  const bool same = seen.columns == light.columns && seen.rows == light.rows && seen.cell_mm == light.cell_mm &&
-                    seen.wick_x_mm == light.wick_x_mm && seen.wick_y_mm == light.wick_y_mm;
+void VirtualCamera::set_places(const RigLight& light) {
+  const bool same = seen_.columns == light.columns && seen_.rows == light.rows && seen_.cell_mm == light.cell_mm &&
+                    seen_.wick_x_mm == light.wick_x_mm && seen_.wick_y_mm == light.wick_y_mm;
   if (same) return;
-  seen = {light.columns, light.rows, light.cell_mm, light.wick_x_mm, light.wick_y_mm, {}, {}};
-  const double step = 1 / (view.pixels_per_mm * light.cell_mm);
-  columns = flow::sample_places(options.width, light.wick_x_mm / light.cell_mm - 0.5 - view.origin_x * step, step,
-                                light.columns);
-  rows = flow::sample_places(options.height, light.wick_y_mm / light.cell_mm - 0.5 + view.origin_y * step, -step,
-                             light.rows);
-  mixed_soot.resize(light.columns);
-  mixed_blue.resize(light.columns);
+  seen_ = {light.columns, light.rows, light.cell_mm, light.wick_x_mm, light.wick_y_mm, {}, {}};
+  const double step = 1 / (view_.pixels_per_mm * light.cell_mm);
+  columns_ = flow::sample_places(options_.width, light.wick_x_mm / light.cell_mm - 0.5 - view_.origin_x * step, step,
+                                 light.columns);
+  rows_ = flow::sample_places(options_.height, light.wick_y_mm / light.cell_mm - 0.5 + view_.origin_y * step, -step,
+                              light.rows);
+  mixed_soot_.resize(light.columns);
+  mixed_blue_.resize(light.columns);
 }
 
 // Light scattered in the lens: three running means approximate a Gaussian.
-void VirtualCamera::Parts::scatter(const FlameLight& light) {
-  soot = light.soot;
-  if (options.glow <= 0) return;
-  scattered = light.soot;
+void VirtualCamera::scatter(const RigLight& light) {
+  soot_ = light.soot;
+  if (options_.glow <= 0) return;
+  scattered_ = light.soot;
   const int reach = std::max(1, static_cast<int>(std::lround(kGlowReachMm / light.cell_mm)));
   for (int pass = 0; pass < 3; ++pass) {
-    box_blur(scattered, light.rows, light.columns, light.columns, 1, reach);
-    box_blur(scattered, light.columns, 1, light.rows, light.columns, reach);
+    box_blur(scattered_, light.rows, light.columns, light.columns, 1, reach);
+    box_blur(scattered_, light.columns, 1, light.rows, light.columns, reach);
   }
-  const auto share = static_cast<float>(options.glow);
-  for (std::size_t k = 0; k < soot.size(); ++k) soot[k] += share * scattered[k];
+  const auto share = static_cast<float>(options_.glow);
+  for (std::size_t k = 0; k < soot_.size(); ++k) soot_[k] += share * scattered_[k];
 }
 
-void VirtualCamera::Parts::expose_row(const FlameLight& light, int row) {
-  flow::mix_rows(soot, light.columns, rows, row, mixed_soot);
-  const double height_mm = (view.origin_y - row) / view.pixels_per_mm;
+void VirtualCamera::expose_row(const RigLight& light, int row) {
+  flow::mix_rows(soot_, light.columns, rows_, row, mixed_soot_);
+  const double height_mm = (view_.origin_y - row) / view_.pixels_per_mm;
   const float fade = kBlueGain * smooth_fall(height_mm, kBlueFullMm, kBlueGoneMm);
-  flow::mix_rows(light.blue, light.columns, rows, row, mixed_blue);
-  for (float& value : mixed_blue) value *= fade;
+  flow::mix_rows(light.blue, light.columns, rows_, row, mixed_blue_);
+  for (float& value : mixed_blue_) value *= fade;
 
-  std::fill(line.begin(), line.end(), std::int16_t{0});
-  const auto gain = static_cast<float>(options.gain);
-  for (int x = 0; x < options.width; ++x) {
-    const float body = flow::sample(mixed_soot, columns, x);
-    const float veiled = flow::sample(mixed_blue, columns, x) / (1.0F + kBlueVeil * body);
+  std::fill(line_.begin(), line_.end(), std::int16_t{0});
+  const auto gain = static_cast<float>(options_.gain);
+  for (int x = 0; x < options_.width; ++x) {
+    const float body = flow::sample(mixed_soot_, columns_, x);
+    const float veiled = flow::sample(mixed_blue_, columns_, x) / (1.0F + kBlueVeil * body);
     if (body + veiled < kDark) continue;
-    const float glowing = steep[static_cast<int>(std::min(gain * body, kBrightest) * ((kTones - 1) / kBrightest))];
-    for (int c = 0; c < 3; ++c) line[3 * x + c] = tone(kSootColour[c] * glowing + kBlueColour[c] * gain * veiled);
+    const float glowing = steep_[static_cast<int>(std::min(gain * body, kBrightest) * ((kTones - 1) / kBrightest))];
+    for (int c = 0; c < 3; ++c) line_[3 * x + c] = tone(kSootColour[c] * glowing + kBlueColour[c] * gain * veiled);
   }
 }
-
-VirtualCamera::VirtualCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-VirtualCamera::VirtualCamera(VirtualCamera&&) noexcept = default;
-VirtualCamera& VirtualCamera::operator=(VirtualCamera&&) noexcept = default;
-VirtualCamera::~VirtualCamera() = default;
 
 Result<VirtualCamera> VirtualCamera::create(const VirtualCameraOptions& options) {
   if (auto good = check(options); !good) return good.error();
-  return VirtualCamera(std::make_unique<Parts>(options));
+  return VirtualCamera(options);
 }
 
-std::span<const std::uint8_t> VirtualCamera::picture(const FlameLight& light, std::uint64_t frame) {
-  Parts& p = *parts_;
-  p.set_places(light);
-  p.scatter(light);
-  const int values = 3 * p.options.width;
-  for (int row = 0; row < p.options.height; ++row) {
-    p.expose_row(light, row);
-    const std::uint64_t start = flow::random_word(p.options.seed, frame, row) % (kNoiseValues - values);
-    const std::int16_t* noise = p.noise.data() + start;
-    std::uint8_t* out = p.picture.data() + static_cast<std::size_t>(row) * values;
+std::span<const std::uint8_t> VirtualCamera::picture(const RigLight& light, std::uint64_t frame) {
+  set_places(light);
+  scatter(light);
+  const int values = 3 * options_.width;
+  for (int row = 0; row < options_.height; ++row) {
+    expose_row(light, row);
+    const std::uint64_t start = flow::random_word(options_.seed, frame, row) % (kNoiseValues - values);
+    const std::int16_t* noise = noise_.data() + start;
+    std::uint8_t* out = picture_.data() + static_cast<std::size_t>(row) * values;
     for (int k = 0; k < values; ++k)
-      out[k] = static_cast<std::uint8_t>(std::clamp((p.line[k] + noise[k] + kToneUnit / 2) / kToneUnit, 0, 255));
+      out[k] = static_cast<std::uint8_t>(std::clamp((line_[k] + noise[k] + kToneUnit / 2) / kToneUnit, 0, 255));
   }
-  return p.picture;
+  return picture_;
 }
-
-CameraView VirtualCamera::view() const { return parts_->view; }
-const VirtualCameraOptions& VirtualCamera::options() const { return parts_->options; }
 
 }  // namespace wisp

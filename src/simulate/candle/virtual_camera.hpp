@@ -2,10 +2,11 @@
 // A video camera exposed for the flame alone: glowing soot, a faint blue base, black surroundings, sensor noise.
 
 #include <cstdint>
-#include <memory>
 #include <span>
+#include <vector>
 
 #include "simulate/candle/candle_rig.hpp"
+#include "simulate/candle/light_sampling.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
@@ -27,23 +28,32 @@ class VirtualCamera {
   /// Errors: an option outside its range.
   static Result<VirtualCamera> create(const VirtualCameraOptions& options = {});
 
-  VirtualCamera(VirtualCamera&&) noexcept;
-  VirtualCamera& operator=(VirtualCamera&&) noexcept;
-  ~VirtualCamera();
-
   /// The picture of a frame: rows from the top, red, green and blue a byte each, width × height × 3 in all. Valid until
   /// the next call. The same light and frame number give the same bytes.
   ///
   /// Precondition: light.soot and light.blue have columns × rows entries.
-  std::span<const std::uint8_t> picture(const FlameLight& light, std::uint64_t frame);
+  std::span<const std::uint8_t> picture(const RigLight& light, std::uint64_t frame);
 
-  CameraView view() const;
-  const VirtualCameraOptions& options() const;
+  CameraView view() const { return view_; }
+  const VirtualCameraOptions& options() const { return options_; }
 
  private:
-  struct Parts;
-  explicit VirtualCamera(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  explicit VirtualCamera(const VirtualCameraOptions& options);
+
+  void set_places(const RigLight& light);
+  void scatter(const RigLight& light);
+  void expose_row(const RigLight& light, int row);
+  std::int16_t tone(float exposure) const;
+
+  VirtualCameraOptions options_;
+  CameraView view_;
+  std::vector<std::int16_t> tones_, noise_;
+  std::vector<float> steep_;  // exposure by soot, raised to the contrast
+  flow::SamplePlaces columns_, rows_;
+  RigLight seen_;  // the grid that the places are for
+  std::vector<float> soot_, scattered_, mixed_soot_, mixed_blue_;
+  std::vector<std::int16_t> line_;
+  std::vector<std::uint8_t> picture_;
 };
 
 }  // namespace wisp

@@ -16,6 +16,8 @@ namespace {
 
 using flow::RandomNumbers;
 
+constexpr double kOtherLevel = 0.05;  // typical root mean square of a sound that is not wind
+
 // Sounds at a candle that are not wind: a few syllables of a voice, a knock or two on the table.
 
 // A two-pole resonance.
@@ -139,7 +141,6 @@ Result<void> check(const VirtualMicrophoneOptions& o) {
                                                       {"corner_hz", o.corner_hz, 20, std::min(5000.0, 0.4 * o.rate_hz)},
                                                       {"hiss", o.hiss, 0, 0.1},
                                                       {"other_sounds", o.other_sounds, 0, 10},
-                                                      {"other_level", o.other_level, 0, 1},
                                                   });
 }
 
@@ -176,7 +177,7 @@ void VirtualMicrophone::hear(std::span<const float> wind, std::span<float> sound
     const double speed = std::abs(static_cast<double>(wind[k]));
     const double loudness = o.level * (o.exponent == 2 ? speed * speed : std::pow(speed, o.exponent));
     double value = loudness * p.rumble.next(p.wind_noise.normal()) + o.hiss * p.hiss_noise.normal();
-    value += o.other_level * p.others.next();
+    value += kOtherLevel * p.others.next();
     sound[k] = static_cast<float>(std::clamp(value, -1.0, 1.0));
   }
 }

@@ -131,22 +131,6 @@ std::vector<Puff> puffs(const WindSignalOptions& o, double seconds) {
   return all;
 }
 
-Result<const Channel*> wind_channel(const Recording& recording, const std::string& name) {
-  const Channel* only = nullptr;
-  int inputs = 0;
-  for (const Channel& channel : recording.channels) {
-    if (!name.empty() && channel.name == name) return &channel;
-    if (channel.role != Role::kInput) continue;
-    only = &channel;
-    ++inputs;
-  }
-  if (!name.empty()) return Error{recording.source + ": there is no channel '" + name + "'; name one that is there"};
-  if (inputs != 1)
-    return Error{recording.source + ": " + std::to_string(inputs) +
-                 " input channels, expected one to take as wind; name the channel"};
-  return only;
-}
-
 // Fills missing samples by straight lines, and at the ends by the nearest sample. Returns whether there was any.
 bool fill_missing(std::vector<double>& samples) {
   std::size_t last = samples.size();
@@ -181,15 +165,19 @@ Result<WindSignal> WindSignal::generate(const WindSignalOptions& options, double
   return signal;
 }
 
-Result<WindSignal> WindSignal::from_recording(const Recording& recording, const std::string& channel) {
-  const auto found = wind_channel(recording, channel);
-  if (!found) return found.error();
+Result<WindSignal> WindSignal::from_recording(const Recording& recording) {
+  const auto inputs = channels_with_role(recording, Role::kInput);
+  if (inputs.size() != 1) {
+    return Error{recording.source + ": " + std::to_string(inputs.size()) +
+                 " input channels, expected one to take as wind"};
+  }
   if (!(recording.rate_hz > 0)) return Error{recording.source + ": no rate, expected samples a second above 0"};
+  const Channel& channel = recording.channels[inputs.front()];
   WindSignal signal;
   signal.rate_hz_ = recording.rate_hz;
-  signal.samples_ = (*found)->samples;
+  signal.samples_ = channel.samples;
   if (!fill_missing(signal.samples_))
-    return Error{recording.source + ": channel '" + (*found)->name + "' has no samples, expected a wind in m/s"};
+    return Error{recording.source + ": channel '" + channel.name + "' has no samples, expected a wind in m/s"};
   return signal;
 }
 

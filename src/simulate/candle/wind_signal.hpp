@@ -18,9 +18,9 @@ class WindSignal {
   /// Errors: an option outside its range.
   static Result<WindSignal> generate(const WindSignalOptions& options, double seconds);
 
-  /// A recording's channel, in m/s, with missing samples filled by straight lines.
-  /// Errors: no such channel, or nothing but missing samples. `channel` may be empty where there is one input only.
-  static Result<WindSignal> from_recording(const Recording& recording, const std::string& channel = {});
+  /// A recording's only input, in m/s, with missing samples filled by straight lines.
+  /// Errors: not one input, or nothing but missing samples.
+  static Result<WindSignal> from_recording(const Recording& recording);
 
   /// Returns the wind at a time, interpolated linearly and constant beyond the ends.
   double at(double seconds) const;

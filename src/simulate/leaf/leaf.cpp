@@ -3,8 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/leaf/leaf_constants.hpp"
-#include "simulate/leaf/leaf_equations.hpp"
+#include "simulate/leaf/leaf_vector.hpp"
 #include "simulate/option_range.hpp"
 
 namespace wisp {
@@ -68,36 +67,6 @@ LeafInertia leaf_inertia(const Leaf& leaf) {
   return inertia;
 }
 
-leaf::Constants<double> leaf::constants_of(const Leaf& leaf) {
-  const double a = leaf.length / 2, b = leaf.width / 2;
-  const double area = pi * a * b, density = leaf.air_density;
-  const LeafAir& air = leaf.air;
-  const LeafInertia inertia = leaf_inertia(leaf);
-  leaf::Constants<double> c;
-  c.carried = vec_of(inertia.added_mass);
-  c.mass = inertia.mass;
-  const Vec<double> mass = Vec<double>{c.mass, c.mass, c.mass} + c.carried;
-  c.inverse_mass = {1 / mass.x, 1 / mass.y, 1 / mass.z};
-  c.moment = vec_of(inertia.moment) + vec_of(inertia.added_moment);
-  c.inverse_moment = {1 / c.moment.x, 1 / c.moment.y, 1 / c.moment.z};
-  c.weight = c.mass * leaf.gravity;
-  c.lift = density * area * air.translational_lift;
-  c.drag = density * area * air.drag_edgewise / 2;
-  c.drag_normal = density * area * (air.drag_broadside - air.drag_edgewise) / 2;
-  c.swirl_x = density * air.rotational_lift * 8 / 3 * a * b * b;
-  c.swirl_y = density * air.rotational_lift * 8 / 3 * a * a * b;
-  c.damping_spin = {density * air.damping_by_spin * 4 / 15 * a * b * b * b * b,
-                    density * air.damping_by_spin * 4 / 15 * b * a * a * a * a,
-                    density * air.spin_drag * area * a * a * a * a};
-  const double in_stream = density * air.damping_by_speed * area;
-  c.damping_speed = {in_stream * b * b * b, in_stream * a * a * a, density * air.spin_drag * area * a * a * a};
-  return c;
-}
-
-LeafRate leaf_rate(const Leaf& leaf, const LeafState& state, const WindSample& wind) {
-  return leaf::plain(leaf::rate_of(leaf::constants_of(leaf), leaf::state_of(state), leaf::air_of(wind)));
-}
-
 double leaf_energy(const Leaf& leaf, const LeafState& state) {
   const LeafInertia inertia = leaf_inertia(leaf);
   double energy = inertia.mass * leaf.gravity * state.position[2];
@@ -109,11 +78,9 @@ double leaf_energy(const Leaf& leaf, const LeafState& state) {
 }
 
 std::array<double, 3> leaf_world_velocity(const LeafState& state) {
-  return leaf::array_of(leaf::rotation_of(leaf::quaternion_of(state.attitude))(leaf::vec_of(state.velocity)));
+  return leaf::rotation_of(state.attitude)(state.velocity);
 }
 
-std::array<double, 3> leaf_normal(const LeafState& state) {
-  return leaf::array_of(leaf::rotation_of(leaf::quaternion_of(state.attitude))(leaf::Vec<double>{0, 0, 1}));
-}
+std::array<double, 3> leaf_normal(const LeafState& state) { return leaf::rotation_of(state.attitude)({0, 0, 1}); }
 
 }  // namespace wisp

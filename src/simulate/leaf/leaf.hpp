@@ -36,14 +36,6 @@ struct LeafInertia {
 /// Precondition: check(leaf) is good.
 LeafInertia leaf_inertia(const Leaf& leaf);
 
-/// The rate of change of a state, in the same layout.
-using LeafRate = LeafState;
-
-/// The equations of motion. The attitude may have any length but zero.
-///
-/// Precondition: check(leaf) is good.
-LeafRate leaf_rate(const Leaf& leaf, const LeafState& state, const WindSample& wind);
-
 /// Kinetic and potential energy of leaf and carried air, in joules, relative to z = 0. Never grows in still air.
 double leaf_energy(const Leaf& leaf, const LeafState& state);
 

@@ -21,7 +21,9 @@ namespace {
 using flow::RandomNumbers;
 
 constexpr double kMaxRows = 2147483648.0;
-constexpr double kMaxGust = 30;  // m/s
+constexpr double kMaxGust = 30;            // m/s
+constexpr double kCloneDifference = 0.05;  // when the recording begins: radians, m/s, tenths of a rad/s
+constexpr double kLeadSeconds = 0.5;       // from there to the gust's onset, give or take a fifth
 
 // Purposes of random streams.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
@@ -65,9 +67,9 @@ LeafState random_start(RandomNumbers random) {
 
 LeafState a_little_different(LeafState state, double difference, RandomNumbers random) {
   const double x = difference * random.normal(), y = difference * random.normal(), z = difference * random.normal();
-  const leaf::Quaternion<double> turn = leaf::turning(leaf::quaternion_of(state.attitude), {x, y, z});
-  state.attitude = leaf::normalised(
-      {state.attitude[0] + turn.w, state.attitude[1] + turn.x, state.attitude[2] + turn.y, state.attitude[3] + turn.z});
+  const leaf::Quaternion turn = leaf::turning(state.attitude, {x, y, z});
+  for (std::size_t k = 0; k < 4; ++k) state.attitude[k] += turn[k];
+  state.attitude = leaf::normalised(state.attitude);
   for (double& part : state.velocity) part += difference * random.normal();
   for (double& part : state.spin) part += 10 * difference * random.normal();
   return state;
@@ -149,23 +151,21 @@ Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std:
   return flight;
 }
 
-Result<LeafWind> wind_of(const LeafDropsOptions& o, std::size_t drop) {
+LeafWind wind_of(const LeafDropsOptions& o, std::size_t drop) {
   if (!o.track.rows.empty()) {
     MeasuredWind track = o.track;
     track.begins += o.settle_seconds;
     return LeafWind::of_track(std::move(track));
   }
-  LeafWindOptions options = o.wind;
-  options.seed = flow::random_word(o.seed + o.wind.seed, kWindSeed, drop);
-  return LeafWind::create(options, o.settle_seconds + o.seconds);
+  if (!o.gusts) return {};
+  return LeafWind::gusty(flow::random_word(o.seed + 1, kWindSeed, drop), o.settle_seconds + o.seconds);
 }
 
 Result<void> fall(const LeafDropsOptions& o, std::size_t drop, Recording& recording) {
-  const auto wind = wind_of(o, drop);
-  if (!wind) return wind.error();
-  auto flight = settled(o, *wind, drop);
+  const LeafWind wind = wind_of(o, drop);
+  auto flight = settled(o, wind, drop);
   if (!flight) return flight.error();
-  return record(*flight, *wind, o, {recording, drop, rows_of(o)});
+  return record(*flight, wind, o, {recording, drop, rows_of(o)});
 }
 
 // Calls `work` with 0 … count−1, on all threads. Returns the error of the lowest index that has one.
@@ -196,13 +196,10 @@ Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work
 
 // One gust with onset at about the lead time, with the properties of a train's gusts.
 Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
-  LeafWindOptions options = o.drops.wind;
-  options.kind = LeafWindKind::kGusts;
-  options.seed = flow::random_word(o.drops.seed + options.seed, kWindSeed, index);
-  options.rest_seconds = std::max(options.rest_seconds, 0.1);
-  Gust gust = LeafWind::create(options, 2 * options.rest_seconds)->gusts().front();
+  const std::uint64_t seed = flow::random_word(o.drops.seed + 1, kWindSeed, index);
+  Gust gust = LeafWind::gusty(seed, 2 * LeafWind::kRestSeconds).gusts().front();
   RandomNumbers random(o.drops.seed, (kGust << 32) + index);
-  gust.start = o.lead_seconds * random.uniform(0.8, 1.2);
+  gust.start = kLeadSeconds * random.uniform(0.8, 1.2);
   // Uniform over all directions, up and down included, unlike a train's gusts.
   const double up = random.uniform(-1, 1), over_ground = std::sqrt(1 - up * up);
   for (auto* vector : {&gust.velocity, &gust.slowness}) {
@@ -224,7 +221,7 @@ Result<void> fall_in_pairs(const LeafPairsOptions& o, std::size_t index, LeafPai
   start.position = {};
   for (int clone = 0; clone < o.clones; ++clone) {
     const std::size_t episode = index * static_cast<std::size_t>(o.clones) + static_cast<std::size_t>(clone);
-    const LeafState own = a_little_different(start, o.difference, {d.seed, (kDifference << 32) + episode});
+    const LeafState own = a_little_different(start, kCloneDifference, {d.seed, (kDifference << 32) + episode});
     for (const bool blows : {false, true}) {
       const LeafWind& wind = blows ? windy : calm;
       auto flight = LeafFlight::begin(d.leaf, wind, own);
@@ -240,7 +237,6 @@ Result<void> fall_in_pairs(const LeafPairsOptions& o, std::size_t index, LeafPai
 
 Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options) {
   if (auto good = check(options, options.drops); !good) return good.error();
-  if (auto wind = LeafWind::create(options.wind, 0); !wind) return wind.error();
   const auto drops = static_cast<std::size_t>(options.drops);
   Recording recording = empty_recording(options, drops);
   auto good = in_parallel(options, drops, [&](std::size_t drop) { return fall(options, drop, recording); });
@@ -251,13 +247,10 @@ Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options) {
 Result<LeafPairs> simulate_leaf_pairs(const LeafPairsOptions& options) {
   auto good = flow::check_ranges("leaf pairs", {
                                                    {"clones", static_cast<double>(options.clones), 1, 10000},
-                                                   {"difference", options.difference, 0, 1},
-                                                   {"lead_seconds", options.lead_seconds, 0, 60},
                                                });
   if (!good) return good.error();
   const LeafDropsOptions& drops = options.drops;
   if (good = check(drops, static_cast<double>(drops.drops) * options.clones); !good) return good.error();
-  if (auto wind = LeafWind::create(drops.wind, 0); !wind) return wind.error();
   const auto gusts = static_cast<std::size_t>(drops.drops);
   const std::size_t episodes = gusts * static_cast<std::size_t>(options.clones);
   LeafPairs pairs{empty_recording(drops, episodes), empty_recording(drops, episodes)};

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/leaf/leaf_constants.hpp"
-#include "simulate/leaf/leaf_stepper.hpp"
+#include "simulate/leaf/leaf_vector.hpp"
 #include "simulate/option_range.hpp"
 
 namespace wisp {
@@ -22,49 +21,17 @@ bool finite(const LeafState& s) {
   return std::isfinite(sum);
 }
 
-double squared_length(const std::array<double, 4>& q) { return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]; }
+double squared_length(const leaf::Quaternion& q) { return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]; }
+
+// state + h · rate.
+LeafState moved(const LeafState& s, double h, const LeafState& rate) {
+  using leaf::operator+, leaf::operator*;
+  LeafState out{{}, s.position + h * rate.position, s.velocity + h * rate.velocity, s.spin + h * rate.spin};
+  for (std::size_t k = 0; k < 4; ++k) out.attitude[k] = s.attitude[k] + h * rate.attitude[k];
+  return out;
+}
 
 }  // namespace
-
-struct LeafFlight::Course {
-  leaf::Constants<double> constants;
-  const LeafWind* wind = nullptr;
-  double longest_step = 0;
-  leaf::State<double> inside;
-  LeafState state;
-  double seconds = 0;
-  std::vector<double> stalls;
-
-  leaf::State<double> rate(const leaf::State<double>& s, double at) const {
-    if (wind->calm()) return leaf::rate_of(constants, s, {});
-    const leaf::Vec<double> moving = leaf::rotation_of(s.attitude)(s.velocity);
-    const WindSample sample = wind->at(leaf::array_of(s.position), leaf::array_of(moving), at);
-    return leaf::rate_of(constants, s, leaf::air_of(sample));
-  }
-
-  void step(double h) {
-    const auto slope = [this, h](const leaf::State<double>& s, double share) { return rate(s, seconds + share * h); };
-    const double before = inside.velocity.y;
-    inside = leaf::classical_step(inside, h, slope);
-    const double after = inside.velocity.y;
-    if (before * after < 0) stalls.push_back(seconds + h * before / (before - after));
-    seconds += h;
-  }
-
-  Result<void> advance(double by) {
-    // A tolerance for rounding, which would add a step.
-    const double steps = std::max(1.0, std::ceil(by / longest_step - 1e-9));
-    for (int k = 0; k < static_cast<int>(steps); ++k) step(by / steps);
-    state = leaf::plain(inside);
-    if (!finite(state)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds) + " s"};
-    return {};
-  }
-};
-
-LeafFlight::LeafFlight(std::unique_ptr<Course> course) : course_(std::move(course)) {}
-LeafFlight::LeafFlight(LeafFlight&&) noexcept = default;
-LeafFlight& LeafFlight::operator=(LeafFlight&&) noexcept = default;
-LeafFlight::~LeafFlight() = default;
 
 Result<LeafFlight> LeafFlight::begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
                                      double longest_step) {
@@ -73,19 +40,41 @@ Result<LeafFlight> LeafFlight::begin(const Leaf& leaf, const LeafWind& wind, con
   if (!in_range) return in_range.error();
   if (!finite(state) || !(squared_length(state.attitude) > 0))
     return Error{"leaf: the state to begin with is not finite or its attitude has no length"};
-  auto course = std::make_unique<Course>();
-  course->constants = leaf::constants_of(leaf);
-  course->wind = &wind;
-  course->longest_step = longest_step * std::min(1.0, kFastestForWholeSteps / wind.fastest());
-  course->state = state;
-  course->state.attitude = leaf::normalised(state.attitude);
-  course->inside = leaf::state_of(course->state);
-  return LeafFlight(std::move(course));
+  LeafFlight flight;
+  flight.constants_ = leaf::constants_of(leaf);
+  flight.wind_ = &wind;
+  flight.longest_step_ = longest_step * std::min(1.0, kFastestForWholeSteps / wind.fastest());
+  flight.state_ = state;
+  flight.state_.attitude = leaf::normalised(state.attitude);
+  return flight;
 }
 
-Result<void> LeafFlight::advance(double seconds) { return course_->advance(seconds); }
-const LeafState& LeafFlight::state() const { return course_->state; }
-double LeafFlight::seconds() const { return course_->seconds; }
-const std::vector<double>& LeafFlight::stalls() const { return course_->stalls; }
+LeafState LeafFlight::rate(const LeafState& s, double at) const {
+  if (wind_->calm()) return leaf::rate_of(constants_, s, {});
+  return leaf::rate_of(constants_, s, wind_->at(s.position, leaf_world_velocity(s), at));
+}
+
+// The classical step of fourth order, and an attitude of length 1.
+void LeafFlight::step(double h) {
+  const LeafState first = rate(state_, seconds_);
+  const LeafState second = rate(moved(state_, 0.5 * h, first), seconds_ + 0.5 * h);
+  const LeafState third = rate(moved(state_, 0.5 * h, second), seconds_ + 0.5 * h);
+  const LeafState fourth = rate(moved(state_, h, third), seconds_ + h);
+  const double before = state_.velocity[1], sixth = 1.0 / 6 * h;
+  state_ = moved(moved(moved(moved(state_, sixth, first), 2 * sixth, second), 2 * sixth, third), sixth, fourth);
+  const double scale = 1 / std::sqrt(squared_length(state_.attitude));
+  for (double& part : state_.attitude) part *= scale;
+  const double after = state_.velocity[1];
+  if (before * after < 0) stalls_.push_back(seconds_ + h * before / (before - after));
+  seconds_ += h;
+}
+
+Result<void> LeafFlight::advance(double seconds) {
+  // A tolerance for rounding, which would add a step.
+  const double steps = std::max(1.0, std::ceil(seconds / longest_step_ - 1e-9));
+  for (int k = 0; k < static_cast<int>(steps); ++k) step(seconds / steps);
+  if (!finite(state_)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds_) + " s"};
+  return {};
+}
 
 }  // namespace wisp

@@ -1,10 +1,9 @@
 #pragma once
 // The fall of one leaf, by Runge-Kutta steps of fourth order. docs/studies/leaf.md compares lengths of the step.
 
-#include <memory>
 #include <vector>
 
-#include "simulate/leaf/leaf.hpp"
+#include "simulate/leaf/leaf_equations.hpp"
 #include "wisp/base/result.hpp"
 
 namespace wisp {
@@ -18,26 +17,28 @@ class LeafFlight {
   static Result<LeafFlight> begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
                                   double longest_step = 1.0 / 60);
 
-  LeafFlight(LeafFlight&&) noexcept;
-  LeafFlight& operator=(LeafFlight&&) noexcept;
-  ~LeafFlight();
-
   /// Advances by `seconds`, divided evenly into fixed steps.
   /// Errors: the leaf's state is no longer finite.
   ///
   /// Precondition: seconds > 0.
   Result<void> advance(double seconds);
 
-  const LeafState& state() const;
-  double seconds() const;
+  const LeafState& state() const { return state_; }
+  double seconds() const { return seconds_; }
 
   /// Times of the stalls so far (zeros of the forward speed, linear between steps), in seconds.
-  const std::vector<double>& stalls() const;
+  const std::vector<double>& stalls() const { return stalls_; }
 
  private:
-  struct Course;
-  explicit LeafFlight(std::unique_ptr<Course> course);
-  std::unique_ptr<Course> course_;
+  LeafState rate(const LeafState& s, double at) const;
+  void step(double h);
+
+  leaf::Constants constants_;
+  const LeafWind* wind_ = nullptr;
+  double longest_step_ = 0;
+  LeafState state_;
+  double seconds_ = 0;
+  std::vector<double> stalls_;
 };
 
 }  // namespace wisp

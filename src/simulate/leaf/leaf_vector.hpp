@@ -1,73 +1,55 @@
 #pragma once
-// Vectors and quaternions of the leaf, over the number type, so that the equations can be run on numbers that count.
+// Vectors and quaternions of the leaf.
 
 #include <array>
 #include <cmath>
 
 namespace wisp::leaf {
 
-template <class Real>
-struct Vec {
-  Real x{}, y{}, z{};
+using Vec = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  // w first
 
-  friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  /// Element by element.
-  friend Vec operator*(Vec a, Vec b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-  friend Vec operator*(Real s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
-};
+inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// Element by element.
+inline Vec operator*(const Vec& a, const Vec& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
-template <class Real>
-Real dot(Vec<Real> a, Vec<Real> b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+inline double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-
-template <class Real>
-Vec<Real> cross(Vec<Real> a, Vec<Real> b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-template <class Real>
-struct Quaternion {
-  Real w{}, x{}, y{}, z{};
-};
 
 /// A rotation as its three rows.
-template <class Real>
 struct Rotation {
-  Vec<Real> row_x, row_y, row_z;
+  Vec row_x, row_y, row_z;
 
-  Vec<Real> operator()(Vec<Real> v) const { return {dot(row_x, v), dot(row_y, v), dot(row_z, v)}; }
-  Vec<Real> back(Vec<Real> v) const { return v.x * row_x + v.y * row_y + v.z * row_z; }
+  Vec operator()(const Vec& v) const { return {dot(row_x, v), dot(row_y, v), dot(row_z, v)}; }
+  Vec back(const Vec& v) const { return v[0] * row_x + v[1] * row_y + v[2] * row_z; }
 };
 
 /// The rotation of a quaternion of any length but zero.
-template <class Real>
-Rotation<Real> rotation_of(Quaternion<Real> q) {
-  const Real ww = q.w * q.w, xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
-  const Real two = Real(2) / (ww + xx + yy + zz), one(1);
-  const Real xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z, wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-  return {{one - two * (yy + zz), two * (xy - wz), two * (xz + wy)},
-          {two * (xy + wz), one - two * (xx + zz), two * (yz - wx)},
-          {two * (xz - wy), two * (yz + wx), one - two * (xx + yy)}};
+inline Rotation rotation_of(const Quaternion& q) {
+  const auto& [w, x, y, z] = q;
+  const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, two = 2 / (ww + xx + yy + zz);
+  const double xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+  return {{1 - two * (yy + zz), two * (xy - wz), two * (xz + wy)},
+          {two * (xy + wz), 1 - two * (xx + zz), two * (yz - wx)},
+          {two * (xz - wy), two * (yz + wx), 1 - two * (xx + yy)}};
 }
 
 /// ½ q ⊗ (0, ω): how fast the attitude turns.
-template <class Real>
-Quaternion<Real> turning(Quaternion<Real> q, Vec<Real> spin) {
-  const Vec<Real> h = Real(0.5) * spin;
-  return {-(q.x * h.x) - q.y * h.y - q.z * h.z, q.w * h.x + q.y * h.z - q.z * h.y, q.w * h.y + q.z * h.x - q.x * h.z,
-          q.w * h.z + q.x * h.y - q.y * h.x};
+inline Quaternion turning(const Quaternion& q, const Vec& spin) {
+  const auto& [w, x, y, z] = q;
+  const Vec h = 0.5 * spin;
+  return {-(x * h[0]) - y * h[1] - z * h[2], w * h[0] + y * h[2] - z * h[1], w * h[1] + z * h[0] - x * h[2],
+          w * h[2] + x * h[1] - y * h[0]};
 }
-
-inline Vec<double> vec_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-inline std::array<double, 3> array_of(Vec<double> v) { return {v.x, v.y, v.z}; }
-inline Quaternion<double> quaternion_of(const std::array<double, 4>& a) { return {a[0], a[1], a[2], a[3]}; }
 
 /// The quaternion of length 1 in its direction.
 ///
 /// Precondition: not zero.
-inline std::array<double, 4> normalised(const std::array<double, 4>& q) {
+inline Quaternion normalised(const Quaternion& q) {
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
 }

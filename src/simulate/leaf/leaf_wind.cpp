@@ -5,15 +5,17 @@
 #include <numbers>
 
 #include "simulate/leaf/leaf_vector.hpp"
-#include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"
 
 namespace wisp {
 namespace {
 
-using leaf::array_of;
-using leaf::vec_of;
-using Vec = leaf::Vec<double>;
+using leaf::Vec, leaf::operator+, leaf::operator*;
+
+constexpr double kSpeed = 1;           // m/s, of a typical gust
+constexpr double kGustSeconds = 0.3;   // a typical gust's length; each is 0.6 to 1.8 times as long
+constexpr double kEdgeSeconds = 0.06;  // in which a gust rises and falls; what begins at once has no derivative
+constexpr double kTravelSpeed = 8;     // m/s: how fast a gust's front comes along
 
 // Height of a gust and its slope: 0 outside, 1 between the edges, smooth steps at both.
 struct Bump {
@@ -63,24 +65,7 @@ WindSample sample_of(const MeasuredWind& track, double seconds) {
   return sample;
 }
 
-Result<void> check(const LeafWindOptions& o) {
-  return flow::check_ranges("wind", {
-                                        {"speed", o.speed, 0, 30},
-                                        {"gust_seconds", o.gust_seconds, 0.02, 60},
-                                        {"rest_seconds", o.rest_seconds, 0, 60},
-                                        {"edge_seconds", o.edge_seconds, 0.001, 10},
-                                        {"travel_speed", o.travel_speed, 0.1, 1000},
-                                    });
-}
-
 }  // namespace
-
-Result<LeafWind> LeafWind::create(const LeafWindOptions& options, double seconds) {
-  if (auto good = check(options); !good) return good.error();
-  LeafWind wind;
-  if (options.kind == LeafWindKind::kGusts) wind.add_gusts(options, seconds);
-  return wind;
-}
 
 LeafWind LeafWind::of_gusts(std::vector<Gust> gusts) {
   LeafWind wind;
@@ -94,19 +79,21 @@ LeafWind LeafWind::of_track(MeasuredWind track) {
   return wind;
 }
 
-void LeafWind::add_gusts(const LeafWindOptions& o, double seconds) {
-  flow::RandomNumbers random(o.seed, 21);
-  for (double at = random.uniform(0, o.rest_seconds); at < seconds;) {
+LeafWind LeafWind::gusty(std::uint64_t seed, double seconds) {
+  LeafWind wind;
+  flow::RandomNumbers random(seed, 21);
+  for (double at = random.uniform(0, kRestSeconds); at < seconds;) {
     const Vec way = towards(random.uniform(-180, 180));
     Gust gust;
     gust.start = at;
-    gust.seconds = o.gust_seconds * random.uniform(0.6, 1.8);
-    gust.edge = std::min(o.edge_seconds, gust.seconds / 2);
-    gust.velocity = array_of(o.speed * random.uniform(0.4, 1.6) * way);
-    gust.slowness = array_of(1 / o.travel_speed * way);
-    gusts_.push_back(gust);
-    at += gust.seconds + o.rest_seconds * random.uniform(0.4, 1.6);
+    gust.seconds = kGustSeconds * random.uniform(0.6, 1.8);
+    gust.edge = std::min(kEdgeSeconds, gust.seconds / 2);
+    gust.velocity = kSpeed * random.uniform(0.4, 1.6) * way;
+    gust.slowness = 1 / kTravelSpeed * way;
+    wind.gusts_.push_back(gust);
+    at += gust.seconds + kRestSeconds * random.uniform(0.4, 1.6);
   }
+  return wind;
 }
 
 double LeafWind::fastest() const {
@@ -118,20 +105,15 @@ double LeafWind::fastest() const {
 }
 
 WindSample LeafWind::at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const {
-  Vec velocity{}, change{};
-  const Vec x = vec_of(place), v = vec_of(moving);
+  WindSample sum;
   for (const Gust& gust : gusts_) {
-    const Vec slowness = vec_of(gust.slowness);
-    const Bump bump = bump_at(gust, seconds - gust.start - leaf::dot(slowness, x));
-    velocity = velocity + bump.height * vec_of(gust.velocity);
-    change = change + bump.slope * (1 - leaf::dot(slowness, v)) * vec_of(gust.velocity);
+    const Bump bump = bump_at(gust, seconds - gust.start - leaf::dot(gust.slowness, place));
+    sum.velocity = sum.velocity + bump.height * gust.velocity;
+    sum.change = sum.change + bump.slope * (1 - leaf::dot(gust.slowness, moving)) * gust.velocity;
   }
-  if (!track_.rows.empty()) {
-    const WindSample measured = sample_of(track_, seconds);
-    velocity = velocity + vec_of(measured.velocity);
-    change = change + vec_of(measured.change);
-  }
-  return {array_of(velocity), array_of(change)};
+  if (track_.rows.empty()) return sum;
+  const WindSample measured = sample_of(track_, seconds);
+  return {sum.velocity + measured.velocity, sum.change + measured.change};
 }
 
 }  // namespace wisp

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "wisp/base/result.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp {
@@ -31,9 +30,10 @@ class LeafWind {
   /// No wind.
   LeafWind() = default;
 
-  /// Wind of the given kind, gusts for `seconds`.
-  /// Errors: an option outside its range.
-  static Result<LeafWind> create(const LeafWindOptions& options, double seconds);
+  static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts
+
+  /// A train of random gusts for `seconds`, which blow to any direction of the horizontal plane.
+  static LeafWind gusty(std::uint64_t seed, double seconds);
 
   /// A train of given gusts.
   ///
@@ -57,8 +57,6 @@ class LeafWind {
   const std::vector<Gust>& gusts() const { return gusts_; }
 
  private:
-  void add_gusts(const LeafWindOptions& options, double seconds);
-
   std::vector<Gust> gusts_;  // by their start
   MeasuredWind track_;
 };

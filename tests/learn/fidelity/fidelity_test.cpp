@@ -38,17 +38,19 @@ Fidelity compared(const std::vector<Recording>& real, const std::vector<Recordin
   return *result;
 }
 
+double over_floor(const Bounded& measure) { return measure.value / measure.floor; }
+
 TEST(Fidelity, TheSameProcessIsNearTheFloorInEveryMeasure) {
   const Fidelity f = compared({resonance(900, 5, 1), resonance(900, 5, 2)}, {resonance(1800, 5, 3)});
-  EXPECT_LT(f.log_spectral_distance.floor_ratio(), 1.5);
-  EXPECT_LT(f.energy_distance.floor_ratio(), 1.5);
+  EXPECT_LT(over_floor(f.log_spectral_distance), 1.5);
+  EXPECT_LT(over_floor(f.energy_distance), 1.5);
   EXPECT_LT(f.energy_distance.value, 0.25 * f.energy_distance.ceiling);
 }
 
 TEST(Fidelity, AnotherFrequencyIsSeen) {
   const Fidelity f = compared({resonance(900, 5, 1), resonance(900, 5, 2)}, {resonance(1800, 2.5, 3)});
-  EXPECT_GT(f.log_spectral_distance.floor_ratio(), 2);
-  EXPECT_GT(f.energy_distance.floor_ratio(), 4);
+  EXPECT_GT(over_floor(f.log_spectral_distance), 2);
+  EXPECT_GT(over_floor(f.energy_distance), 4);
 }
 
 TEST(Fidelity, TwiceTheAmplitudeIsSeen) {
@@ -65,8 +67,6 @@ TEST(Fidelity, ACopyIsFoundOut) {
   const Recording real = resonance(300, 5, 1);
   const Fidelity f = compared({real}, {slice(real, 50, 200)});
   EXPECT_DOUBLE_EQ(f.verbatim_seconds, 150 / 30.0);
-  EXPECT_LT(f.verbatim_floor_seconds, 0.2);
-  EXPECT_DOUBLE_EQ(f.verbatim_ceiling_seconds, 10);
 }
 
 TEST(Fidelity, ASingleRecordingIsHalvedInTimeAndShortensTheSegments) {

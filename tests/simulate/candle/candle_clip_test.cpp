@@ -52,18 +52,6 @@ const Channel& channel(const Recording& recording, const std::string& name) {
   return recording.channels.front();
 }
 
-TEST(CandleClip, IsTheSameToTheLastBitOnOneThreadAndOnTwo) {
-  CandleClipOptions options = short_clip();
-  options.threads = 1;
-  const Clip one = shoot(options);
-  options.threads = 2;
-  const Clip two = shoot(options);
-  EXPECT_EQ(one.pictures, two.pictures);
-  EXPECT_EQ(one.sound, two.sound);
-  for (std::size_t c = 0; c < one.truth.channels.size(); ++c)
-    EXPECT_EQ(one.truth.channels[c].samples, two.truth.channels[c].samples);
-}
-
 TEST(CandleClip, HasAPictureARowAndItsShareOfSoundForEveryFrame) {
   const Clip clip = shoot(short_clip());
   EXPECT_EQ(clip.truth.rows(), 30U);
@@ -120,18 +108,14 @@ TEST(CandleClip, MissesTheOutlineWhileTheFlameIsOut) {
 }
 
 TEST(CandleClip, EndsWithTheErrorOfWhatItGoesTo) {
-  for (const int threads : {1, 2}) {
-    CandleClipOptions options = short_clip();
-    options.threads = threads;
-    CandleClipOutputs outputs;
-    outputs.on_frame = [](const CandleFrame& frame) -> Result<void> {
-      if (frame.index == 3) return Error{"the disk is full"};
-      return {};
-    };
-    const auto truth = simulate_candle(options, outputs);
-    ASSERT_FALSE(truth);
-    EXPECT_EQ(truth.error().message, "the disk is full");
-  }
+  CandleClipOutputs outputs;
+  outputs.on_frame = [](const CandleFrame& frame) -> Result<void> {
+    if (frame.index == 3) return Error{"the disk is full"};
+    return {};
+  };
+  const auto truth = simulate_candle(short_clip(), outputs);
+  ASSERT_FALSE(truth);
+  EXPECT_EQ(truth.error().message, "the disk is full");
 }
 
 TEST(CandleClip, SaysWhichOptionIsWrong) {

@@ -32,8 +32,6 @@ TEST(CandleRig, BurnsEvenlyAsACandleDoes) {
   EXPECT_NEAR(rig.state().burning, 1, 0.2);
   EXPECT_GT(after.tip.y, 25);
   EXPECT_LT(after.tip.y, 40);
-  EXPECT_GT(after.width, 4);
-  EXPECT_LT(after.width, 10);
   EXPECT_NEAR(after.brightness / before.brightness, 1, 0.03);
 }
 
@@ -107,18 +105,18 @@ TEST(CandleRig, TakesAbsurdWindForWhatItCanBear) {
 
 TEST(CandleRig, KeepsItsTimeStepAtAnyFrameRate) {
   CandleRigOptions options;
-  EXPECT_EQ(steps_per_frame(options), 20);
+  EXPECT_EQ(flow::steps_per_frame(options), 20);
   options.rate_hz = 30;
-  EXPECT_EQ(steps_per_frame(options), 40);
+  EXPECT_EQ(flow::steps_per_frame(options), 40);
   options.rate_hz = 1000;
   options.steps_a_second = 600;
-  EXPECT_EQ(steps_per_frame(options), 1);
+  EXPECT_EQ(flow::steps_per_frame(options), 1);
 }
 
 TEST(CandleRig, SaysWhichOptionIsWrong) {
   CandleRigOptions options;
-  options.diffusivity = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(CandleRig::create(options).error().message, HasSubstr("diffusivity"));
+  options.wick_damping = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(CandleRig::create(options).error().message, HasSubstr("wick_damping"));
   options = {};
   options.columns = 20;
   EXPECT_THAT(CandleRig::create(options).error().message, HasSubstr("more columns"));

@@ -4,12 +4,14 @@
 
 #include <cmath>
 
+#include "model/bspline.hpp"
+
 namespace wisp::flame_outline_test {
 namespace {
 
 // Light that is 1 inside a teardrop of given height leaning by an angle, with an edge two cells wide.
-FlameLight teardrop(double height, double lean_degrees) {
-  FlameLight light{96, 128, 0.5, 20, 10, {}, {}};
+RigLight teardrop(double height, double lean_degrees) {
+  RigLight light{96, 128, 0.5, 20, 10, {}, {}};
   const double lean = lean_degrees * 3.14159265358979323846 / 180;
   for (int j = 0; j < light.rows; ++j)
     for (int i = 0; i < light.columns; ++i) {
@@ -28,7 +30,6 @@ TEST(FlameOutline, FindsTipHeightAndLeanOfATeardrop) {
   const FlameOutline outline = flame_outline(teardrop(30, 20));
   ASSERT_TRUE(outline.found);
   EXPECT_NEAR(outline.lean, 20, 2);
-  EXPECT_NEAR(outline.length, 29, 1.5);
   EXPECT_NEAR(outline.tip.x, 30 * std::sin(20 * 3.14159 / 180), 1.5);
   EXPECT_NEAR(outline.tip.y, 30 * std::cos(20 * 3.14159 / 180), 1.5);
 }
@@ -41,13 +42,23 @@ TEST(FlameOutline, RunsFromTheBasesLeftOverTheTipToTheBasesRight) {
   EXPECT_LT(outline.control_points[1].x, outline.control_points[6].x);
 }
 
+PointMm point_of_spline(const std::vector<PointMm>& control, double s) {
+  const BasisWeights at = basis(uniform_knots(static_cast<int>(control.size())), s);
+  PointMm sum;
+  for (int k = 0; k < 4; ++k) {
+    sum.x += at.weight[k] * control[at.first + k].x;
+    sum.y += at.weight[k] * control[at.first + k].y;
+  }
+  return sum;
+}
+
 TEST(FlameOutline, SplineFollowsTheContourWithinAThirdOfACell) {
   const FlameOutline outline = flame_outline(teardrop(30, 25));
   double sum = 0;
   for (const PointMm& p : outline.contour) {
     double nearest = 1e9;
     for (int k = 0; k <= 500; ++k) {
-      const PointMm s = outline_point(outline.control_points, k / 500.0);
+      const PointMm s = point_of_spline(outline.control_points, k / 500.0);
       nearest = std::min(nearest, std::hypot(s.x - p.x, s.y - p.y));
     }
     sum += nearest;
@@ -55,14 +66,8 @@ TEST(FlameOutline, SplineFollowsTheContourWithinAThirdOfACell) {
   EXPECT_LT(sum / static_cast<double>(outline.contour.size()), 0.5 / 3);
 }
 
-TEST(FlameOutline, WidthIsAcrossTheFlameNotAcrossThePicture) {
-  const double upright = flame_outline(teardrop(30, 0)).width;
-  EXPECT_GT(upright, 4);
-  EXPECT_NEAR(flame_outline(teardrop(30, 40)).width, upright, 0.1 * upright);
-}
-
 TEST(FlameOutline, OfDarknessIsNotFound) {
-  FlameLight light = teardrop(30, 0);
+  RigLight light = teardrop(30, 0);
   for (float& value : light.soot) value *= 0.2F;
   const FlameOutline outline = flame_outline(light);
   EXPECT_FALSE(outline.found);
@@ -71,7 +76,7 @@ TEST(FlameOutline, OfDarknessIsNotFound) {
 }
 
 TEST(FlameOutline, OfAFlameThatLeavesTheGridIsClosedAlongItsRim) {
-  FlameLight light = teardrop(30, 0);
+  RigLight light = teardrop(30, 0);
   light.rows = 60;  // cut at 20 mm above the rim
   light.soot.resize(static_cast<std::size_t>(light.columns) * light.rows);
   light.blue.resize(light.soot.size());

@@ -11,8 +11,8 @@ namespace {
 using testing::HasSubstr;
 
 // A round light of the given radius, 20 mm above the rim, and blue below it.
-FlameLight lamp(float brightness) {
-  FlameLight light{64, 128, 2.0 / 3, 15, 10, {}, {}};
+RigLight lamp(float brightness) {
+  RigLight light{64, 128, 2.0 / 3, 15, 10, {}, {}};
   for (int j = 0; j < light.rows; ++j)
     for (int i = 0; i < light.columns; ++i) {
       const double x = (i + 0.5) * light.cell_mm - light.wick_x_mm;
@@ -61,7 +61,7 @@ TEST(VirtualCamera, LeavesAllElseBlack) {
 
 TEST(VirtualCamera, NoiseIsAsLargeAsAskedAndNewInEveryFrame) {
   VirtualCamera camera = std::move(*VirtualCamera::create({.glow = 0, .noise = 4}));
-  FlameLight grey = lamp(0);
+  RigLight grey = lamp(0);
   for (float& value : grey.soot) value = 0.4F;
   const auto first = camera.picture(grey, 0);
   double sum = 0;

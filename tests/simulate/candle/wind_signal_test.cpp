@@ -122,8 +122,8 @@ TEST(WindSignal, SaysWhatARecordingLacks) {
   recording.rate_hz = 2;
   recording.channels = {{"a", "", Role::kInput, {1}}, {"b", "", Role::kInput, {kMissing}}};
   EXPECT_THAT(WindSignal::from_recording(recording).error().message, HasSubstr("2 input channels"));
-  EXPECT_THAT(WindSignal::from_recording(recording, "c").error().message, HasSubstr("'c'"));
-  EXPECT_THAT(WindSignal::from_recording(recording, "b").error().message, HasSubstr("no samples"));
+  recording.channels.erase(recording.channels.begin());
+  EXPECT_THAT(WindSignal::from_recording(recording).error().message, HasSubstr("no samples"));
 }
 
 TEST(WindSignal, SaysWhichOptionIsWrong) {

@@ -69,7 +69,7 @@ TEST(LeafDrops, HaveUnitQuaternionsWhoseSignNeverJumps) {
 
 TEST(LeafDrops, AreTheSameOnAnyNumberOfThreads) {
   LeafDropsOptions options = few_drops();
-  options.wind.kind = LeafWindKind::kGusts;
+  options.gusts = true;
   options.threads = 1;
   const auto alone = simulate_leaf_drops(options);
   options.threads = 3;
@@ -160,7 +160,7 @@ TEST(LeafDrops, ThatCannotBeMadeAreExplained) {
   EXPECT_THAT(message([](LeafDropsOptions& o) { o.drops = 0; }), HasSubstr("drops is 0"));
   EXPECT_THAT(message([](LeafDropsOptions& o) { o.seconds = -3; }), HasSubstr("seconds is -3"));
   EXPECT_THAT(message([](LeafDropsOptions& o) { o.leaf.areal_density = 5000; }), HasSubstr("areal density"));
-  EXPECT_THAT(message([](LeafDropsOptions& o) { o.wind.speed = 1e9; }), HasSubstr("speed"));
+  EXPECT_THAT(message([](LeafDropsOptions& o) { o.track.rows = {{0, 1e9, 0}}; }), HasSubstr("within 30 m/s"));
   EXPECT_THAT(message([](LeafDropsOptions& o) { o.drops = 100000, o.seconds = 3600; }), HasSubstr("too many"));
   LeafPairsOptions pairs;
   pairs.clones = 0;

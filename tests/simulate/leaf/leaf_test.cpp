@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulate/leaf/leaf_equations.hpp"
 #include "simulate/random_numbers.hpp"
 
 namespace wisp::leaf_test {
@@ -58,9 +59,13 @@ TEST(LeafInertia, OfALongLeafNearsThatOfAStrip) {
       1, 1e-3);
 }
 
+LeafState leaf_rate(const Leaf& leaf, const LeafState& state, const WindSample& wind) {
+  return leaf::rate_of(leaf::constants_of(leaf), state, wind);
+}
+
 // What the equations add to the energy of motion and height, over the sum of its parts' sizes.
 double relative_power(const Leaf& leaf, const LeafState& state) {
-  const LeafRate rate = leaf_rate(leaf, state, {});
+  const LeafState rate = leaf_rate(leaf, state, {});
   const LeafInertia inertia = leaf_inertia(leaf);
   double power = inertia.mass * leaf.gravity * rate.position[2];
   double scale = std::abs(power);
@@ -87,7 +92,7 @@ TEST(LeafRate, KeepsEnergyWhereNothingDragsOrDamps) {
 
 TEST(LeafRate, LeavesTheLengthOfTheAttitudeAlone) {
   const LeafState state = random_state(3);
-  const LeafRate rate = leaf_rate({}, state, {});
+  const LeafState rate = leaf_rate({}, state, {});
   double along = 0;
   for (std::size_t k = 0; k < 4; ++k) along += rate.attitude[k] * state.attitude[k];
   EXPECT_NEAR(along, 0, 1e-14);
@@ -109,8 +114,8 @@ TEST(LeafRate, GoesWithASteadyWindAsInStillAir) {
                                 axis[0] * t[1] - axis[1] * t[0]};
   for (std::size_t k = 0; k < 3; ++k) blown.velocity[k] += wind[k] + q[0] * t[k] + u[k];
 
-  const LeafRate in_wind = leaf_rate(leaf, blown, {wind, {}});
-  const LeafRate in_still_air = leaf_rate(leaf, still, {});
+  const LeafState in_wind = leaf_rate(leaf, blown, {wind, {}});
+  const LeafState in_still_air = leaf_rate(leaf, still, {});
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(in_wind.position[k], in_still_air.position[k] + wind[k], 1e-12);
     EXPECT_NEAR(in_wind.spin[k], in_still_air.spin[k], 1e-9);
@@ -122,14 +127,14 @@ TEST(LeafRate, IsTheAirsWhereTheWindCarriesALeafWithoutWeight) {
   Leaf leaf;
   leaf.areal_density = 0.001;
   leaf.gravity = 0;
-  const LeafRate rate = leaf_rate(leaf, {}, {{}, {0, 0, 2}});
+  const LeafState rate = leaf_rate(leaf, {}, {{}, {0, 0, 2}});
   const LeafInertia inertia = leaf_inertia(leaf);
   EXPECT_NEAR(rate.velocity[2], 2 * inertia.added_mass[2] / (inertia.mass + inertia.added_mass[2]), 1e-12);
   EXPECT_GT(rate.velocity[2], 1.9);
 }
 
 TEST(LeafRate, HasAValueAtRest) {
-  const LeafRate rate = leaf_rate({}, {}, {});
+  const LeafState rate = leaf_rate({}, {}, {});
   EXPECT_TRUE(std::isfinite(length_of(rate.velocity)));
   EXPECT_LT(rate.velocity[2], 0);
   EXPECT_EQ(length_of(rate.spin), 0);

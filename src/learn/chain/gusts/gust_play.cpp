@@ -87,6 +87,7 @@ void add_side(const std::string& id, const std::vector<std::vector<Triple>>& way
 
 constexpr double kLaterSeconds = 2;  // after the gust: nothing should be left
 constexpr double kMaxLeft = 0.1;     // m/s
+constexpr double kClearErrors = 4;   // a mean displacement this many of its own standard errors long has a direction
 
 // Two banks that live the same life but for the wind.
 struct Twins {
@@ -343,13 +344,13 @@ Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Re
   GustPlayFigures figures{.clones = pairs->clones};
   std::vector<std::pair<double, GustScene>> scenes;
   for (std::size_t gust = 0; gust < pairs->gusts(); ++gust) {
-    const GustSpan span = span_of(*pairs, gust, options.after_seconds);
+    const GustSpan span = span_of(*pairs, gust);
     if (span.rows() < 3) continue;
     const GustEnsemble recorded = ensemble_of(*pairs, gust, span);
     Ways ways = played(twins, *pairs, gust, span);
     const auto place = displacements(ways);
     const double carried = length_over_ground(recorded.displacement.back());
-    const bool clear = carried > options.clear_errors * recorded.displacement_error;
+    const bool clear = carried > kClearErrors * recorded.displacement_error;
     judge(recorded, place, pairs->windy.rate_hz, clear, tally);
     if (pairs->clones >= 4) judge_halves(*pairs, gust, span, clear, tally);
     ++figures.gusts;

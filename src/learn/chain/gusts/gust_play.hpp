@@ -19,9 +19,7 @@
 namespace wisp::chain {
 
 struct GustPlayOptions {
-  double after_seconds = 0.3;  ///< ≥ 0: judged over the gust and so long after it
-  double clear_errors = 4;     ///< ≥ 0: a mean displacement this many of its own standard errors long has a direction
-  std::size_t scenes = 2;      ///< gusts kept for a figure: at even shares of them all by how far they carry
+  std::size_t scenes = 2;  ///< gusts kept for a figure: at even shares of them all by how far they carry
   std::uint64_t seed = 1;
 };
 

@@ -11,33 +11,8 @@
 namespace wisp::chain {
 namespace {
 
-constexpr double kStill = 1e-3;  // m/s: wind below it is none
-// Least squares of a handful of coefficients by the normal equations: for well-scaled regressors only.
-class NormalEquations {
- public:
-  explicit NormalEquations(std::size_t size)
-      : matrix_(Eigen::MatrixXd::Zero(Eigen::Index(size), Eigen::Index(size))),
-        right_(Eigen::VectorXd::Zero(Eigen::Index(size))) {}
-
-  void add(const std::vector<double>& row, double value) {
-    const Eigen::Map<const Eigen::VectorXd> x(row.data(), right_.size());
-    matrix_ += x * x.transpose();
-    right_ += value * x;
-  }
-
-  // The coefficients, with a ridge as a share of each diagonal element; what no row has is 0.
-  std::vector<double> solved(double ridge) const {
-    Eigen::MatrixXd a = matrix_;
-    for (double& own : a.diagonal()) own += own == 0 ? 1 : ridge * own;
-    const Eigen::VectorXd x = a.ldlt().solve(right_);
-    return {x.begin(), x.end()};
-  }
-
- private:
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd right_;
-};
-
+constexpr double kStill = 1e-3;        // m/s: wind below it is none
+constexpr double kAfterSeconds = 0.3;  // learned and judged over the gust and so long after it
 constexpr const char* kWinds[] = {"wind.x", "wind.y", "wind.z"};
 
 void add(Triple& sum, const Triple& value, double factor) {
@@ -89,60 +64,41 @@ using Ensemble = GustEnsemble;
 
 // The change of velocity that a response makes of a gust, by itself.
 std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response) {
-  std::vector<Triple> change(gust.wind.size()), press(gust.wind.size());
-  const auto order = static_cast<std::size_t>(response.order());
+  std::vector<Triple> change(gust.wind.size());
   for (std::size_t row = 0; row < change.size(); ++row) {
+    const Triple before = row > 0 ? change[row - 1] : Triple{};
     Triple through = gust.wind[row];
-    for (std::size_t axis = 0; axis < 3; ++axis) through[axis] -= row > 0 ? change[row - 1][axis] : 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) through[axis] -= before[axis];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      press[row][axis] = dot(gust.normal[row][axis], through);
       const Axis& lags = axis < 2 ? response.ground : response.vertical;
-      for (std::size_t k = 0; k < std::min(order, row + 1); ++k) {
-        if (row > k) change[row][axis] += lags.change[k] * change[row - k - 1][axis];
-        change[row][axis] += lags.wind[k] * gust.wind[row - k][axis] + lags.press[k] * press[row - k][axis];
-      }
+      change[row][axis] = lags.change[0] * before[axis] + lags.wind[0] * gust.wind[row][axis] +
+                          lags.press[0] * dot(gust.normal[row][axis], through);
     }
   }
   return change;
 }
 
-// What is searched for: of each axis the lags of the change, of the press, and of the wind; where a steady wind is to
-// carry the body along with it, without the wind's first lag, which is then what is left to 1.
+// What is searched for: of each axis the coefficients of the change, of the press, and of the wind; where a steady wind
+// is to carry the body along with it, without the wind's, which is then what is left to 1.
 struct Unknowns {
-  int order;
   bool carried;
 
-  std::size_t size() const { return 2 * static_cast<std::size_t>(3 * order - (carried ? 1 : 0)); }
+  std::size_t size() const { return carried ? 4 : 6; }
 
   GustResponse response(const std::vector<double>& theta) const {
     GustResponse out;
     auto next = theta.begin();
     for (Axis* axis : {&out.ground, &out.vertical}) {
-      const auto take = [&](int count) {
-        next += count;
-        return std::vector<double>(next - count, next);
-      };
-      axis->change = take(order);
-      axis->press = take(order);
-      axis->wind = take(carried ? order - 1 : order);
-      if (!carried) continue;
-      double rest = 1;
-      for (double x : axis->change) rest -= x;
-      for (double x : axis->wind) rest -= x;
-      axis->wind.insert(axis->wind.begin(), rest);
+      axis->change = {*next++};
+      axis->press = {*next++};
+      axis->wind = {carried ? 1 - axis->change[0] : *next++};
     }
     return out;
   }
 
   // A body that is carried along within a few steps, as light ones are.
   std::vector<double> begun() const {
-    std::vector<double> theta(size());
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::size_t first = axis * size() / 2;
-      theta[first] = 0.8;
-      if (!carried) theta[first + 2 * static_cast<std::size_t>(order)] = 0.2;
-    }
-    return theta;
+    return carried ? std::vector<double>{0.8, 0, 0.8, 0} : std::vector<double>{0.8, 0, 0.2, 0.8, 0, 0.2};
   }
 };
 
@@ -160,8 +116,9 @@ double squared_error(std::span<const Ensemble> gusts, const GustResponse& respon
 // One step of Levenberg and Marquardt on the error of free simulation, slopes by differences.
 std::vector<double> refined(std::span<const Ensemble> gusts, const Unknowns& unknowns, const std::vector<double>& theta,
                             double damping) {
-  NormalEquations equations(theta.size());
-  std::vector<double> row(theta.size());
+  const auto size = static_cast<Eigen::Index>(theta.size());
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size), row(size);
   for (const Ensemble& gust : gusts) {
     const auto now = simulated(gust, unknowns.response(theta));
     std::vector<std::vector<Triple>> nudged;
@@ -172,14 +129,20 @@ std::vector<double> refined(std::span<const Ensemble> gusts, const Unknowns& unk
     }
     for (std::size_t t = 0; t < now.size(); ++t) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t k = 0; k < theta.size(); ++k) row[k] = (nudged[k][t][axis] - now[t][axis]) / kNudge;
-        equations.add(row, gust.change[t][axis] - now[t][axis]);
+        for (Eigen::Index k = 0; k < size; ++k) {
+          row[k] = (nudged[static_cast<std::size_t>(k)][t][axis] - now[t][axis]) / kNudge;
+        }
+        squares += row * row.transpose();
+        right += (gust.change[t][axis] - now[t][axis]) * row;
       }
     }
   }
-  auto step = equations.solved(damping);
-  for (std::size_t k = 0; k < step.size(); ++k) step[k] += theta[k];
-  return step;
+  // What no row has stays as it is.
+  for (double& own : squares.diagonal()) own += own == 0 ? 1 : damping * own;
+  const Eigen::VectorXd step = squares.ldlt().solve(right);
+  auto out = theta;
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] += step[static_cast<Eigen::Index>(k)];
+  return out;
 }
 
 struct Found {
@@ -204,8 +167,8 @@ Found fitted(std::span<const Ensemble> gusts, const Unknowns& unknowns) {
   return {unknowns.response(theta), error};
 }
 
-GustResponse fitted(std::span<const Ensemble> gusts, int order) {
-  Found carried = fitted(gusts, Unknowns{order, true}), free = fitted(gusts, Unknowns{order, false});
+GustResponse fitted(std::span<const Ensemble> gusts) {
+  Found carried = fitted(gusts, Unknowns{true}), free = fitted(gusts, Unknowns{false});
   return free.error < kMuchBetter * carried.error ? free.response : carried.response;
 }
 
@@ -267,7 +230,7 @@ Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm) {
   return GustPairs{std::move(*blown), std::move(*still), *wind, clones};
 }
 
-GustSpan span_of(const GustPairs& pairs, std::size_t gust, double after_seconds) {
+GustSpan span_of(const GustPairs& pairs, std::size_t gust) {
   const std::size_t first = gust * pairs.clones;
   std::size_t rows = pairs.windy.pieces[first].rows();
   for (std::size_t k = first; k < first + pairs.clones; ++k) {
@@ -281,7 +244,7 @@ GustSpan span_of(const GustPairs& pairs, std::size_t gust, double after_seconds)
       last = std::max(last, row);
     }
   }
-  const auto end = last + 1 + static_cast<std::size_t>(std::lround(after_seconds * pairs.windy.rate_hz));
+  const auto end = last + 1 + static_cast<std::size_t>(std::lround(kAfterSeconds * pairs.windy.rate_hz));
   return {onset, std::max(onset, std::min(rows, end))};
 }
 
@@ -328,26 +291,23 @@ double degrees_between(const Triple& a, const Triple& b) {
   return std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0);
 }
 
-Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const GustOptions& options) {
-  if (options.order < 1 || options.order > kMaxGustOrder) {
-    return Error{"the order of the response to gusts is " + std::to_string(options.order) + ", expected 1 to 4"};
-  }
+Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, double holdout) {
   const auto pairs = gust_pairs(windy, calm);
   if (!pairs) return pairs.error();
   std::vector<Ensemble> ensembles;
   for (std::size_t k = 0; k < pairs->gusts(); ++k) {
-    const GustSpan span = span_of(*pairs, k, options.after_seconds);
+    const GustSpan span = span_of(*pairs, k);
     if (span.rows() > 2) ensembles.push_back(ensemble_of(*pairs, k, span));
   }
   if (ensembles.size() < 4) return Error{windy.source + ": has fewer than 4 gusts of wind, expected more"};
   const auto learned = std::clamp<std::size_t>(
-      static_cast<std::size_t>(static_cast<double>(ensembles.size()) * (1 - options.holdout)), 2, ensembles.size());
+      static_cast<std::size_t>(static_cast<double>(ensembles.size()) * (1 - holdout)), 2, ensembles.size());
   const auto told = std::span<const Ensemble>(ensembles).first(learned);
   auto judged = std::span<const Ensemble>(ensembles).subspan(learned);
   if (judged.empty()) judged = told;
 
   GustFit fit;
-  fit.response = fitted(told, options.order);
+  fit.response = fitted(told);
   fit.inputs = inputs_of(pairs->wind);
   fit.figures.gusts_learned = told.size();
   fit.figures.gusts_judged = judged.size();

@@ -3,7 +3,7 @@
 //
 // Source: section 4.4 of the paper, v_windy − v_calm = F(w, x). Falls are chaotic: a windy one and its calm twin drift
 // apart for reasons that are not the wind, so the response is learned, and judged, on means over clones of one gust
-// that differ a little.
+// that differ a little. It has one lag: a leaf is so light that more say no more.
 
 #include <array>
 #include <cstddef>
@@ -38,7 +38,7 @@ struct GustSpan {
   std::size_t end = 0;
   std::size_t rows() const { return end - onset; }
 };
-GustSpan span_of(const GustPairs& pairs, std::size_t gust, double after_seconds);
+GustSpan span_of(const GustPairs& pairs, std::size_t gust);
 
 /// Means over clones, a row each from the onset on.
 struct GustEnsemble {
@@ -64,12 +64,6 @@ struct FitSums {
 /// The angle over ground between two displacements, degrees.
 double degrees_between(const Triple& a, const Triple& b);
 
-struct GustOptions {
-  int order = 1;               ///< 1 … 4; a leaf is so light that more lags say no more
-  double after_seconds = 0.3;  ///< ≥ 0: learned and judged over the gust and so long after it
-  double holdout = 0.4;        ///< share of the gusts, the last ones, kept for judging; 0 … 0.9
-};
-
 /// How the learned response follows the gusts that were held out.
 struct GustFigures {
   std::size_t gusts_learned = 0;
@@ -89,7 +83,7 @@ struct GustFit {
 
 /// Both recordings share the value of `pair`; `clones` says how many episodes in a row belong to one gust (1 where it
 /// is missing). The calm one has the same episodes. Errors: as motion_of(); no wind channels; episodes that do not
-/// match; fewer than 4 gusts; an option out of range.
-Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const GustOptions& options);
+/// match; fewer than 4 gusts. `holdout` is the share of the gusts, the last ones, kept for judging, 0 … 0.9.
+Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, double holdout = 0.4);
 
 }  // namespace wisp::chain

@@ -51,7 +51,7 @@ MadePairs made_pairs(double keeps, double takes, int falls = 24) {
 
 TEST(GustResponse, AnAutoregressionIsFoundAgain) {
   const MadePairs pairs = made_pairs(0.85, 0.12);
-  const auto fit = learn_gusts(pairs.windy, pairs.calm, {});
+  const auto fit = learn_gusts(pairs.windy, pairs.calm);
   ASSERT_TRUE(fit) << fit.error().message;
   // Velocities are differences over two rows to either side, which rounds the gust's edges.
   EXPECT_NEAR(fit->response.ground.change[0], 0.85, 0.02);
@@ -83,23 +83,22 @@ TEST(GustResponse, IsLearnedBesideAChainFromAPairInAnyOrder) {
 
 TEST(GustResponse, WhatTheWindDoesNotMoveHasNoResponse) {
   const MadePairs pairs = made_pairs(0, 0);
-  const auto fit = learn_gusts(pairs.windy, pairs.calm, {});
+  const auto fit = learn_gusts(pairs.windy, pairs.calm);
   ASSERT_TRUE(fit);
   EXPECT_LT(fit->figures.largest_change, 1e-6);
 }
 
 TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
   const MadePairs pairs = made_pairs(0.8, 0.2);
-  EXPECT_THAT(learn_gusts(pairs.windy, slice(pairs.calm, 0, 120 * 5), {}).error().message, HasSubstr("24 and 5"));
-  EXPECT_THAT(learn_gusts(pairs.calm, pairs.calm, {}).error().message, HasSubstr("fewer than 4 gusts"));
-  EXPECT_THAT(learn_gusts(made_falls(), pairs.calm, {}).error().message, HasSubstr("wind.x"));
-  EXPECT_FALSE(learn_gusts(pairs.windy, pairs.calm, {.order = 5}));
+  EXPECT_THAT(learn_gusts(pairs.windy, slice(pairs.calm, 0, 120 * 5)).error().message, HasSubstr("24 and 5"));
+  EXPECT_THAT(learn_gusts(pairs.calm, pairs.calm).error().message, HasSubstr("fewer than 4 gusts"));
+  EXPECT_THAT(learn_gusts(made_falls(), pairs.calm).error().message, HasSubstr("wind.x"));
 }
 
 // A chain of the calm falls with the response that was learned of the windy ones.
 Model blown_model(const MadePairs& pairs) {
   auto chain = fit_chain(std::span(&pairs.calm, 1), {.event = {}, .modes = 3, .holdout = 0});
-  auto gusts = learn_gusts(pairs.windy, pairs.calm, {.holdout = 0});
+  auto gusts = learn_gusts(pairs.windy, pairs.calm, 0);
   std::get<ChainModel>(chain->model.dynamics).gust = gusts->response;
   chain->model.inputs = gusts->inputs;
   return chain->model;
