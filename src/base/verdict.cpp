@@ -29,9 +29,10 @@ bool missed(const Criterion& criterion) {
 
 }  // namespace
 
-std::optional<std::string> first_missed(std::span<const Criterion> criteria) {
+std::optional<std::string> first_missed(std::span<const Criterion> criteria, std::string* code) {
   const auto found = std::find_if(criteria.begin(), criteria.end(), missed);
   if (found == criteria.end()) return {};
+  if (code) *code = found->code;
   std::string sentence = found->sentence;
   fill(sentence, "{figure}", number_text(found->figure, found->digits));
   fill(sentence, "{limit}", number_text(found->limit, found->digits));

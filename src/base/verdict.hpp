@@ -16,9 +16,11 @@ struct Criterion {
   double limit = 0;
   std::string sentence;  ///< "{figure}" and "{limit}" stand for the numbers
   int digits = 1;        ///< after the point of both numbers
+  std::string code{};    ///< names the criterion for programs, which have sentences of their own
 };
 
 /// The sentence of the first criterion that is missed, its numbers filled in; nothing where all hold or abstain.
-std::optional<std::string> first_missed(std::span<const Criterion> criteria);
+/// `code`: where to write that criterion's code; may be null.
+std::optional<std::string> first_missed(std::span<const Criterion> criteria, std::string* code = nullptr);
 
 }  // namespace wisp

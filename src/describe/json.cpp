@@ -88,6 +88,7 @@ std::string to_json(const Report& report, int indent) {
   }
   if (!report.warnings.empty()) out["warnings"] = report.warnings;
   if (report.verdict) out["usable"] = {{"verdict", report.verdict->usable}, {"reason", report.verdict->reason}};
+  if (report.verdict && !report.verdict->code.empty()) out["usable"]["code"] = report.verdict->code;
   return out.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -11,9 +11,11 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Verdict, NamesTheFirstCriterionThatIsMissedWithItsNumbers) {
   const Criterion criteria[] = {{40, Bound::kAtLeast, 30, "too few rows"},
-                                {12.345, Bound::kAtLeast, 20, "the fit is {figure} %, at least {limit}"},
+                                {12.345, Bound::kAtLeast, 20, "the fit is {figure} %, at least {limit}", 1, "fit"},
                                 {9, Bound::kAtMost, 1, "never reached"}};
-  EXPECT_EQ(first_missed(criteria), "the fit is 12.3 %, at least 20.0");
+  std::string code;
+  EXPECT_EQ(first_missed(criteria, &code), "the fit is 12.3 %, at least 20.0");
+  EXPECT_EQ(code, "fit");
 }
 
 TEST(Verdict, ABoundItselfIsNotMissed) {

@@ -64,7 +64,7 @@ export interface Watch {
 
 /** A report as `wisp … --json` prints it. */
 export interface Report {
-  usable?: { verdict: boolean; reason: string };
+  usable?: { verdict: boolean; reason: string; code?: string };
   warnings?: string[];
   [figure: string]: unknown;
 }

@@ -85,6 +85,7 @@ struct ReportSection {
 struct ReportVerdict {
   bool usable = false;
   std::string reason;
+  std::string code{};  ///< names the reason for programs; empty: only the sentence is known
 };
 
 /// The whole.

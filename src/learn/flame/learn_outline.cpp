@@ -102,9 +102,10 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   note_what_is_borrowed(*fit);
   if (const auto why = refused_by_capture(recordings)) {
     fit->summary.usable = fit->model.training.usable = {false, *why};
+    fit->summary.code = "capture";
   }
   Report report;
-  report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason};
+  report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason, fit->summary.code};
   report.warnings = std::move(warnings);
   const auto& more = fit->summary.warnings;
   report.warnings.insert(report.warnings.end(), more.begin(), more.end());

@@ -293,7 +293,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   auto trial = try_outline(out.model, *prepared, *in_step, recipe.seed);
   if (!trial) return trial.error();
   summary.trial = *std::move(trial);
-  summary.usable = outline_verdict(summary);
+  summary.usable = outline_verdict(summary, &summary.code);
   out.model.training = outline_training(recordings, recipe, summary);
   return out;
 }

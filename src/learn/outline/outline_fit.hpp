@@ -57,6 +57,7 @@ struct OutlineSummary {
   double pixels_per_unit = 0;  ///< of the first recording
   std::vector<std::string> warnings;
   Usable usable;
+  std::string code{};  ///< of the criterion that was missed
 };
 
 /// A model of an outline and what to think of it.

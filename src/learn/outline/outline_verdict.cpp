@@ -65,47 +65,50 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
   const double spread = median(trial.sd_ratio);
   return {
       {rows, Bound::kAtLeast, 50,
-       "learned from {figure} frames; at least {limit} are needed to tell flicker from chance: record longer", 0},
+       "learned from {figure} frames; at least {limit} are needed to tell flicker from chance: record longer", 0,
+       "short"},
       {100 * trial.unsteadiness, Bound::kAtMost, 50,
        "neighbouring frames differ by {figure} % of what frames picked at random do, at most {limit}: the outline is "
        "more noise than movement; film it larger, sharper or at a higher rate",
-       0},
+       0, "noise"},
       // Shapes at the edge of the recorded ones are clamped, which nobody sees; films whose play has no foreign shape
       // have up to 21. What runs away is clamped in hundreds.
       {1000 * trial.held_share, Bound::kAtMost, 50,
-       "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1},
+       "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1,
+       "clamped"},
       // A play should spread by 0.8 to 1.25 of the recording; two plays of a short one differ by 0.1.
       {spread, Bound::kAtLeast, 0.7,
        "playing freely it moves {figure} times as much as the recording, at least {limit}: use a steady part, --frames",
-       2},
+       2, "still"},
       {spread, Bound::kAtMost, 1.4,
-       "playing freely it moves {figure} times as much as the recording does, at most {limit}: record longer", 2},
+       "playing freely it moves {figure} times as much as the recording does, at most {limit}: record longer", 2,
+       "wild"},
       {100 * (trial.crossed - trial.crossed_recorded), Bound::kAtMost, 1,
        "playing freely its outline crosses itself in {figure} % of frames more than in the recording, at most {limit}: "
        "film it larger, or with fewer control points",
-       1},
+       1, "crossed"},
       {100 * trial.outside, Bound::kAtMost, 15,
        "{figure} % of the outlines that it plays are shapes that the recording has not, at most {limit}: record longer",
-       0},
+       0, "foreign"},
       {share_of_way(trial.half_second), Bound::kAtMost, 1,
        "over half a second it plays no more like the recording than the recording's frames in random order do "
        "({figure} of the way from the recording's halves to those, at most {limit}): record longer",
-       2},
+       2, "unlike"},
       {share_of_way(trial.two_seconds), Bound::kAtMost, 1,
        "over two seconds it plays no more like the recording than the recording's frames in random order do ({figure} "
        "of the way from the recording's halves to those, at most {limit}): record longer",
-       2},
+       2, "unlike"},
       {followed, Bound::kAtLeast, 5,
        "simulated from its inputs alone the tip is followed hardly better than by its mean (fit {figure} %, at least "
        "{limit}): learn without inputs, or check their timing",
-       1},
+       1, "deaf"},
   };
 }
 
 }  // namespace
 
-Usable outline_verdict(const OutlineSummary& summary) {
-  if (const auto why = first_missed(criteria_of(summary))) return {false, *why};
+Usable outline_verdict(const OutlineSummary& summary, std::string* code) {
+  if (const auto why = first_missed(criteria_of(summary), code)) return {false, *why};
   const OutlineTrial& trial = summary.trial;
   std::string reason = "playing freely it moves " + number_text(median(trial.sd_ratio), 2) +
                        " times as much as the recording, " + number_text(100 * trial.outside, 2) +

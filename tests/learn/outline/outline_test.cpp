@@ -100,10 +100,12 @@ TEST(Outline, PlayingFreelyItMovesAsMuchAsTheRecording) {
 
 TEST(Outline, APlayThatMovesFarLessOrMoreThanTheRecordingIsNotUsable) {
   OutlineSummary summary = learned({.rows = 2000}).summary;
-  for (const auto& [ratio, usable] : {std::pair{0.65, false}, {0.75, true}, {1.3, true}, {1.5, false}}) {
+  for (const auto& [ratio, missed] : {std::pair{0.65, "still"}, {0.75, ""}, {1.3, ""}, {1.5, "wild"}}) {
     summary.trial.sd_ratio.assign(summary.trial.sd_ratio.size(), ratio);
-    const Usable verdict = outline_verdict(summary);
-    EXPECT_EQ(verdict.verdict, usable) << verdict.reason;
+    std::string code;
+    const Usable verdict = outline_verdict(summary, &code);
+    EXPECT_EQ(verdict.verdict, code.empty()) << verdict.reason;
+    EXPECT_EQ(code, missed);
     EXPECT_NE(verdict.reason.find("playing freely it moves"), std::string::npos) << verdict.reason;
   }
 }

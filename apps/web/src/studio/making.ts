@@ -2,7 +2,6 @@
 
 import type { Exported, Studio } from '@wisp/studio';
 import { nameInC, type Format } from './panels/taking.js';
-import { FLIPBOOK_HEIGHT, flipbookOf } from './pictures/flipbook.js';
 import type { Thing } from './words.js';
 
 /** Seconds of a loop, and how many at once. */
@@ -15,7 +14,5 @@ const LOOPED: Readonly<Record<Thing, { loop: number; instances: number }>> = {
 /** `name`: of the files, without what they end in. */
 export async function madeFiles(studio: Studio, format: Format, model: Uint8Array, name: string, thing: Thing): Promise<Exported[]> {
   if (format === 'c') return studio.export(model, { format, name: nameInC(name) });
-  if (format !== 'flipbook') return studio.export(model, { format, name, ...LOOPED[thing] });
-  const [lottie] = await studio.export(model, { format: 'json', name, ...LOOPED[thing], height: FLIPBOOK_HEIGHT });
-  return flipbookOf((lottie as Exported).bytes, name);
+  return studio.export(model, { format, name, ...LOOPED[thing] });
 }

@@ -46,9 +46,11 @@ export class Reel {
   keepSeen({ picture, box, frame, width, height }: Seen): void {
     if (picture === undefined || !this.wants(frame)) return;
     const share = picture.width / width;
-    const part = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
-    const [x, y] = [Math.floor(share * part.x), Math.floor(share * part.y)];
-    const [wide, tall] = [Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))];
+    const wanted = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
+    const [x, y] = [Math.floor(share * wanted.x), Math.floor(share * wanted.y)];
+    const [wide, tall] = [Math.max(1, Math.ceil(share * wanted.width)), Math.max(1, Math.ceil(share * wanted.height))];
+    // Of the film, as far as whole pixels of the small picture reach: an outline is drawn over it.
+    const part = { x: x / share, y: y / share, width: wide / share, height: tall / share };
     createImageBitmap(picture, x, y, wide, tall, { resizeHeight: Math.min(tall, KEPT_HEIGHT), resizeQuality: 'medium' }).then(
       (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),
       () => undefined,

@@ -5,10 +5,9 @@ import './studio.css';
 import type { Library } from '@wisp/player';
 import type { PictureSettings, Recipe, Seen, TableSettings } from '@wisp/studio';
 import type { Dropped } from '../drops.js';
-import { DEFAULTS } from '../link.js';
 import { element } from '../panel/element.js';
 import { fetchPart } from '../part.js';
-import { fetchShipped, shippedFlame } from '../shipped.js';
+import { fetchShipped, SHIPPED_FLAME } from '../shipped.js';
 import { fallsPlayed, plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
 import { Filming } from './camera/filming.js';
@@ -25,11 +24,13 @@ import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
 import type { Format, Moving } from './panels/taking.js';
 import { saveFile } from '../saving.js';
-import { newSession, sessionName, shownIn, smoothRows, thingOf, type Looked, type Session, type Take } from './session.js';
+import { emptied, newSession, sessionName, shownIn, thingOf, withTake, type Looked, type Session, type Take } from './session.js';
+import { LEARNING, LOOKING, STEP_WORDS, STEPS, type Step } from './steps.js';
 import { Strip } from './pictures/strip.js';
 import { tablePanel } from './panels/table.js';
-import { headOf, recipeOfFalls, recipeOfTable } from './table_head.js';
+import { headOf, recipeOfTable } from './table_head.js';
 import { Traces } from './pictures/traces.js';
+import { button, verdictHead } from './panels/verdict.js';
 import { Viewer } from './pictures/viewer.js';
 import { sentence, verdictOf, type Thing } from './words.js';
 import { Working } from './panels/working.js';
@@ -44,20 +45,6 @@ export interface Host {
   film(file: string, model: Uint8Array, kind: Moving): Promise<string>;
 }
 
-type Step = 'gather' | 'look' | 'learn' | 'blow';
-
-const STEPS: readonly Step[] = ['gather', 'look', 'learn', 'blow'];
-const STEP_WORDS: Readonly<Record<Thing, Readonly<Record<Step, string>>>> = {
-  flame: { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'Blow' },
-  table: { gather: 'Table', look: 'Columns', learn: 'Learn', blow: 'See' },
-  fall: { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'See' },
-};
-const LEARNING: Readonly<Record<Thing, string>> = {
-  flame: 'What each point of the outline does next is fitted to what it did before, and to the wind. Some seconds are kept back, to judge by.',
-  table: 'What comes out is fitted to its own past and to what went in: once without the last rows, to judge by them, and once from all.',
-  fall: 'The motion is cut where it stalls, its pieces are sorted, and which follows which is counted. Some falls are kept back, to judge by.',
-};
-
 /** Share of a table's rows that are kept back to judge by. */
 const KEPT_BACK = 0.25;
 
@@ -69,21 +56,6 @@ const MAX_TABLE_BYTES = 100e6;
 
 /** Frames between pictures that are kept of a film, at first. */
 const FRAMES_APART = 3;
-
-/** What is said while a film is looked at. */
-const LOOKING: Readonly<Record<NonNullable<PictureSettings['looks_for']>, { title: string; words: string; thing: Thing | 'either' }>> = {
-  flame: { title: 'Looking for the flame', words: 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', thing: 'flame' },
-  falls: {
-    title: 'Looking for falls',
-    words: 'What moves before the wall is watched. What of it falls is decided when the film is over: the wall is what most pictures show.',
-    thing: 'fall',
-  },
-  either: {
-    title: 'Looking at the film',
-    words: 'A flame is followed by its edge; if it is another that you mean, drag a box around it. What falls is found when the film is over.',
-    thing: 'either',
-  },
-};
 
 const isAbort = (error: unknown): boolean => error instanceof Error && error.name === 'AbortError';
 const wordsOf = (error: unknown): string => sentence(error instanceof Error ? error.message : String(error));
@@ -120,7 +92,7 @@ export class Room {
     document.querySelector('header.top')?.after(this.place);
     // Keys of the page blow and pause: in here they are letters.
     this.place.addEventListener('keydown', (event) => event.stopPropagation());
-    fetchShipped(shippedFlame(DEFAULTS.order)).then(
+    fetchShipped(SHIPPED_FLAME).then(
       (model) => this.invitation.fill(model),
       () => undefined,
     );
@@ -287,19 +259,7 @@ export class Room {
 
   /** A take is kept: at the place of the one that was looked at again, else after the others. */
   private keep(take: Take): void {
-    const thing = shownIn(take);
-    if (this.session.takes.some((one) => shownIn(one) !== thing)) {
-      // A flame and a leaf are not learned together.
-      for (const { reel } of this.session.takes) reel.close();
-      this.session = newSession();
-    }
-    const { takes } = this.session;
-    const before = takes.findIndex(({ name, film }) => name === take.name && film === take.film && film !== null);
-    if (before >= 0) takes[before]?.reel.close();
-    if (before >= 0) takes[before] = take;
-    else takes.push(take);
-    this.session.learned = null;
-    if (thing === 'fall') this.session.recipe = { ...recipeOfFalls(takes.map(({ captured }) => captured)), smooth: smoothRows(take.captured.rate) };
+    this.session = withTake(this.session, take);
     if (!this.lookAtNext()) this.showLook(take);
   }
 
@@ -388,20 +348,12 @@ export class Room {
 
   /** `seen`: there is a picture, which may be looked at in another way. */
   private trouble(title: string, words: string, otherwise: string, seen = false): void {
-    const falls = element('button', { type: 'button', class: 'tool', 'data-act': 'other' }, 'It is something that falls');
-    falls.addEventListener('click', () => this.lookAgain({ ...this.looked?.settings, looks_for: 'falls' }));
     const again = seen && this.looked !== null && this.looked.again !== null && this.looked.settings.looks_for !== 'falls';
-    const choose = element('button', { type: 'button', class: 'tool main', 'data-act': 'choose' }, 'Choose something else');
-    choose.addEventListener('click', () => this.gather());
+    const falls = again ? [button('It is something that falls', 'other', () => this.lookAgain({ ...this.looked?.settings, looks_for: 'falls' }))] : [];
+    const choose = button('Choose something else', 'choose', () => this.gather(), true);
     this.announce(words);
     this.showPanel(
-      element(
-        'div',
-        { class: 'panel' },
-        element('div', { class: 'verdict bad' }, element('h2', { tabindex: '-1' }, title), element('p', {}, words)),
-        ...(otherwise === '' ? [] : [element('p', {}, otherwise)]),
-        element('div', { class: 'actions' }, choose, ...(again ? [falls] : [])),
-      ),
+      element('div', { class: 'panel' }, verdictHead(false, title, words), ...(otherwise === '' ? [] : [element('p', {}, otherwise)]), element('div', { class: 'actions' }, choose, ...falls)),
     );
   }
 
@@ -568,8 +520,7 @@ export class Room {
   }
 
   private anew(): void {
-    for (const { reel } of this.session.takes) reel.close();
-    this.session = newSession();
+    this.session = emptied(this.session);
     this.gather();
   }
 
@@ -600,8 +551,7 @@ export class Room {
       const outlines = Outlines.of(captured);
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {
-        for (const { reel } of this.session.takes) reel.close();
-        this.session = { takes: [take], recipe: recipeOfTable(captured, settings), learned: null };
+        this.session = { ...emptied(this.session), takes: [take], recipe: recipeOfTable(captured, settings) };
         this.showLeft(element('div', { class: 'plots' }, ...plotsOf(recordedOf(captured))));
         await this.learn();
       } else {

@@ -3,6 +3,7 @@
 import type { Captured, Learned, PictureSettings, Recipe, Watch } from '@wisp/studio';
 import type { Outlines } from './outlines.js';
 import type { Reel } from './reel.js';
+import { recipeOfFalls } from './table_head.js';
 import type { Thing } from './words.js';
 
 /** A film that is looked at. */
@@ -48,4 +49,21 @@ export const newSession = (): Session => ({ takes: [], recipe: { kind: 'flame' }
 export function sessionName({ takes, recipe }: Session): string {
   const name = recipe.name ?? takes[0]?.name.replace(/\.[^.]*$/, '') ?? 'flame';
   return name.replace(/[^\p{L}\p{N} _-]+/gu, '-').trim() || 'flame';
+}
+
+/** A new one, in the place of a session that is done with. */
+export function emptied({ takes }: Session): Session {
+  for (const { reel } of takes) reel.close();
+  return newSession();
+}
+
+/** With a take more: at the place of the one that was looked at again, else after the others. A flame and a leaf are not learned together. */
+export function withTake(session: Session, take: Take): Session {
+  const thing = shownIn(take);
+  const made = session.takes.some((one) => shownIn(one) !== thing) ? emptied(session) : session;
+  const before = made.takes.findIndex(({ name, film }) => name === take.name && film === take.film && film !== null);
+  made.takes[before]?.reel.close();
+  made.takes.splice(before < 0 ? made.takes.length : before, before < 0 ? 0 : 1, take);
+  const recipe = thing === 'fall' ? { ...recipeOfFalls(made.takes.map(({ captured }) => captured)), smooth: smoothRows(take.captured.rate) } : made.recipe;
+  return { ...made, recipe, learned: null };
 }

@@ -44,13 +44,39 @@ export function foundIn({ report }: Captured, thing: Thing): Verdict {
   return { good, title, reason: sentence(report.usable?.reason ?? '') };
 }
 
+/** Why a flame's model is refused, by the report's code: what went wrong, and what to do about it. */
+const REFUSED: Readonly<Record<string, string>> = {
+  short: 'The film is too short: flicker cannot be told from chance yet. Film half a minute.',
+  noise: 'The outline jumps more than a flame does. Film it larger and sharper, before something dark.',
+  clamped: 'Played freely it runs away from what was filmed. Film longer, with breaths and pauses.',
+  still: 'Played freely it moves much less than your flame. Leave out what is not like the rest, or film once more.',
+  wild: 'Played freely it moves much more than your flame. Film longer, so that calm has its share.',
+  crossed: 'Played freely its outline crosses itself. Film the flame larger in the picture.',
+  foreign: 'It plays shapes that your flame never had. Film longer.',
+  unlike: 'It moves from shape to shape unlike your flame. Film longer, with the camera still.',
+  deaf: 'It does not follow the wind that was heard. Blow close to the microphone, from the side, with pauses.',
+  capture: 'A model is no better than its film, and the flame is not seen well in this one.',
+};
+
+/** What a flame that will do can do, in a sentence or two. */
+function praiseOf(report: Report): string {
+  const [tip, overlap] = [figure(report, 'tip', 'held_out_fit_percent', 'inf') ?? figure(report, 'tip', 'fit_percent', 'inf'), figure(report, 'overlap')];
+  const follows = tip !== null ? `In the wind of your film it leans as your flame did (${Math.round(tip)} % of the tip's way).` : overlap !== null ? 'It flickers as your flame did.' : '';
+  const modes = within(report, 'extinction', 'modes');
+  const own = (name: string): boolean => Array.isArray(modes) && (modes as Report[]).some((mode) => mode.name === name && mode.source === 'recorded');
+  const lacks = [own('dying') ? '' : 'goes out', own('catching') ? '' : 'catches fire'].filter(Boolean).join(' and how it ');
+  const borrowed = Array.isArray(modes) && lacks !== '' ? `How it ${lacks} was not filmed: that is borrowed from a simulated candle.` : '';
+  return `${follows} ${borrowed}`.trim();
+}
+
 /** What to think of a model. */
 export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
   const lost = thing === 'table' && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
   const good = report.usable?.verdict === true && !lost;
   const reason = lost && report.usable?.verdict === true ? 'it fits the rows that it was learned from, but on those that were kept back it follows nothing that comes out' : (report.usable?.reason ?? '');
-  return { good, title: good ? LEARNED[thing] : 'This is not enough to learn from', reason: sentence(reason) };
+  const own = thing !== 'flame' ? '' : good ? praiseOf(report) : (REFUSED[report.usable?.code ?? ''] ?? '');
+  return { good, title: good ? LEARNED[thing] : 'This is not enough to learn from', reason: own === '' ? sentence(reason) : own };
 }
 
 /** How well a table's outputs are followed on rows that were kept back, per cent: a row ahead, and from what goes in alone. */

@@ -205,7 +205,8 @@ export class Camera {
     return (this.picture.getCapabilities as (() => Abilities) | undefined)?.call(this.picture) ?? {};
   }
 
-  private next(video: HTMLVideoElement, frame: (now: number, taken?: VideoFrameCallbackMetadata) => void): void {
+  /** Tells of the next picture that is shown, and when it was taken. */
+  next(video: HTMLVideoElement, frame: (now: number, taken?: VideoFrameCallbackMetadata) => void): void {
     if ('requestVideoFrameCallback' in video) video.requestVideoFrameCallback(frame);
     else requestAnimationFrame((now) => frame(now));
   }

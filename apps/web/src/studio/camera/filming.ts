@@ -57,6 +57,7 @@ export class Filming {
   private began = 0;
   private timer = 0;
   private darkened = 0;
+  private keeping = false;
   private act = '';
   /** since when no picture comes, as performance.now(); 0: it comes */
   private sleeping = 0;
@@ -242,15 +243,20 @@ export class Filming {
     this.camera.darker().catch(() => false);
   }
 
+  /** Keeps the next picture with the time at which the camera took it: it is shown some frames later than its outline is found. */
   private keepPicture(seconds: number): void {
     const { video } = this.viewer;
     const { reel } = this;
-    if (!reel.wants(seconds) || video.videoWidth === 0) return;
-    const all = { x: 0, y: 0, width: video.videoWidth, height: video.videoHeight };
-    const box = this.seen?.box ?? null;
-    const part = box === null ? all : around(box, all.width, all.height);
-    const bitmap = smallPicture(video, part);
-    if (bitmap !== null) reel.keep({ seconds, bitmap, part });
+    if (this.keeping || !reel.wants(seconds) || video.videoWidth === 0) return;
+    this.keeping = true;
+    this.camera.next(video, (now, taken) => {
+      this.keeping = false;
+      const all = { x: 0, y: 0, width: video.videoWidth, height: video.videoHeight };
+      const box = this.seen?.box ?? null;
+      const part = box === null ? all : around(box, all.width, all.height);
+      const bitmap = this.state === 'filming' ? smallPicture(video, part) : null;
+      if (bitmap !== null) reel.keep({ seconds: Math.max(0, (taken?.captureTime ?? now) - this.began) / 1000, bitmap, part });
+    });
   }
 
   private lose(): void {

@@ -16,8 +16,8 @@ async function copy(text: string): Promise<string> {
 /** Pictures that move. */
 export type Moving = 'film' | 'gif';
 
-/** Files for other tools; a flipbook is painted here. */
-export type Format = ExportSettings['format'] | 'flipbook';
+/** Files for other tools. */
+export type Format = ExportSettings['format'];
 
 export interface TakingEvents {
   /** saves three seconds of it burning in the page's room */
@@ -63,7 +63,7 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const file = (words: string, format: Format): HTMLButtonElement => telling(words, format, 'Making it…', () => events.make(format));
   const itself: Readonly<Record<Thing, readonly HTMLElement[]>> = { flame: [save, recordings, link, tag], fall: [save, recordings], table: [save, recordings] };
   const elsewhere: Readonly<Record<Thing, readonly HTMLElement[]>> = {
-    flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('Flipbook', 'flipbook'), file('glTF', 'glb'), file('Lottie', 'json')],
+    flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('glTF', 'glb'), file('Lottie', 'json')],
     fall: [file('glTF', 'glb')],
     table: outputs === 1 ? [file('C for a microcontroller', 'c')] : [],
   };
@@ -85,7 +85,7 @@ const WHERE: Readonly<Record<Thing, string>> = {
 };
 const LOOPS: Readonly<Record<Thing, string>> = {
   flame:
-    'Loops of four seconds without a seam: a flipbook for engines and pages, glTF for Blender and engines, Lottie for apps. ' +
+    'Loops of four seconds without a seam: glTF for Blender and engines, Lottie for apps; a sheet of pictures is made by the program (wisp export). ' +
     'C for a microcontroller is of one value, a lamp’s light: the program wisp makes it of this film (wisp capture brightness).',
   fall: 'Twenty that fall in a loop of six seconds, for Blender and engines.',
   table: 'C in whole numbers, without a library.',
