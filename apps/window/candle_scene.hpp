@@ -13,6 +13,7 @@
 #include "wisp/draw/image.hpp"
 #include "wisp/draw/live_flames.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/body_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
 namespace wisp::window {
@@ -49,7 +50,8 @@ class CandleScene {
  public:
   /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
   static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed) {
-    auto bank = Bank::create(model, {.capacity = candles, .seed = seed, .polyline_points = kPolylinePoints});
+    const auto round = in_the_round(model);
+    auto bank = Bank::create(round ? *round : model, {.capacity = candles, .seed = seed, .polyline_points = kPolylinePoints});
     if (!bank) return bank.error();
     return CandleScene(std::move(*bank), model, candles);
   }
@@ -67,12 +69,25 @@ class CandleScene {
   /// Wind over the whole scene from now on, 1 a strong gust to the right.
   void blow(float wind) { wind_ = wind; }
 
+  /// The share of it that blows away from the viewer instead, of a flame that has other sides.
+  void blow_away(float share) { away_ = bank_.body() ? share : 0; }
+
+  /// Turns the viewer around the candles, by `angle` in radians, anticlockwise from above.
+  void turn(float angle) {
+    if (!bank_.body()) return;
+    azimuth_ += angle;
+    bank_.body()->look(std::cos(azimuth_), -std::sin(azimuth_));
+    if (candles() > 1) arrange();
+  }
+
   /// A wind that extinguishes a candle of this model.
   // Well above the level of extinction, so that the flame goes out during the puff.
   float strong() const { return 1.7F * level_; }
 
   void pointer_moved(Point pixel) {
+    if (turning_) turn((pointer_.x - pixel.x) / static_cast<float>(width_) * 3.1415927F);
     pointer_ = pixel;
+    if (turning_) return wake_.leave();
     if (carried_ && std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;
     // A carried candle makes its own wind.
     if (carried_) {
@@ -88,7 +103,8 @@ class CandleScene {
     const Point base = candles_[static_cast<std::size_t>(near)].place;
     const bool at_candle = std::abs(pixel.x - base.x) < 0.45F * unit_ && pixel.y > base.y - 1.3F * unit_ &&
                            pixel.y < base.y + 2.4F * unit_;
-    if (!at_candle) return;
+    turning_ = !at_candle;
+    if (turning_) return;
     carried_ = near;
     grip_ = {base.x - pixel.x, base.y - pixel.y};
   }
@@ -99,6 +115,7 @@ class CandleScene {
       relight(candle);
     }
     carried_.reset();
+    turning_ = false;
   }
   void relight_all() {
     for (const Candle& candle : candles_) relight(candle);
@@ -119,10 +136,14 @@ class CandleScene {
     std::vector<float> inputs(static_cast<std::size_t>(bank_.input_count()));
     for (Candle& candle : candles_) {
       candle.wind = felt_wind(candle);
-      if (!inputs.empty()) {
-        inputs[wind_input_] = candle.wind;
-        bank_.set_inputs(candle.id, inputs);
+      if (inputs.empty()) continue;
+      const float away = away_ * heard_wind(candle), right = candle.wind - away;
+      inputs[wind_input_] = right;
+      if (bank_.body()) {
+        inputs[0] = std::cos(azimuth_) * right - std::sin(azimuth_) * away;
+        inputs[1] = -std::sin(azimuth_) * right - std::cos(azimuth_) * away;
       }
+      bank_.set_inputs(candle.id, inputs);
     }
     bank_.advance(time);
     for (Candle& candle : candles_) {
@@ -219,7 +240,9 @@ class CandleScene {
       if (count > 1) {
         const float turn = across / (0.5F * static_cast<float>(count));
         const float deep = std::sqrt(1 - turn * turn) * (k % 2 == 0 ? 1.0F : -1.0F);
-        candle.home.y += std::min(kRingDepth * static_cast<float>(width_), 0.5F * unit_) * deep;
+        const float c = std::cos(azimuth_), s = std::sin(azimuth_);
+        candle.home.x = frame.base.x + 0.5F * spacing * static_cast<float>(count) * (c * turn - s * deep);
+        candle.home.y += std::min(kRingDepth * static_cast<float>(width_), 0.5F * unit_) * (s * turn + c * deep);
       }
       candle.place = candle.home;
       candle.scene.pixels_per_unit = unit_;
@@ -242,7 +265,9 @@ class CandleScene {
   }
   // The wind at a candle: later and weaker along the row.
   float heard_wind(const Candle& candle) const {
-    const float edge = wind_ < 0 ? candles_.back().place.x : candles_.front().place.x;
+    const auto by_x = [](const Candle& a, const Candle& b) { return a.place.x < b.place.x; };
+    const auto [left, right] = std::minmax_element(candles_.begin(), candles_.end(), by_x);
+    const float edge = wind_ < 0 ? right->place.x : left->place.x;
     const float away = candles() > 1 ? std::abs(candle.place.x - edge) / unit_ : 0;
     const auto back = static_cast<std::size_t>(away / kGustSpeed / kTrackStep);
     return winds_[std::min(back, kTrackSteps - 1)] * std::max(0.5F, 1 - kGustLoss * away);
@@ -309,7 +334,9 @@ class CandleScene {
   std::vector<Candle> candles_;
   int width_ = 1280, height_ = 800;
   float unit_ = 300;
-  float wind_ = 0;
+  float wind_ = 0, away_ = 0;
+  float azimuth_ = 0;  // of the viewer
+  bool turning_ = false;
   std::vector<float> winds_;  // past winds of the scene, newest first, one each kTrackStep
   float passed_ = 0;          // seconds passed of the current kTrackStep
   PointerWake wake_;

@@ -129,6 +129,7 @@ class Player {
     seconds_ += seconds;
     keys_.advance(static_cast<float>(seconds));
     const float wind = ear_.wind() + keys_.wind();
+    if (auto* candles = std::get_if<CandleScene>(&*scene_)) candles->blow_away(wind > 0 ? ear_.wind() / wind : 0);
     std::visit(
         [&](auto& scene) {
           scene.blow(wind);
@@ -369,7 +370,7 @@ class Player {
     std::vector<std::string> lines;
     if (std::holds_alternative<CandleScene>(*scene_)) {
       lines = {"blow\tinto the microphone: it leans, flickers, goes out",
-               "pointer\tmove it past the flame; drag the candle",
+               "pointer\tmove it past the flame; drag the candle, or beside it to go round",
                "click, Enter\tlight it again",
                "← →\twind",
                "Space\ta strong blow",

@@ -146,6 +146,25 @@ TEST(CandleInTheWindow, RestsInSilenceLeansInABreathGoesOutInAStrongOneAndIsReli
   EXPECT_EQ(player.figures().relit, 1);
 }
 
+TEST(CandleInTheWindow, LeansAwayFromWhoeverBlowsAndIsSeenFromOtherSidesByADrag) {
+  Player player = player_of("flame.wisp");
+  const sounds::Samples sound = room_breath_strong();
+  Speaker speaker(player, sound);
+  speaker.play_until(4.9);
+  const double calm = look(player.draw()).upper_x;
+  speaker.play_until(5.9);
+  const double front = look(player.draw()).upper_x;
+  EXPECT_NEAR(front, calm, 8) << "away from the viewer, not aside";
+  // A quarter round: what leans away from where somebody blew leans aside.
+  player.handle(PointerTurned{{0.95F, 0.1F}, true});
+  player.handle(PointerMoved{{0.45F, 0.1F}});
+  player.handle(PointerTurned{{0.45F, 0.1F}, false});
+  const double side = look(player.draw()).upper_x;
+  EXPECT_GT(std::abs(side - front), 8);
+  speaker.play_until(8.2);
+  EXPECT_EQ(player.figures().went_out, 1);
+}
+
 TEST(CandleInTheWindow, StaysLitWhenSomebodyTalks) {
   Player player = player_of("flame-4.wisp");
   sounds::Samples sound = sounds::room(8, kRate, 0.001);
