@@ -51,7 +51,8 @@ class CandleScene {
   /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
   static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed) {
     const auto round = in_the_round(model);
-    auto bank = Bank::create(round ? *round : model, {.capacity = candles, .seed = seed, .polyline_points = kPolylinePoints});
+    auto bank =
+        Bank::create(round ? *round : model, {.capacity = candles, .seed = seed, .polyline_points = kPolylinePoints});
     if (!bank) return bank.error();
     return CandleScene(std::move(*bank), model, candles);
   }
@@ -180,8 +181,7 @@ class CandleScene {
         std::count_if(candles_.begin(), candles_.end(), [&](const auto& c) { return state_of(c).lit; }));
   }
 
-  /// Whether the model has a wind at all, and whether it can go out.
-  bool feels_wind() const { return bank_.input_count() > 0; }
+  /// Whether the model can go out.
   bool goes_out() const { return bank_.extinction() != nullptr; }
 
   /// The x of the first candle's tip over its base, in flame heights; 0 where it is out.

@@ -1,7 +1,6 @@
 #include "course.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -59,29 +58,10 @@ std::string frame_name(int frame) {
 }  // namespace
 
 Key key_named(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Key>, 17> kNames{{
-      {"left", Key::kLeft},
-      {"right", Key::kRight},
-      {"up", Key::kUp},
-      {"down", Key::kDown},
-      {"space", Key::kSpace},
-      {"enter", Key::kEnter},
-      {"tab", Key::kTab},
-      {"plus", Key::kPlus},
-      {"minus", Key::kMinus},
-      {"c", Key::kC},
-      {"g", Key::kG},
-      {"h", Key::kH},
-      {"m", Key::kM},
-      {"n", Key::kN},
-      {"q", Key::kQ},
-      {"r", Key::kR},
-      {"f11", Key::kF11},
-  }};
-  for (const auto& [word, key] : kNames) {
-    if (word == name) return key;
-  }
-  return Key::kNone;
+  // In the order of Key.
+  constexpr std::string_view kNames[] = {"left", "right", "up", "down", "space", "enter", "tab", "plus", "minus",
+                                         "c",    "g",     "h",  "m",    "n",     "q",     "r",   "f11"};
+  return static_cast<Key>(std::find(std::begin(kNames), std::end(kNames), name) - std::begin(kNames));
 }
 
 Result<std::vector<TimedEvent>> read_script(const std::filesystem::path& path) {

@@ -146,9 +146,6 @@ class LeafScene {
     painter_->draw(image, leaves);
   }
 
-  /// Whether wind moves leaves in the air. Resting leaves are kicked up in any case.
-  bool feels_wind() const { return bank_.input_count() >= 3; }
-
   /// Leaves that lie on the ground.
   int resting() const {
     return static_cast<int>(std::count_if(lives_.begin(), lives_.end(), [](const Life& l) { return l.rested > 0; }));

@@ -10,7 +10,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -124,45 +123,19 @@ constexpr int kHiddenMs = 500;
 // Minimum length of a frame, in case vertical sync does not limit the rate.
 constexpr double kShortestFrameMs = 1000.0 / 150;
 
-constexpr std::array<std::pair<SDL_Keycode, Key>, 24> kKeys{{
-    {SDLK_LEFT, Key::kLeft},
-    {SDLK_RIGHT, Key::kRight},
-    {SDLK_UP, Key::kUp},
-    {SDLK_DOWN, Key::kDown},
-    {SDLK_SPACE, Key::kSpace},
-    {SDLK_RETURN, Key::kEnter},
-    {SDLK_KP_ENTER, Key::kEnter},
-    {SDLK_TAB, Key::kTab},
-    {SDLK_PLUS, Key::kPlus},
-    {SDLK_KP_PLUS, Key::kPlus},
-    {SDLK_EQUALS, Key::kPlus},
-    {SDLK_MINUS, Key::kMinus},
-    {SDLK_KP_MINUS, Key::kMinus},
-    {SDLK_c, Key::kC},
-    {SDLK_g, Key::kG},
-    {SDLK_h, Key::kH},
-    {SDLK_F1, Key::kH},
-    {SDLK_m, Key::kM},
-    {SDLK_n, Key::kN},
-    {SDLK_q, Key::kQ},
-    {SDLK_ESCAPE, Key::kQ},
-    {SDLK_r, Key::kR},
-    {SDLK_F11, Key::kF11},
-    {SDLK_QUESTION, Key::kH},
-}};
+// In the order of Key; and other keys that do the same.
+constexpr SDL_Keycode kCodes[] = {SDLK_LEFT, SDLK_RIGHT, SDLK_UP,    SDLK_DOWN, SDLK_SPACE, SDLK_RETURN,
+                                  SDLK_TAB,  SDLK_PLUS,  SDLK_MINUS, SDLK_c,    SDLK_g,     SDLK_h,
+                                  SDLK_m,    SDLK_n,     SDLK_q,     SDLK_r,    SDLK_F11};
+constexpr std::pair<SDL_Keycode, Key> kAlso[] = {
+    {SDLK_KP_ENTER, Key::kEnter}, {SDLK_KP_PLUS, Key::kPlus}, {SDLK_EQUALS, Key::kPlus}, {SDLK_KP_MINUS, Key::kMinus},
+    {SDLK_F1, Key::kH},           {SDLK_QUESTION, Key::kH},   {SDLK_ESCAPE, Key::kQ}};
 
 Key key_of(SDL_Keycode code) {
-  for (const auto& [sdl, key] : kKeys) {
-    if (sdl == code) return key;
+  for (const auto& [also, key] : kAlso) {
+    if (also == code) return key;
   }
-  return Key::kNone;
-}
-
-SDL_Keycode code_of(Key key) {
-  for (const auto& [sdl, own] : kKeys) {
-    if (own == key) return sdl;
-  }
-  return SDLK_UNKNOWN;
+  return static_cast<Key>(std::find(std::begin(kCodes), std::end(kCodes), code) - std::begin(kCodes));
 }
 
 struct Destroy {
@@ -341,7 +314,7 @@ void Window::push(const Event& event) const {
   const auto y = [&](Point at) { return static_cast<int>(std::lround(at.y * static_cast<float>(height))); };
   if (const auto* key = std::get_if<KeyTurned>(&event)) {
     sdl.type = key->down ? SDL_KEYDOWN : SDL_KEYUP;
-    sdl.key.keysym.sym = code_of(key->key);
+    sdl.key.keysym.sym = key->key == Key::kNone ? SDLK_UNKNOWN : kCodes[static_cast<std::size_t>(key->key)];
   } else if (const auto* moved = std::get_if<PointerMoved>(&event)) {
     sdl.type = SDL_MOUSEMOTION;
     sdl.motion.x = x(moved->at), sdl.motion.y = y(moved->at);

@@ -17,11 +17,7 @@ const blows = readFileSync(list, 'utf8')
   .map((line) => line.split(' '))
   .map(([at, rms, from]) => ({ at: Number(at), rms: Number(rms), from }));
 
-const opened = await openBrowser([
-  '--use-fake-ui-for-media-stream',
-  '--use-fake-device-for-media-stream',
-  `--use-file-for-fake-audio-capture=${resolve(sound)}%noloop`,
-]);
+const opened = await openBrowser(hears(resolve(sound)));
 const page = await opened.page('#scene=candle&seed=1&noise=1&detail=0.3', { viewport: { width: 320, height: 280 } });
 await page.evaluate(() => {
   // Timed by the sound itself: there are sixty frames of wind a second from when it listens. What is out

@@ -1,5 +1,5 @@
 // What a frame costs us: milliseconds of our own work (models, poses, what is handed to the graphics card) with one
-// candle, a cake and a few hundred leaves (bench/leaves.js has more); tasks that hold the page up for more than 50 ms;
+// candle, a cake and a few hundred leaves; tasks that hold the page up for more than 50 ms;
 // the time to the first picture.
 //
 //     npm run bench --workspace apps/web [-- SECONDS]      each scene so long; default 6

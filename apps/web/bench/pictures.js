@@ -4,7 +4,7 @@
 
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { chromiumPath, openBrowser, until } from '../tests/browser.js';
+import { blowOut, chromiumPath, openBrowser, until } from '../tests/browser.js';
 
 const args = process.argv.slice(2);
 const sizes = [];
@@ -14,13 +14,6 @@ if (folder === undefined) throw new Error('which folder do the pictures go to?')
 if (sizes.length === 0) sizes.push('390x844', '1280x800', '2560x1440');
 
 const pass = (page, seconds) => page.waitForTimeout(1000 * seconds);
-const blowOut = async (page) => {
-  await page.focus('#stage');
-  await page.keyboard.down('Space');
-  await until(page, 'all are out', () => window.wisp.burning.lit === 0);
-  await page.keyboard.up('Space');
-};
-
 /** What is done before a picture is taken, from a link on. */
 const states = {
   candle: ['#scene=candle', (page) => pass(page, 2)],
@@ -41,13 +34,7 @@ const states = {
   many: ['#scene=leaves&leaves=10000', (page) => pass(page, 6)],
   drawer: ['#scene=candle', async (page) => { await page.click('#open-drawer'); await pass(page, 2); }],
   day: ['#scene=candle', async (page) => { await page.emulateMedia({ colorScheme: 'light' }); await page.click('#open-drawer'); await pass(page, 2); }],
-  teacher: ['#scene=candle', async (page) => {
-    await page.emulateMedia({ colorScheme: 'light' });
-    await page.click('#open-drawer');
-    await page.click('text=Orders side by side');
-    await pass(page, 3);
-    await page.evaluate(() => document.querySelector('.lesson').scrollIntoView({ block: 'center' }));
-  }],
+  turned: ['#scene=candle&candles=7&name=Ada', async (page) => { await page.focus('#stage'); for (let k = 0; k < 4; ++k) await page.keyboard.press('.'); await pass(page, 1); }],
   overlay: ['#overlay&scene=candle&candles=7', (page) => pass(page, 2)],
   help: ['#scene=candle', async (page) => { await page.click('#open-help'); await pass(page, 0.5); }],
 };

@@ -11,7 +11,7 @@ import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
 import { Player, type Playing } from './player.js';
 import { Costs, type Probe } from './probe.js';
-import type { Scene } from '@wisp/player/parts/stage/scene';
+import type { Air, Scene } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from '@wisp/player/parts/air/breath';
 import type { Parts } from './late.js';
@@ -30,6 +30,9 @@ const SLOW = 0.4;
 
 /** Seconds of play until the flame ducks once, and for which the breath lasts; a frame counts as a tenth at most. */
 const DUCKS = { after: 0.7, lasts: 0.26, frame: 0.1 };
+
+/** Turn of the eye round the candle by one press of a key, radians. */
+const TURN = Math.PI / 12;
 
 const START_HINT = 'Move past it, or press Blow and blow';
 
@@ -72,7 +75,8 @@ export class App {
     private readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
-      breath: (seconds) => this.breath.update(seconds, this.stage.frames) + (this.parts?.senses.wind ?? 0),
+      breath: (seconds) => this.breath.update(seconds, this.stage.frames) + (this.parts?.senses.air.right ?? 0),
+      air: () => this.air(),
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
       framed: (cost, seconds) => this.onFrame(cost, seconds),
@@ -131,6 +135,8 @@ export class App {
         f: () => this.fullScreen(),
         '?': () => this.showHelp(),
         h: () => this.showHelp(),
+        ',': () => this.goRound(-TURN),
+        '.': () => this.goRound(TURN),
         '-': () => this.controls.step(-1, this.settings),
         '+': () => this.controls.step(1, this.settings),
         '=': () => this.controls.step(1, this.settings),
@@ -142,8 +148,8 @@ export class App {
   }
 
   change(change: Partial<Settings>): void {
-    // Another scene or order is of the shipped models.
-    if (change.model === undefined && (change.scene !== undefined || change.order !== undefined)) change = { ...change, model: '' };
+    // Another scene is of the shipped models.
+    if (change.model === undefined && change.scene !== undefined) change = { ...change, model: '' };
     const needsModel = this.player.apply(change);
     this.stage.detail = this.settings.detail;
     const link = linkOf(this.settings, this.own);
@@ -329,9 +335,8 @@ export class App {
     }
     if (this.duckFrom < DUCKS.lasts) this.duck(Math.min(seconds, DUCKS.frame));
     if (this.parts !== null) {
-      const { lit, of } = playing.scene instanceof CandleScene ? playing.scene.burning() : { lit: 0, of: 0 };
-      this.parts.senses.frame(lit, of, reading.wind, this.parts.ear.state !== 'off');
-      this.parts.drawer.frame(reading, cost, seconds);
+      this.parts.senses.frame(playing.scene instanceof CandleScene ? playing.scene.burning().lit : 0);
+      this.parts.drawer.frame(reading, cost);
       const { state } = this.parts.ear;
       if (state === 'listening' && this.heardState === 'asking' && !this.parts.tuning.isOpen) this.hint.show('Now: blow', 4);
       this.heardState = state;
@@ -375,6 +380,7 @@ export class App {
     this.probe.burning = burning;
     this.probe.smoking = scene.smoking;
     this.probe.candleX = scene.firstX;
+    this.probe.azimuth = scene.orbit.azimuth;
     this.probe.leaves = null;
     const allLit = burning.lit === burning.of;
     if (!allLit) this.parts?.ear.blownOut();
@@ -399,6 +405,19 @@ export class App {
     return { wick: page(wick), match: page(match) };
   }
 
+  /** What blows: across by keys and tilt, away from the eye by the microphone. */
+  private air(): Air {
+    const { right, away } = this.breath.air;
+    const tilt = this.parts?.senses.air ?? { right: 0, away: 0 };
+    return { right: right + tilt.right, away: away + tilt.away };
+  }
+
+  /** Goes round the candle, as a key asks. */
+  private goRound(radians: number): void {
+    const scene = this.player.playing?.scene;
+    if (scene instanceof CandleScene && !scene.goRound(radians)) this.notices.say('This flame was learned from one side and has no other.');
+  }
+
   private makeProbe(): Probe {
     const { costs, breath, wisp } = this;
     const hearing = (): string => this.parts?.ear.state ?? 'off';
@@ -413,6 +432,7 @@ export class App {
       places: () => this.places(),
       leaves: null,
       candleX: 0,
+      azimuth: 0,
       get hearing() {
         return hearing();
       },

@@ -48,7 +48,7 @@ export function furnish(app: App): Parts {
   app.keys.t = () => document.body.classList.contains('studying') || tuning.open();
   const { escape } = app.keys;
   app.keys.escape = () => (tuning.isOpen ? tuning.close() : escape?.());
-  const drawer = new Drawer(app.wisp, byId('drawer', HTMLElement), {
+  const drawer = new Drawer(byId('drawer', HTMLElement), {
     change: (change) => app.change(change),
     open: (file) => openDropped(app, { files: [file], entries: [] }),
     closed: () => app.showDrawer(false),

@@ -13,8 +13,6 @@ export interface Settings {
   noise: number;
   candles: number;
   leaves: number;
-  /** 0: the flame as it is learned today; else the order of the paper's point systems, one of those that are shipped */
-  order: number;
   /** pixels drawn for each of the screen's, 0.25 to 2; 0: as many as keep it smooth */
   detail: number;
   /** a model instead of the shipped one: an address of this origin, or the model itself (model_link.ts); '': shipped */
@@ -32,8 +30,6 @@ export interface Settings {
 export { MAX_CANDLES, MAX_LEAVES };
 /** Letters of each of its words. */
 export const LETTERS = { name: 24, from: 24, wish: 80 } as const;
-/** Of the point systems that are shipped for lessons. */
-export const ORDERS: readonly number[] = [2, 4, 6];
 
 export const DEFAULTS: Readonly<Settings> = {
   scene: 'candle',
@@ -41,7 +37,6 @@ export const DEFAULTS: Readonly<Settings> = {
   noise: 1,
   candles: 1,
   leaves: 400,
-  order: 0,
   detail: 0,
   model: '',
   age: 0,
@@ -58,7 +53,6 @@ const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model' | keyof 
   age: [0, 999, true],
   tune: [0, 1, true],
   leaves: [1, MAX_LEAVES, true],
-  order: [0, 6, true],
   detail: [0, 2, false],
 };
 
@@ -79,7 +73,6 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
     if (!(value >= low && value <= high) || (whole && !Number.isInteger(value))) continue;
     settings[name as keyof typeof RANGES] = value;
   }
-  if (settings.order !== 0 && !ORDERS.includes(settings.order)) settings.order = otherwise.order;
   return settings;
 }
 

@@ -3,9 +3,9 @@
 import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
-import { DEFAULTS, shownOf, type SceneName, type Settings } from './link.js';
+import { shownOf, type SceneName, type Settings } from './link.js';
 import type { Shown } from './panel/drawer.js';
-import { fetchShipped, SHIPPED_LEAF, shippedFlame } from './shipped.js';
+import { fetchShipped, SHIPPED_FLAME, SHIPPED_LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
@@ -45,7 +45,7 @@ export class Player {
   async borrowWind(): Promise<void> {
     const { playing } = this;
     if (!(playing?.scene instanceof CandleScene) || playing.borrows) return;
-    const lender = this.wisp.model(await fetchShipped(shippedFlame(DEFAULTS.order)));
+    const lender = this.wisp.model(await fetchShipped(SHIPPED_FLAME));
     await playing.scene.borrow(lender);
     if (this.playing === playing) {
       playing.borrows = true;
@@ -56,7 +56,7 @@ export class Player {
 
   /** Plays the shipped model of the scene in the settings. Throws where it cannot be fetched. */
   async playShipped(): Promise<void> {
-    const shipped = this.settings.scene === 'leaves' ? SHIPPED_LEAF : shippedFlame(this.settings.order);
+    const shipped = this.settings.scene === 'leaves' ? SHIPPED_LEAF : SHIPPED_FLAME;
     const turn = ++this.opening;
     const bytes = await fetchShipped(shipped);
     if (turn === this.opening) await this.play(bytes, shipped.file, true, turn);
@@ -74,10 +74,9 @@ export class Player {
     Object.assign(this.settings, change);
     const { playing } = this;
     if (playing === null) return false;
-    const { scene, order } = this.settings;
+    const { scene } = this.settings;
     if (change.model !== undefined && change.model !== before.model) return true;
     if (change.scene !== undefined && (scene !== before.scene || !playing.shipped)) return true;
-    if (playing.shipped && playing.tab === 'candle' && order !== before.order) return true;
     playing.scene.apply(this.sceneSettings(playing.tab));
     return false;
   }

@@ -25,6 +25,8 @@ export interface Probe {
   leaves: { count: number; lying: number } | null;
   /** where the first candle stands, room units from the middle */
   candleX: number;
+  /** of the eye round the candle, radians from where its flame was filmed */
+  azimuth: number;
   hearing: string;
   sound: SoundPath;
   /** bytes of the library's memory */

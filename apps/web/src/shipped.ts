@@ -6,12 +6,7 @@ export interface Shipped {
   file: string;
 }
 
-/** The flame of the default recipe (0), or of point systems of that order. */
-export function shippedFlame(order: number): Shipped {
-  const file = order === 0 ? 'flame.wisp' : `flame-${order}.wisp`;
-  return { url: `./models/${file}`, file };
-}
-
+export const SHIPPED_FLAME: Shipped = { url: './models/flame.wisp', file: 'flame.wisp' };
 export const SHIPPED_LEAF: Shipped = { url: './models/leaf.wisp', file: 'leaf.wisp' };
 
 /** Fetches a shipped model's bytes. Throws an Error that says so when they are not there. */

@@ -5,7 +5,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, until } from './browser.js';
+import { hears, openBrowser, skip, until } from './browser.js';
 import { breath, rate, room, speech, writeSound } from './sound.js';
 
 // When what is heard, seconds of sound.
@@ -16,7 +16,7 @@ const end = 19;
 // The sound begins a little before or after the page knows that it does.
 const unsure = 0.5;
 
-describe('a candle that hears', { skip: chromiumPath === undefined && 'there is no Chromium here' }, () => {
+describe('a candle that hears', { skip }, () => {
   const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
   const spoken = speech(talk.to - talk.from, 0.08);
   let opened;
@@ -35,11 +35,7 @@ describe('a candle that hears', { skip: chromiumPath === undefined && 'there is 
       breath(strong.to - strong.from, 0.45),
       room(40 - strong.to),
     ]);
-    opened = await openBrowser([
-      '--use-fake-ui-for-media-stream',
-      '--use-fake-device-for-media-stream',
-      `--use-file-for-fake-audio-capture=${file}%noloop`,
-    ]);
+    opened = await openBrowser(hears(file));
     page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.5', { viewport: { width: 320, height: 280 } });
     await page.evaluate(record);
     await page.click('#blow');
@@ -132,18 +128,14 @@ describe('a candle that hears', { skip: chromiumPath === undefined && 'there is 
   });
 });
 
-describe('somebody who presses Blow and blows at once', { skip: chromiumPath === undefined && 'there is no Chromium here' }, () => {
+describe('somebody who presses Blow and blows at once', { skip }, () => {
   it('puts the candle out with the blows that follow', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
     const file = join(folder, 'sound.wav');
     // A first puff that is too soft to do it, from when the microphone opens and on; hard blows follow.
     const blows = Array.from({ length: 12 }, () => [breath(1, 0.3), room(2)]).flat();
     writeSound(file, [room(0.3), breath(2.7, 0.03), room(3), ...blows]);
-    const opened = await openBrowser([
-      '--use-fake-ui-for-media-stream',
-      '--use-fake-device-for-media-stream',
-      `--use-file-for-fake-audio-capture=${file}%noloop`,
-    ]);
+    const opened = await openBrowser(hears(file));
     const page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.2', { viewport: { width: 320, height: 280 } });
     await page.click('#blow');
     await until(page, 'it is out', () => window.wisp.burning.lit === 0);

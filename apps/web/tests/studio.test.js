@@ -4,26 +4,16 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, it } from 'node:test';
-import { chromiumPath, drop, dropAll, openBrowser, seen, until } from './browser.js';
+import { after, describe, it } from 'node:test';
+import { blowOut, chooses, complete, drop, dropAll, enterStudio, onPage, openBrowser, painted, panel, saved, says, seen, skip, step, toLearn, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
 import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
 
-const skip = chromiumPath === undefined && 'there is no Chromium here';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
 after(() => rmSync(folder, { recursive: true }));
+const laptop = { viewport: { width: 1000, height: 700 } };
 let made;
 const film = () => (made ??= candleFilm(folder));
-
-const step = (page, name) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name);
-const says = (page, where, words) =>
-  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words]);
-const enter = async (page) => {
-  await page.click('[data-scene=yours]');
-  await step(page, 'gather');
-};
-/** The room's own voice: its panel. */
-const panel = '#studio .panel';
 
 /** A second-order system's answer to steps, as a logger writes it. */
 function table() {
@@ -43,55 +33,29 @@ function tableThatBreaks() {
   return Buffer.from(rows.map((row, k) => (k < 460 ? row : row.replace(/[^,]*$/, String(Math.sin(k * k))))).join('\n'));
 }
 
-/** Of a sheet of pictures: its size; of each picture its sum, how opaque its edge gets, and how opaque its middle. In a page. */
-async function looksOfSheet([png, frames]) {
-  const bytes = Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0));
-  const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
-  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-  context.drawImage(bitmap, 0, 0);
-  const [sums, edges, middles] = [[], [], []];
-  for (const { x, y, w, h } of frames) {
-    const { data } = context.getImageData(x, y, w, h);
-    const opacity = (across, down) => data[4 * (down * w + across) + 3];
-    sums.push(data.reduce((sum, value, k) => (31 * sum + value * (1 + (k % 97))) % 1e15, 0));
-    edges.push(Math.max(...Array.from({ length: w }, (_, k) => Math.max(opacity(k, 0), opacity(k, h - 1)))));
-    middles.push(Math.max(...Array.from({ length: w }, (_, k) => opacity(k, Math.round(0.6 * h)))));
-  }
-  return { size: { w: bitmap.width, h: bitmap.height }, sums, edges, middles };
-}
-
 describe('a film that is dropped', { skip: skip || noFilms }, () => {
-  let opened, page;
+  let page;
   const asked = [];
-  before(async () => {
-    const bytes = readFileSync(film());
-    opened = await openBrowser();
-    page = await opened.page('#scene=candle&seed=3&detail=0.1', { viewport: { width: 1000, height: 700 } });
+  onPage('#scene=candle&seed=3&detail=0.1', async (made) => {
+    page = made;
     page.on('request', (request) => asked.push(new URL(request.url()).pathname));
-    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    await complete(page);
     assert.deepEqual(
       await page.evaluate(() => performance.getEntriesByType('resource').filter(({ name }) => name.includes('studio')).map(({ name }) => name)),
       [],
       'not a byte of the studio comes before somebody goes in',
     );
-    await drop(page, 'mine.mp4', bytes);
+    await drop(page, 'mine.mp4', readFileSync(film()));
     await step(page, 'look');
-  });
-  after(() => opened?.close());
+  }, laptop);
 
   it('brings the studio, and only then', () => assert.ok(asked.some((path) => path.includes('/assets/studio/'))));
 
   it('is followed by its edge, and says what was found', async () => {
-    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null);
+    await toLearn(page);
     assert.match(await page.textContent(panel), /The flame is found.*(100|9\d) % of the frames/s);
     assert.match(await page.textContent(panel), /heard in/);
-    const blue = () => page.$eval('.traces canvas', (canvas) => {
-      const { data } = canvas.getContext('2d').getImageData(60, 0, canvas.width - 60, canvas.height / 2);
-      let many = 0;
-      for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128 && data[k + 2] > data[k]) many += 1;
-      return many;
-    });
-    await seen('the wind that was heard, drawn in place of what was traced', async () => (await blue()) > 60);
+    await seen('the wind that was heard, drawn in place of what was traced', async () => (await painted(page, '.traces canvas', 'blue', 60, 0.5))[0] > 60);
   });
 
   it('is learned, and the verdict comes first', async () => {
@@ -102,13 +66,7 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
   });
 
   it('plays beside what it learned', async () => {
-    const lit = () => page.$$eval('.duet canvas', (all) => all.map((canvas) => {
-      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      let bright = 0;
-      for (let k = 0; k < data.length; k += 4) if (data[k] > 200) bright += 1;
-      return bright;
-    }));
-    await seen('both flames', async () => (await lit()).every((bright) => bright > 100));
+    await seen('both flames', async () => (await painted(page, '.duet canvas', 'bright')).every((bright) => bright > 100));
   });
 
   it('is learned again in another way, and taken away', async () => {
@@ -116,10 +74,10 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     await page.click('[data-knob="paper point by point, as in the paper"]');
     await step(page, 'blow');
     await until(page, 'it is learned point by point', () => document.querySelector('[data-knob="paper point by point, as in the paper"]')?.getAttribute('aria-pressed') === 'true');
-    const [model] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=wisp]')]);
+    const model = await saved(page, '[data-file=wisp]');
     assert.equal(model.suggestedFilename(), 'mine.wisp');
     assert.deepEqual([...readFileSync(await model.path()).subarray(1, 5)], [...Buffer.from('WISP')]);
-    const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
+    const recording = await saved(page, '[data-file=recording]');
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(film(), folder), 'utf8'));
     await page.click('.more summary');
     await page.click('[data-knob="paper as a shape"]');
@@ -129,29 +87,13 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
   it('becomes files for other tools, and what makes them comes only then', async () => {
     const made = () => asked.some((path) => /studio\/export-.*\.wasm$/.test(path));
     assert.ok(!made());
-    const [gltf] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=glb]')]);
+    const gltf = await saved(page, '[data-file=glb]');
     assert.equal(gltf.suggestedFilename(), 'mine.glb');
     assert.equal(readFileSync(await gltf.path()).subarray(0, 4).toString(), 'glTF');
-    const [lottie] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=json]')]);
+    const lottie = await saved(page, '[data-file=json]');
     const { layers, op, fr } = JSON.parse(readFileSync(await lottie.path(), 'utf8'));
     assert.deepEqual([layers.length, Math.round(op / fr)], [1, 4]);
     assert.ok(made());
-  });
-
-  it('becomes a flipbook, whose pictures differ and stand in their frames', async () => {
-    const files = {};
-    page.on('download', (download) => (files[download.suggestedFilename()] = download.path()));
-    await page.click('[data-file=flipbook]');
-    await seen('both files', () => Object.keys(files).length === 2);
-    const [sheet, atlas] = await Promise.all([files['mine.png'], files['mine.atlas.json']]);
-    const { frames, meta } = JSON.parse(readFileSync(atlas, 'utf8'));
-    assert.deepEqual([meta.image, meta.loop, Math.round(frames.length / meta.rate_hz)], ['mine.png', true, 4]);
-    const looks = await page.evaluate(looksOfSheet, [readFileSync(sheet).toString('base64'), frames.map(({ frame }) => frame)]);
-    assert.deepEqual(looks.size, meta.size);
-    assert.equal(new Set(looks.sums).size, frames.length);
-    // Light that is cut off at a frame's edge shows as a box.
-    assert.ok(Math.max(...looks.edges) <= 4, String(looks.edges));
-    assert.ok(Math.min(...looks.middles) >= 200, String(looks.middles));
   });
 
   it('burns in the page, and goes out when somebody blows', async () => {
@@ -159,10 +101,7 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     await until(page, 'it burns', () => document.getElementById('studio').hidden && window.wisp.burning?.lit === 1);
     const frames = await page.evaluate(() => window.wisp.frames);
     await until(page, 'it lives', (many) => window.wisp.frames > many + 3, frames);
-    await page.focus('#stage');
-    await page.keyboard.down('Space');
-    await until(page, 'it is out', () => window.wisp.burning.lit === 0);
-    await page.keyboard.up('Space');
+    await blowOut(page);
   });
 
   it('is still there when somebody comes back', async () => {
@@ -170,22 +109,20 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned your flame/);
   });
-
-  it('made no error, and asked no other host', () => assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]));
 });
 
 describe('a film that lies on its side', { skip: skip || noConverter }, () => {
   it('is captured as the program captures it', async () => {
     const turned = turnedFilm(film(), folder);
     const opened = await openBrowser();
-    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 } });
-    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    const page = await opened.page('#scene=candle&detail=0.1', laptop);
+    await complete(page);
     await drop(page, 'turned.mp4', readFileSync(turned));
     await step(page, 'look');
-    await until(page, 'it has looked', () => document.querySelector('[data-act=learn]') !== null);
+    await toLearn(page);
     await page.click('[data-act=learn]');
     await step(page, 'blow');
-    const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
+    const recording = await saved(page, '[data-file=recording]');
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(turned, folder), 'utf8'));
     await opened.close();
   });
@@ -205,7 +142,7 @@ describe('a camera', { skip: skip || noConverter }, () => {
       '--autoplay-policy=no-user-gesture-required',
     ]);
     const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 390, height: 844 } });
-    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    await complete(page);
     await page.focus('#stage');
     await page.keyboard.press('3');
     await step(page, 'gather');
@@ -216,17 +153,12 @@ describe('a camera', { skip: skip || noConverter }, () => {
     await page.focus('.record');
     await page.keyboard.press('Enter');
     await says(page, '.caption', 'softly');
-    // Blue and orange: the sound, and the tip beside its name.
-    const traced = () => page.$eval('.traces canvas', (canvas) => {
-      const { data } = canvas.getContext('2d').getImageData(60, 0, canvas.width - 60, canvas.height);
-      const many = [0, 0];
-      for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128) many[data[k] > data[k + 2] ? 1 : 0] += 1;
-      return many;
-    });
+    // Beside their names.
+    const traced = async () => (await Promise.all(['blue', 'orange'].map((kind) => painted(page, '.traces canvas', kind, 60)))).flat();
     await seen('sound and tip, traced while it is filmed', async () => (await traced()).every((pixels) => pixels > 60));
     await page.waitForTimeout(4000);
     await page.keyboard.press('Enter');
-    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null);
+    await toLearn(page);
     assert.equal(await page.evaluate(() => document.querySelector('.viewer video').srcObject), null);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
     const right = await page.$$eval('header.top button', (buttons) => Math.max(...buttons.map((button) => button.getBoundingClientRect().right)));
@@ -239,12 +171,10 @@ describe('a camera', { skip: skip || noConverter }, () => {
 });
 
 describe('a table', { skip }, () => {
-  let opened;
-  after(() => opened?.close());
+  let page;
+  onPage('#scene=candle&detail=0.1', (made) => (page = made), laptop);
 
   it('says what its columns are, and is learned', async () => {
-    opened = await openBrowser();
-    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 } });
     await drop(page, 'kettle.csv', table());
     await step(page, 'look');
     const pressed = (column) => page.getAttribute(`[data-column="${column}"]`, 'aria-pressed');
@@ -267,7 +197,6 @@ describe('a table', { skip }, () => {
     await step(page, 'look');
     await page.click('[data-act=learn]');
     await says(page, '#notices', 'No delay is supported');
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
   });
 });
 
@@ -277,7 +206,7 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
 
   it('are learned, and fall in the page', async () => {
     opened = await openBrowser();
-    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 } });
+    const page = await opened.page('#scene=candle&detail=0.1', laptop);
     await drop(page, 'falls.csv', readFileSync(recordedFalls(folder)));
     await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
@@ -291,16 +220,14 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
 });
 
 describe('a film of something that falls', { skip: skip || noConverter }, () => {
-  let opened, page;
-  before(async () => {
-    opened = await openBrowser();
-    page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 390, height: 844 } });
-    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+  let page;
+  onPage('#scene=candle&detail=0.1', async (made) => {
+    page = made;
+    await complete(page);
     await drop(page, 'paper.mp4', readFileSync(fallsFilm(join(folder, 'paper.mp4'), 24)));
     await step(page, 'look');
-    await until(page, 'the falls are found', () => document.querySelector('[data-act=learn]') !== null);
-  });
-  after(() => opened?.close());
+    await toLearn(page);
+  }, { viewport: { width: 390, height: 844 } });
 
   it('is told from one of a flame, and says what was found', async () => {
     assert.match(await page.textContent(`${panel} .verdict.good`), /The falls are found24 falls/);
@@ -309,12 +236,7 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
 
   it('shows the ways that they took', async () => {
     // The film is grey: what is blue on it is drawn.
-    const drawn = await page.$eval('.viewer .over', (canvas) => {
-      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      let many = 0;
-      for (let k = 0; k < data.length; k += 4) if (data[k + 2] > data[k] + 60) many += 1;
-      return many;
-    });
+    const [drawn] = await painted(page, '.viewer .over', 'blue');
     assert.ok(drawn > 500, `${drawn} pixels`);
   });
 
@@ -328,7 +250,7 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
     await page.click('[data-act=learn]');
     await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
-    const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
+    const recording = await saved(page, '[data-file=recording]');
     const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
     const theirs = fallsByProgram(join(folder, 'paper.mp4'), 2.4, folder);
     const [ours, wanted] = [rows(readFileSync(await recording.path(), 'utf8')), rows(readFileSync(theirs, 'utf8'))];
@@ -341,7 +263,7 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
 });
 
 describe('a bad day in the studio', { skip }, () => {
-  let opened, page;
+  let page;
   // In the page: a camera that is missing, refused, or taken away while it films.
   function stubCamera() {
     window.camera = 'NotFoundError';
@@ -357,17 +279,11 @@ describe('a bad day in the studio', { skip }, () => {
       return window.stream;
     };
   }
-  before(async () => {
-    opened = await openBrowser();
-    page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 }, before: stubCamera });
-    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
-    await enter(page);
-  });
-  after(() => opened?.close());
+  onPage('#scene=candle&detail=0.1', (made) => enterStudio((page = made)), { ...laptop, before: stubCamera });
 
   const again = async () => {
     await page.click('[data-act=choose]');
-    await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
+    await chooses(page);
   };
 
   it('says that there is no camera, and requests unprocessed sound', async () => {
@@ -453,6 +369,4 @@ describe('a bad day in the studio', { skip }, () => {
     const frames = await page.evaluate(() => window.wisp.frames);
     await until(page, 'the candle burns', (many) => window.wisp.frames > many + 2, frames);
   });
-
-  it('made no error, and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });

@@ -5,10 +5,9 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, until } from './browser.js';
+import { hears, openBrowser, skip, until } from './browser.js';
 import { breath, hiss, room, writeSound } from './sound.js';
 
-const skip = chromiumPath === undefined && 'there is no Chromium here';
 const phone = { viewport: { width: 390, height: 844 } };
 
 /** Loudness of somebody's breath at that microphone. */
@@ -19,11 +18,7 @@ const HARD = 0.6;
 async function hearing(folder, pieces, options) {
   const file = join(folder, `${Math.random()}.wav`);
   writeSound(file, pieces);
-  const opened = await openBrowser([
-    '--use-fake-ui-for-media-stream',
-    '--use-fake-device-for-media-stream',
-    `--use-file-for-fake-audio-capture=${file}%noloop`,
-  ]);
+  const opened = await openBrowser(hears(file));
   const page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.2', options);
   await page.evaluate(() => {
     let began = 0;

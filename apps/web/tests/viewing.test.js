@@ -2,30 +2,22 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, openDrawer, until } from './browser.js';
+import { describe, it } from 'node:test';
+import { onPage, openDrawer, painted, saved, seen, skip, until } from './browser.js';
 
-describe('which one was filmed', { skip: chromiumPath === undefined && 'there is no Chromium here' }, () => {
-  let opened, page;
-  before(async () => {
-    opened = await openBrowser();
-    page = await opened.page('#scene=candle&seed=3&detail=0.05', { viewport: { width: 390, height: 700 } });
+describe('which one was filmed', { skip }, () => {
+  let page;
+  onPage('#scene=candle&seed=3&detail=0.05', async (made) => {
+    page = made;
     await openDrawer(page);
     await page.click('[data-file=viewing]');
     await until(page, 'the first pair', () => document.querySelector('.viewing[open]') !== null);
-  });
-  after(() => opened?.close());
+  }, { viewport: { width: 390, height: 700 } });
 
   it('shows two flames that both move, in the same drawing', async () => {
     const pictures = () => page.$$eval('.viewing canvas', (all) => all.map((canvas) => canvas.toDataURL()));
     // Both are there: neither is the picture of nothing.
-    await until(page, 'both burn', () =>
-      [...document.querySelectorAll('.viewing canvas')].every((canvas) => {
-        const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-        let bright = 0;
-        for (let k = 0; k < data.length; k += 4) if (data[k] > 200) bright += 1;
-        return bright > data.length / 4 / 100;
-      }));
+    await seen('both burn', async () => (await painted(page, '.viewing canvas', 'bright')).every((bright) => bright > 150));
     const before = await pictures();
     await page.waitForTimeout(400);
     const after_ = await pictures();
@@ -40,7 +32,7 @@ describe('which one was filmed', { skip: chromiumPath === undefined && 'there is
       else await page.keyboard.press('ArrowLeft');
     }
     assert.match(await page.textContent('#viewing-title'), /^\d+ of 20 were right$/);
-    const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=answers]')]);
+    const download = await saved(page, '[data-file=answers]');
     const file = JSON.parse(readFileSync(await download.path(), 'utf8'));
     assert.equal(file.answers.length, 20);
     assert.equal(new Set(file.answers.map(({ pair }) => pair)).size, 20, 'no pair twice');

@@ -9,15 +9,18 @@ import { fileURLToPath } from 'node:url';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 export const models = fileURLToPath(new URL('../../../tests/c/models/', import.meta.url));
-export const executablePath = process.env.WISP_CHROMIUM ?? '/usr/bin/chromium';
+export const executablePath = process.env.WISP_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync) ?? '/usr/bin/chromium';
 export const quiet = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--disable-quic', '--no-first-run'];
+/** Where there is no graphics card the processor draws. */
+export const drawing = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
-const types = { '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
+const types = { '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm',
+  '.svg': 'image/svg+xml', '.jpg': 'image/jpeg', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'";
 
-/** Serves a folder under a strict policy. */
-export function serve(folder) {
+/** Serves a folder, under a strict policy unless its pages have one of their own. */
+export function serve(folder, strict = true) {
   const server = createServer((request, response) => {
     const path = join(folder, normalize(new URL(request.url, 'http://localhost').pathname));
     const file = path.endsWith('/') ? join(path, 'index.html') : path;
@@ -25,7 +28,7 @@ export function serve(folder) {
     if (!existsSync(file)) return response.writeHead(404).end();
     response.writeHead(200, {
       'content-type': types[extname(file)] ?? 'application/octet-stream',
-      'content-security-policy': policy,
+      ...(strict ? { 'content-security-policy': policy } : {}),
     });
     response.end(readFileSync(file));
   });

@@ -7,9 +7,9 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { executablePath, furnish, models, pack, patience, quiet, serve, skip, until } from './chromium.mjs';
+import { drawing, executablePath, furnish, models, pack, patience, quiet, serve, skip, until } from './chromium.mjs';
 
-const flags = [...quiet, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--use-fake-device-for-media-stream',
+const flags = [...quiet, ...drawing, '--use-fake-device-for-media-stream',
   '--use-fake-ui-for-media-stream', '--autoplay-policy=no-user-gesture-required'];
 
 describe('elements in Chromium', { skip }, () => {

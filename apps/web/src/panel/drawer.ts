@@ -1,24 +1,21 @@
 // The drawer: what was learned. Live plots, knobs that mean something, the model's own facts, its file.
 
-import type { Model, Library } from '@wisp/player';
-import { ORDERS, type Settings } from '../link.js';
+import type { Model } from '@wisp/player';
+import type { Settings } from '../link.js';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
 import type { Reading } from '@wisp/player/parts/stage/scene';
 import { element } from './element.js';
 import { telling } from './telling.js';
 import { factsOf } from './facts.js';
-import { saveFile } from '../saving.js';
 import { introductionTo } from './introduction.js';
-import { Lesson } from './lesson.js';
 import { Plot, type Ink } from './plot.js';
-import { PlotRecord } from './record.js';
 
 /** What the drawer shows of. */
 export interface Shown {
   model: Model;
   bytes: Uint8Array;
   file: string;
-  /** false: it was dropped here, and has no sisters of other orders */
+  /** false: it was dropped here */
   shipped: boolean;
   answerName: string;
   /** its answer to wind is the shipped flame's */
@@ -32,7 +29,7 @@ export interface DrawerEvents {
   send(): void;
   /** opens the viewing test */
   viewing(): Promise<string>;
-  /** sound and touch on or off; returns which */
+  /** tilt and touch on or off; returns which */
   senses(): boolean;
 }
 
@@ -44,12 +41,9 @@ export class Drawer {
   private outputs: Partial<Record<'wind' | 'answer' | 'cost', HTMLOutputElement>> = {};
   private frames = 0;
   private sensesOn = false;
-  private record = new PlotRecord();
-  private lesson: Lesson | null = null;
   private address: string | null = null;
 
   constructor(
-    private readonly wisp: Library,
     private readonly place: HTMLElement,
     private readonly events: DrawerEvents,
   ) {
@@ -58,7 +52,7 @@ export class Drawer {
     });
   }
 
-  /** Whether sound and touch are on. */
+  /** Whether tilt and touch are on. */
   showSenses(on: boolean): void {
     this.sensesOn = on;
     this.place.querySelector('[data-knob=senses]')?.setAttribute('aria-pressed', String(on));
@@ -76,29 +70,24 @@ export class Drawer {
   show(open: boolean): void {
     this.place.hidden = !open;
     if (open) this.place.querySelector<HTMLElement>('button')?.focus();
-    else this.closeLesson();
   }
 
   /** Fills it for a model and settings. */
   fill(shown: Shown, settings: Readonly<Settings>): void {
-    this.closeLesson();
-    this.record = new PlotRecord();
     const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
     close.addEventListener('click', () => this.events.closed());
     this.place.replaceChildren(
       element('header', {}, element('h2', {}, 'What was learned'), close),
       element('p', { class: 'introduction' }, introductionTo(shown.model, shown.shipped, shown.borrows)),
-      this.livePlots(shown, settings),
-      this.knobs(shown, settings),
+      this.livePlots(shown),
+      this.knobs(settings),
       factsOf(shown.model, shown.bytes.length),
       this.files(shown),
     );
   }
 
   /** Takes in one frame. */
-  frame(reading: Reading, cost: Readonly<FrameCost>, seconds: number): void {
-    this.record.push(seconds, reading.wind, reading.answer);
-    this.lesson?.frame(reading.wind, seconds);
+  frame(reading: Reading, cost: Readonly<FrameCost>): void {
     if (this.plots === null) return;
     const values = { wind: reading.wind, answer: reading.answer, cost: cost.update + cost.draw };
     for (const name of ['wind', 'answer', 'cost'] as const) this.plots[name].push(values[name]);
@@ -112,7 +101,7 @@ export class Drawer {
     }
   }
 
-  private livePlots(shown: Shown, settings: Readonly<Settings>): HTMLElement {
+  private livePlots(shown: Shown): HTMLElement {
     const section = element('section', {}, element('h3', {}, 'Live'));
     const add = (name: 'wind' | 'answer' | 'cost', words: string, colour: Ink, least: readonly [number, number]): Plot => {
       const canvas = element('canvas', { class: 'plot', 'aria-hidden': 'true' });
@@ -126,79 +115,32 @@ export class Drawer {
       answer: add('answer', `Out: ${shown.answerName}`, ['#ffb35c', '#b25a00'], [-0.3, 0.3]),
       cost: add('cost', 'Our time a frame', ['#9fd8a4', '#2c7a3a'], [0, 4]),
     };
-    const csv = telling('Save this minute as CSV', 'csv', '', () => {
-      saveFile(new Blob([this.record.csv(shown.answerName)], { type: 'text/csv' }), 'wisp.csv');
-      return Promise.resolve('Saved');
-    });
-    section.append(element('div', { class: 'actions' }, csv));
-    if (shown.model.view === 'outline' && shown.model.inputs.length > 0) section.append(this.lessons(settings));
+    const driven = shown.model.view === 'outline' && shown.model.inputs.length > 0;
+    if (driven) section.append(element('div', { class: 'actions' }, telling('Which one was filmed?', 'viewing', 'One moment…', () => this.events.viewing())));
     return section;
   }
 
-  /** Several orders in the same wind, while somebody looks. */
-  private lessons(settings: Readonly<Settings>): HTMLElement {
-    const room = element('div');
-    const button = element('button', { type: 'button', class: 'tool', 'aria-pressed': 'false', 'data-knob': 'lesson' }, 'Orders side by side');
-    button.addEventListener('click', () => {
-      const open = this.lesson === null;
-      this.closeLesson();
-      button.setAttribute('aria-pressed', String(open));
-      if (!open) return;
-      this.lesson = new Lesson(this.wisp, settings.seed);
-      room.append(this.lesson.place, element('p', {}, 'Poles, and predictions beside the free run, of a flame or a table of your own: under Yours.'));
-    });
-    const test = telling('Which one was filmed?', 'viewing', 'One moment…', () => this.events.viewing());
-    return element('div', {}, element('div', { class: 'actions' }, test, button), room);
-  }
-
-  private closeLesson(): void {
-    this.lesson?.dispose();
-    this.lesson?.place.parentElement?.replaceChildren();
-    this.lesson = null;
-    this.place.querySelector('[data-knob=lesson]')?.setAttribute('aria-pressed', 'false');
-  }
-
-  private knobs({ model, shipped }: Shown, settings: Readonly<Settings>): HTMLElement {
+  private knobs(settings: Readonly<Settings>): HTMLElement {
     const section = element('section', {}, element('h3', {}, 'Change it'));
-    section.append(this.slider('Learned noise', 'noise', settings.noise, 0, 2, 0.05, (value) => `${Math.round(100 * value)} %`));
-    if (model.view === 'outline' && shipped) section.append(this.orders(settings.order));
+    section.append(this.noise(settings.noise));
     const again = element('button', { type: 'button', class: 'tool' }, 'Other chance');
     again.addEventListener('click', () => this.events.change({ seed: 1 + Math.floor(Math.random() * 1e6) }));
-    const senses = element('button', { type: 'button', class: 'tool', 'data-knob': 'senses' }, 'Sound and touch');
+    const senses = element('button', { type: 'button', class: 'tool', 'data-knob': 'senses' }, 'Tilt and touch');
     senses.setAttribute('aria-pressed', String(this.sensesOn));
     senses.addEventListener('click', () => this.events.senses());
     section.append(element('div', { class: 'actions' }, again, senses));
     return section;
   }
 
-  private slider(
-    words: string,
-    name: 'noise',
-    value: number,
-    low: number,
-    high: number,
-    step: number,
-    shown: (value: number) => string,
-  ): HTMLElement {
-    const id = `knob-${name}`;
-    const input = element('input', { type: 'range', id, min: low, max: high, step, value, 'data-knob': name });
-    const output = element('output', {}, shown(value));
+  private noise(now: number): HTMLElement {
+    const said = (value: number): string => `${Math.round(100 * value)} %`;
+    const input = element('input', { type: 'range', id: 'knob-noise', min: 0, max: 2, step: 0.05, value: now, 'data-knob': 'noise' });
+    const output = element('output', {}, said(now));
     input.addEventListener('input', () => {
-      output.value = shown(input.valueAsNumber);
-      this.events.change({ [name]: input.valueAsNumber });
+      output.value = said(input.valueAsNumber);
+      this.events.change({ noise: input.valueAsNumber });
     });
-    return element('label', { class: 'knob', for: id }, element('span', {}, words), output, input);
-  }
-
-  private orders(now: number): HTMLElement {
-    const choice = element('div', { class: 'choice', role: 'group', 'aria-label': 'Order' }, 'Order');
-    for (const order of [0, ...ORDERS]) {
-      const words = order === 0 ? 'shape' : String(order);
-      const button = element('button', { type: 'button', 'aria-pressed': String(order === now), 'data-order': order }, words);
-      button.addEventListener('click', () => this.events.change({ order }));
-      choice.append(button);
-    }
-    return choice;
+    return element('label', { class: 'knob', for: 'knob-noise' }, element('span', {}, 'Learned noise'), output, input);
   }
 
   private files(shown: Shown): HTMLElement {

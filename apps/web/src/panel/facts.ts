@@ -64,22 +64,6 @@ function list(facts: readonly Fact[]): HTMLElement {
   return made;
 }
 
-// Which kind of motion follows which: a row for the one before, brighter where it is likelier.
-function transitions(model: Model): HTMLElement[] {
-  const { chain } = model;
-  if (chain === null || chain.modes < 2) return [];
-  const grid = element('div', { class: 'matrix', role: 'img', 'aria-label': 'How likely each kind of motion follows each' });
-  grid.style.gridTemplateColumns = `repeat(${chain.modes}, 1fr)`;
-  chain.transitions.forEach((row, from) =>
-    row.forEach((chance, to) => {
-      const cell = element('i', { title: `${from + 1} → ${to + 1}: ${Math.round(100 * chance)} %` });
-      cell.style.background = `rgb(255 179 92 / ${(6 + 94 * Math.sqrt(chance)).toFixed(0)}%)`;
-      grid.append(cell);
-    }),
-  );
-  return [element('h3', {}, 'Which kind of motion follows which'), grid];
-}
-
 // How well it does, with what a good figure is.
 function figuresOf(model: Model): HTMLElement[] {
   const { figures } = model.provenance;
@@ -103,7 +87,6 @@ export function factsOf(model: Model, bytes: number): HTMLElement {
     {},
     element('h3', {}, 'The model'),
     list([...commonFacts(model, bytes), ...flameFacts(model), ...chainFacts(model)]),
-    ...transitions(model),
     ...figuresOf(model),
     element('h3', {}, 'How it was made'),
     list(made),

@@ -6,7 +6,7 @@ import { element } from './element.js';
 const GESTURES: readonly (readonly [string, string])[] = [
   ['Blow', 'press the round button, then blow at the microphone; press it again to switch it off'],
   ['Move past', 'a pointer or a finger that passes quickly makes wind'],
-  ['Drag', 'the candle, the cake or the match'],
+  ['Drag', 'the candle, the cake or the match; beside them, to go round the table'],
   ['Tap', 'a candle that is out, to light it; the ground, to kick leaves up'],
   ['Drop', 'a .wisp file anywhere, to play it; a film or a table, to learn from it'],
 ];
@@ -19,10 +19,11 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['B'], 'microphone on and off'],
   [['T'], 'tune it to your breath: breathe gently, blow hard'],
   [['−', '+'], 'fewer, more'],
+  [[',', '.'], 'round the candle'],
   [['1', '2', '3'], 'candle, leaves, a flame of your own'],
   [['I'], 'what was learned'],
   [['S'], 'send it: name, age, wish'],
-  [['A'], 'sound and touch: crackle, breath, a phone that trembles, tilt as wind'],
+  [['A'], 'tilt and touch: a phone that is tilted makes wind, and trembles when the flame goes out'],
   [['N'], 'learned noise on and off'],
   [['P'], 'pause'],
   [['F'], 'full screen'],

@@ -1,42 +1,32 @@
-// Sound and touch, opt-in: crackle and breath, a phone that vibrates when the flame goes out, tilt.
+// Tilt and touch, opt-in: a phone that makes wind where it is tilted, and vibrates when a flame goes out.
 
-import { Sound } from './sound.js';
+import type { Air } from '@wisp/player/parts/stage/scene';
 import { Tilt } from './tilt.js';
 
 /** Milliseconds that a phone vibrates when a flame goes out. */
 const VIBRATES = 40;
 
 export class Senses {
-  private sound: Sound | null = null;
+  on = false;
   private readonly tilt = new Tilt();
   private burning = 0;
 
-  get on(): boolean {
-    return this.sound !== null;
-  }
-
   /** Wind that tilting makes. */
-  get wind(): number {
-    return this.tilt.wind;
+  get air(): Air {
+    return this.tilt.air;
   }
 
-  /** On or off. To be called from a press or a key: browsers let sound begin only there. */
+  /** On or off. To be called from a press or a key: browsers may ask only there. */
   toggle(): void {
-    if (this.sound !== null) {
-      this.sound.close();
-      this.sound = null;
-      this.tilt.close();
-      return;
-    }
-    this.sound = new Sound();
-    // Refused: there is sound without tilt.
-    this.tilt.open().catch(() => undefined);
+    this.on = !this.on;
+    if (!this.on) this.tilt.close();
+    // Refused: it vibrates without tilt.
+    else this.tilt.open().catch(() => undefined);
   }
 
-  /** Takes in a frame. `heard`: the microphone listens, and must not hear our own breath. */
-  frame(lit: number, of: number, wind: number, heard: boolean): void {
+  /** Takes in a frame. */
+  frame(lit: number): void {
     if (lit < this.burning && this.on) navigator.vibrate?.(VIBRATES);
     this.burning = lit;
-    this.sound?.frame(of === 0 ? 0 : lit / of, heard ? 0 : wind);
   }
 }

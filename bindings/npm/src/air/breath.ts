@@ -1,5 +1,6 @@
 // The breath of a frame: what microphone and keys blow, together.
 
+import type { Air } from '../stage/scene.js';
 import { KeyBreath } from './keys.js';
 
 /** Milliseconds for which the microphone's last wind counts; without a newer one it has fallen silent. */
@@ -17,10 +18,12 @@ export interface SoundPath {
 export class Breath {
   readonly keys = new KeyBreath();
   readonly path: SoundPath = { heard: 0, heardAtFrame: 0, usedAtFrame: 0 };
+  /** of this frame: keys blow across, and whoever blows into the microphone sits where the eye is */
+  air: Air = { right: 0, away: 0 };
   private microphone = 0;
   private at = -Infinity;
 
-  /** Wind from the microphone: not negative. It blows from the left. */
+  /** Wind from the microphone: not negative. It blows from the eye, or from the left at what has no other sides. */
   hear(wind: number, frame: number): void {
     this.microphone = wind;
     this.at = performance.now();
@@ -36,6 +39,7 @@ export class Breath {
   update(seconds: number, frame: number): number {
     if (performance.now() - this.at > STALE) this.microphone = 0;
     if (this.path.usedAtFrame < this.path.heardAtFrame) this.path.usedAtFrame = frame;
-    return this.keys.update(seconds) + this.microphone;
+    this.air = { right: this.keys.update(seconds), away: this.microphone };
+    return this.air.right + this.microphone;
   }
 }

@@ -1,4 +1,5 @@
-// Breath that crosses a table: it comes from the side that it blows from, later and weaker the farther it has to go.
+// Breath that crosses a table: it comes from the side that it blows from, later and weaker the farther it has to go, and what
+// stands in its way shelters what is behind.
 
 /** Room units a second. */
 const SPEED = 7;
@@ -10,6 +11,27 @@ const LOST = 0.3;
 const NARROW = 0.1;
 
 const KEPT = 256;
+
+/** Share of a wind that a candle right in front takes, half of the width of its wake, and how far that reaches. */
+const WAKE = { share: 0.45, wide: 0.16, long: 1.1 };
+/** Least share of the wind that is left behind any number of them. */
+const SHELTERED = 0.5;
+
+interface Place {
+  x: number;
+  z: number;
+}
+
+/** The share of a wind in direction (x, z), of length 1, that the others leave of it at a place. */
+export function shelter(at: Place, others: readonly Place[], x: number, z: number): number {
+  let left = 1;
+  for (const other of others) {
+    const along = (at.x - other.x) * x + (at.z - other.z) * z;
+    const off = ((at.x - other.x) * z - (at.z - other.z) * x) / WAKE.wide;
+    if (along > 0.02 && along < 3 * WAKE.long && Math.abs(off) < 3) left *= 1 - WAKE.share * Math.exp(-off * off - along / WAKE.long);
+  }
+  return Math.max(SHELTERED, left);
+}
 
 export class WindDelay {
   private readonly winds = new Float32Array(KEPT);
@@ -25,7 +47,7 @@ export class WindDelay {
     this.times[this.newest] = this.clock;
   }
 
-  /** Wind at a place: x from the middle of the table, z towards the eye. */
+  /** Wind at a place that lies so far along the way of a positive wind from the middle of the table, and so far off it. */
   at(x: number, z: number): number {
     return this.from(1, x, z) + this.from(-1, x, z);
   }

@@ -1,6 +1,6 @@
 // Wind that a moving pointer stirs up around a flame: strong when it passes near and fast, gone in a moment.
 
-import type { Acting } from '../stage/scene.js';
+import type { Acting, Air } from '../stage/scene.js';
 
 /** Pointer speed, in flame heights a second, that makes wind 1 where it passes through the flame. */
 const SPEED_OF_ONE = 7;
@@ -10,18 +10,21 @@ const SETTLES = 0.22;
 const ARRIVES = 0.05;
 /** Strongest gust of a stroke. */
 const STRONGEST = 3.2;
+const STILL: Readonly<Air> = { right: 0, away: 0 };
+
+const strength = ({ right, away }: Readonly<Air>): number => Math.hypot(right, away);
 
 /** What strokes stir up around one flame. The same strokes blow alike at any frame rate, to the length of one frame. */
 export class Stroke {
-  /** the wind that the flame feels, signed */
-  wind = 0;
-  /** the gust that the last stroke made, as far as it has not settled, signed */
-  private gust = 0;
+  /** the wind that the flame feels */
+  readonly wind: Air = { right: 0, away: 0 };
+  /** the gust that the last stroke made, as far as it has not settled */
+  private gust: Readonly<Air> = STILL;
 
   /** Stillness around the flame. */
   settle(): void {
-    this.gust = 0;
-    this.wind = 0;
+    this.gust = STILL;
+    Object.assign(this.wind, STILL);
   }
 
   /**
@@ -31,19 +34,23 @@ export class Stroke {
   update(acting: Acting, busy: boolean, flameX: number, flameY: number, height: number): void {
     const { seconds } = acting;
     if (seconds <= 0) return;
-    this.gust *= Math.exp(-seconds / SETTLES);
-    const blown = busy || !acting.pointer.present ? 0 : blow(acting, flameX, flameY, height);
-    if (Math.abs(blown) > Math.abs(this.gust)) this.gust = blown;
-    this.wind += (this.gust - this.wind) * (1 - Math.exp(-seconds / ARRIVES));
+    const settles = Math.exp(-seconds / SETTLES);
+    this.gust = { right: settles * this.gust.right, away: settles * this.gust.away };
+    const blown = busy || !acting.pointer.present ? STILL : blow(acting, flameX, flameY, height);
+    if (strength(blown) > strength(this.gust)) this.gust = blown;
+    const arrives = 1 - Math.exp(-seconds / ARRIVES);
+    this.wind.right += (this.gust.right - this.wind.right) * arrives;
+    this.wind.away += (this.gust.away - this.wind.away) * arrives;
   }
 }
 
-/** How the pointer's way since the last frame blows on a flame, signed. */
-function blow({ pointer }: Acting, flameX: number, flameY: number, height: number): number {
+/** How the pointer's way since the last frame blows on a flame: what goes up the picture goes away over the table. */
+function blow({ pointer }: Acting, flameX: number, flameY: number, height: number): Air {
   const near = Math.exp((-0.5 * nearest2(pointer, flameX, flameY)) / (height * height));
-  const speed = Math.hypot(pointer.speedX, 0.4 * pointer.speedY) / height / SPEED_OF_ONE;
-  const side = pointer.speedX === 0 ? Math.sign(flameX - pointer.x) : Math.sign(pointer.speedX);
-  return Math.min(STRONGEST, Math.pow(speed, 1.1)) * near * side;
+  const [right, away] = [pointer.speedX, 0.4 * pointer.speedY];
+  const fast = Math.max(1e-9, Math.hypot(right, away));
+  const wind = (Math.min(STRONGEST, Math.pow(fast / height / SPEED_OF_ONE, 1.1)) * near) / fast;
+  return { right: wind * right, away: wind * away };
 }
 
 /** How near the pointer came to a place since the last frame, squared: it may have jumped past. */

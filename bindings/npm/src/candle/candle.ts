@@ -34,14 +34,27 @@ export class Candle implements DrawnCandle {
   sheltered = 0;
   /** its flame in the bank that lends the answer to wind; null: its own model has one */
   lent: bigint | null = null;
+  /** how far its tip leans away from the eye, and its middle towards it, flame units */
+  tipAway = 0;
+  nearer = 0;
   private speed = 0;
   private lastX: number;
+  /** where it stands about the table's middle, seen from where the flame was filmed */
+  readonly seat: readonly [x: number, z: number];
 
   constructor(
     readonly stand: Stand,
     readonly id: bigint,
   ) {
     this.lastX = stand.x;
+    this.seat = [stand.x, stand.z];
+  }
+
+  /** The eye moved, and not the candle. */
+  put(x: number, z: number): void {
+    this.lastX += x - this.stand.x;
+    this.stand.x = x;
+    this.stand.z = z;
   }
 
   get lit(): boolean {

@@ -33,6 +33,10 @@ export class Match implements DrawnMatch {
   private striking = 0;
   speedX = 0;
 
+  get lying(): boolean {
+    return !this.held && this.errand === null && !this.burning;
+  }
+
   /** Where it lies while nobody needs it: in front of what stands there. */
   rest(x: number, z: number): void {
     this.homeX = x;

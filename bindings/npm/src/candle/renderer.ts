@@ -40,6 +40,8 @@ export interface DrawnCandle {
   ember: number;
   /** how much it smokes, 0 to 1 */
   smoking: number;
+  /** how far the flame's middle leans towards the eye, flame units */
+  nearer: number;
 }
 
 /** The match: where the middle of its head is, in the room. */
@@ -51,6 +53,8 @@ export interface DrawnMatch {
   burning: boolean;
   shape: FlameShape;
   size: number;
+  /** on the table */
+  lying: boolean;
   /** how fiercely its head flares up, 0 to 1 */
   flare: number;
   /** how much it smokes, 0 to 1 */
@@ -68,6 +72,8 @@ export interface CandlePicture {
   /** what stirs the air: breath, 1 is strong; the pointer, pixels and pixels a second */
   breath: number;
   hand: { x: number; y: number; speedX: number; speedY: number; present: boolean };
+  /** of the eye round the table, radians */
+  turn: number;
   /** on the cake; and what smoke says by now, '' nothing */
   name: string;
   wish: string;
@@ -137,11 +143,12 @@ export class CandleRenderer {
     const after = this.ready(look);
     if (after !== null) after.air.update(view.width / view.height, this.stirring(view, shown));
     if (!look.clear) this.drawSurface(room.surface, view, shown);
+    const lies = after !== null && shown.match.lying;
     this.picture.begin();
     if (look.clear) {
       gl.clearColor(0, 0, 0, 0);
       gl.clear(gl.COLOR_BUFFER_BIT);
-    } else this.drawLight(room.light, view, shown);
+    } else this.drawLight(room.light, view, shown, lies);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const candle of shown.candles) {
@@ -222,23 +229,25 @@ export class CandleRenderer {
     this.exposure *= (goal / this.exposure) ** (1 - Math.exp(-seconds / within));
   }
 
-  private setRoom(program: Program, view: RoomView, setting: Setting): Program {
+  private setRoom(program: Program, view: RoomView, { setting, turn }: CandlePicture): Program {
     const cake = setting.cake;
     return program
       .use()
       .set('uView', view.middle, view.horizon, view.scale, view.distance)
       .set('uEye', view.eye)
+      .set('uTurn', turn)
       .set('uCake', cake?.radius ?? 0, cake?.height ?? 0, cake?.x ?? 0);
   }
 
-  private drawSurface(program: Program, view: RoomView, { setting, name }: CandlePicture): void {
-    const of = [view.width, view.height, view.scale, view.horizon, setting.cake?.radius, setting.cake?.x, name].join();
+  private drawSurface(program: Program, view: RoomView, shown: CandlePicture): void {
+    const { setting, name, turn } = shown;
+    const of = [view.width, view.height, view.scale, view.horizon, setting.cake?.radius, setting.cake?.x, name, turn].join();
     this.surface.resize(view.width, view.height);
     if (of === this.surfaceOf) return;
     this.surfaceOf = of;
     const plaque = setting.cake === null ? [0, 0] : (this.lettering?.name(name, 0) ?? [0, 0]);
     this.surface.begin();
-    this.setRoom(program, view, setting).setInteger('uName', 0).set('uPlaque', ...plaque);
+    this.setRoom(program, view, shown).setInteger('uName', 0).set('uPlaque', ...plaque);
     this.quad.draw();
   }
 
@@ -246,7 +255,7 @@ export class CandleRenderer {
     this.lamps.length = 0;
     const groups: DrawnCandle[][] = [];
     for (const candle of shown.candles) (groups[candle.stand.lamp] ??= []).push(candle);
-    for (const group of groups) this.addLamp(view, group.map(({ stand, shape }) => ({ ...stand, y: flameFoot(stand), shape })), group.length === 1 && group[0]?.stand.figure === null ? group[0].stand : null);
+    for (const group of groups) this.addLamp(view, group.map(({ stand, shape, nearer }) => ({ ...stand, z: stand.z + stand.unit * nearer, y: flameFoot(stand), shape })), group.length === 1 && group[0]?.stand.figure === null ? group[0].stand : null);
     const { match } = shown;
     if (match.burning) this.addLamp(view, [match], null);
   }
@@ -274,13 +283,17 @@ export class CandleRenderer {
     this.standNumbers.set(stand === null ? [0, 0, 0.01, 0] : [stand.x, stand.z, stand.radius, stand.height], 4 * k);
   }
 
-  private drawLight(program: Program, view: RoomView, shown: CandlePicture): void {
+  /** `lies`: the match is drawn, and on the table. */
+  private drawLight(program: Program, view: RoomView, shown: CandlePicture, lies: boolean): void {
     this.surface.bindTexture(0);
+    const { match } = shown;
     const first = shown.candles[0]?.stand;
-    this.setRoom(program, view, shown.setting)
+    this.setRoom(program, view, shown)
       .setInteger('uSurface', 0)
       .setInteger('uCount', this.lamps.length)
       .set('uGround', first?.ground ?? 0)
+      .set('uMatch', view.pixelX(match.x, match.z), view.pixelY(match.y, match.z), view.pixelX(match.x + 0.57 * match.unit, match.z), view.pixelY(match.y - 0.88 * match.unit, match.z))
+      .set('uMatchThick', lies ? 0.055 * match.unit * view.scale * view.nearness(match.z) : 0)
       .set('uFoot', first === undefined || first.saucer === 0 ? 1 : first.saucer / first.radius)
       .setVectors4('uLights', this.lights)
       .setVectors4('uHalos', this.halos)
@@ -313,7 +326,7 @@ export class CandleRenderer {
     const sum: [number, number, number, number] = [0, 0, 0, 0];
     const own = stand.x + stand.unit * shape.middleX;
     for (const lamp of this.lamps) {
-      if (lamp.x === own && lamp.z === stand.z) continue;
+      if (Math.abs(lamp.x - own) < 1e-6 && Math.abs(lamp.z - stand.z - stand.unit * candle.nearer) < 1e-6) continue;
       const dx = lamp.x - stand.x;
       const dz = lamp.z - stand.z;
       const flat2 = Math.max(0.1, dx * dx + dz * dz);
@@ -327,15 +340,16 @@ export class CandleRenderer {
     return sum;
   }
 
-  private drawCandle(view: RoomView, candle: DrawnCandle, { clock }: CandlePicture): void {
+  private drawCandle(view: RoomView, candle: DrawnCandle, { clock, turn }: CandlePicture): void {
     const { stand, shape } = candle;
     const top = stand.ground + stand.height;
     const radius = stand.radius / stand.unit;
     const height = stand.height / stand.unit;
     const upper = view.flatness(top, stand.z);
     const lower = view.flatness(stand.ground, stand.z);
-    const saucer = stand.saucer / stand.unit;
-    const wide = Math.max(radius, saucer) + 0.06;
+    // Without a table each stands in a dish of its own.
+    const saucer = (view.clear && stand.saucer === 0 ? 2.7 * stand.radius : stand.saucer) / stand.unit;
+    const wide = Math.max(radius, saucer) + 0.12;
     const box = [-wide, -height - Math.max(radius, saucer) * lower - 0.05, wide, 0.34];
     this.setBoard(this.programs.candle, view, stand.x, top, stand.z, stand.unit, box)
       .set('uRadius', radius)
@@ -348,6 +362,7 @@ export class CandleRenderer {
       .set('uSeed', stand.seed)
       .set('uStripe', stand.striped ? 1 : 0)
       .set('uClock', clock)
+      .set('uTurn', turn)
       .set('uWax', ...stand.wax)
       .set('uOthers', ...this.lightFromOthers(candle));
     this.quad.draw();
@@ -367,7 +382,7 @@ export class CandleRenderer {
       .set('uLight', shape.empty ? 0 : shape.light)
       .set('uEmber', ember)
       .set('uWax', ...stand.wax)
-      .set('uOthers', ...this.lightFromOthers({ stand, shape } as DrawnCandle));
+      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer: 0 } as DrawnCandle));
     this.quad.draw();
   }
 
@@ -421,7 +436,7 @@ export class CandleRenderer {
       const scale = (view.scale * view.nearness(z) * unit) / tall;
       const at = [(view.pixelX(x, z) + (lit ? 0.6 * shape.tipX * scale * tall : 0)) / tall, view.pixelY(y, z) / tall + (lit ? 0.8 * shape.tipY * scale : 0)];
       this.heats.set([...at, Math.max(MIN_PLUME, (lit ? 0.16 : 0.10) * scale), lit ? 9 * shape.light : 7 * smoking], 4 * count);
-      this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
+      this.wicks.set([...at, 0.015 * scale + 0.001, 24 * smoking], 4 * count);
       count += 1;
     };
     // Of many, one for each light.

@@ -1,13 +1,14 @@
 // The candle: a flame model, alive, in a dark room; and the cake, several of them in one wind.
 
-import type { Bank, FlameState, Instance, Model } from '../index.js';
-import type { Acting, Pointer, Reading, Scene, SceneLook, SceneSettings } from '../stage/scene.js';
+import { WispError, type Bank, type FlameState, type Instance, type Model } from '../index.js';
+import type { Acting, Air, Pointer, Reading, Scene, SceneLook, SceneSettings } from '../stage/scene.js';
 import { Candle } from './candle.js';
 import type { Lender } from './lender.js';
 import { Match } from './match.js';
+import { Orbit } from './orbit.js';
 import { CandleRenderer } from './renderer.js';
 import { MAX_CANDLES, RoomView, settingFor, type Setting } from './room.js';
-import { WindDelay } from '../air/delay.js';
+import { shelter, WindDelay } from '../air/delay.js';
 
 /** Points of a flame's outline; smooth at 500 pixels' height. */
 const OUTLINE_POINTS = 40;
@@ -15,12 +16,24 @@ const NANOSECONDS = 1e9;
 /** Seconds after the last flame went out between which a wish rises. */
 const WISH = { from: 0.9, to: 5 };
 
+/** The model in the round; null where it is no flame of symmetric and antisymmetric components. */
+function roundOf(model: Model): Model | null {
+  try {
+    return model.inTheRound();
+  } catch (error) {
+    if (error instanceof WispError) return null;
+    throw error;
+  }
+}
+
 export class CandleScene implements Scene {
   readonly bank: Bank;
   readonly answerName = 'tip, sideways';
   private readonly view = new RoomView();
   private readonly match = new Match();
-  private readonly delay = new WindDelay();
+  /** wind across the table, and away from the eye */
+  private readonly across = new WindDelay();
+  private readonly away = new WindDelay();
   private setting: Setting = settingFor(1);
   private candles: Candle[] = [];
   private renderer: CandleRenderer | null = null;
@@ -30,7 +43,9 @@ export class CandleScene implements Scene {
   private breath = 0;
   private hand: Pointer = { x: 0, y: 0, fromX: 0, fromY: 0, speedX: 0, speedY: 0, present: false };
   private dragged: { offset: number; goal: number } | null = null;
-  private inputs = new Float32Array(1);
+  /** the model in the round, which plays in its place; null: it has no other sides */
+  private readonly round: Model | null;
+  readonly orbit = new Orbit();
   private settings: SceneSettings;
   private lender: Lender | null = null;
   private disposed = false;
@@ -40,9 +55,9 @@ export class CandleScene implements Scene {
     settings: SceneSettings,
   ) {
     this.settings = { ...settings };
-    this.bank = model.bank({ capacity: MAX_CANDLES + 1, polylinePoints: OUTLINE_POINTS, seed: settings.seed });
+    this.round = roundOf(model);
+    this.bank = (this.round ?? model).bank({ capacity: MAX_CANDLES + 1, polylinePoints: OUTLINE_POINTS, seed: settings.seed });
     this.bank.setNoise(settings.noise);
-    this.inputs = new Float32Array(Math.max(1, this.bank.inputs));
     this.seat();
   }
 
@@ -58,14 +73,18 @@ export class CandleScene implements Scene {
     const { seconds } = acting;
     this.passed += seconds;
     this.clock += seconds;
-    this.breath = acting.breath;
     this.hand = acting.pointer;
     this.followPointer(acting);
     this.match.update(seconds);
     this.tendMatch();
-    this.delay.push(seconds, acting.breath);
-    for (const candle of this.candles) this.blowOn(candle, acting);
-    if (this.match.id !== null) this.setWind(this.match.id, Math.max(-1, Math.min(1, -0.16 * this.match.speedX)));
+    // What has no other sides is blown along one line.
+    const air = this.round === null ? { right: acting.breath, away: 0 } : (acting.air ?? { right: acting.breath, away: 0 });
+    // Smoke has only the picture's plane to go.
+    this.breath = air.right + 0.5 * air.away;
+    this.across.push(seconds, air.right);
+    this.away.push(seconds, air.away);
+    for (const candle of this.candles) this.blowOn(candle, acting, air);
+    if (this.match.id !== null) this.setWind(this.match.id, Math.max(-1, Math.min(1, -0.16 * this.match.speedX)), 0);
     this.bank.advance(seconds * NANOSECONDS);
     this.lender?.bank.advance(seconds * NANOSECONDS);
     for (const candle of this.candles) this.showCandle(candle);
@@ -74,7 +93,8 @@ export class CandleScene implements Scene {
 
   reading(): Reading {
     const first = this.candles[this.candles.length - 1];
-    return { wind: first?.wind ?? 0, answer: first?.shape.empty === false ? first.shape.tipX : 0 };
+    // In the round a breath comes from the eye: the tip leans away from it.
+    return { wind: first?.wind ?? 0, answer: first?.shape.empty === false ? first.shape.tipX + first.tipAway : 0 };
   }
 
   attach(gl: WebGL2RenderingContext): void {
@@ -87,7 +107,7 @@ export class CandleScene implements Scene {
     if (this.renderer === null) return false;
     const { setting, candles, match, passed, clock, breath, hand } = this;
     const { name = '', wish = '' } = this.settings;
-    const shown = { setting, candles, match, seconds: passed, clock, breath, hand, name, wish: this.wishing() ? wish : '' };
+    const shown = { setting, candles, match, seconds: passed, clock, breath, hand, name, wish: this.wishing() ? wish : '', turn: this.orbit.azimuth };
     this.passed = 0;
     return this.renderer.draw(view, shown, look);
   }
@@ -102,7 +122,10 @@ export class CandleScene implements Scene {
       return;
     }
     const candle = this.candleAt(x, y);
-    if (candle === null) return;
+    if (candle === null) {
+      if (this.round !== null) this.orbit.grab(x);
+      return;
+    }
     const at = this.view.roomX(x, candle.stand.z);
     const held = this.setting.cake?.x ?? candle.stand.x;
     this.dragged = { offset: held - at, goal: held };
@@ -114,9 +137,17 @@ export class CandleScene implements Scene {
       return;
     }
     this.dragged = null;
+    this.orbit.letGo();
     if (!tap) return;
     const nearest = this.nearestOut(x, y);
     if (nearest !== null) this.relight(nearest);
+  }
+
+  /** Goes round what stands there; false where it has no other sides. */
+  goRound(radians: number): boolean {
+    if (this.round === null) return false;
+    if (this.orbit.turnTo(this.orbit.azimuth + radians)) this.turn();
+    return true;
   }
 
   act(): void {
@@ -176,6 +207,7 @@ export class CandleScene implements Scene {
     this.disposed = true;
     this.renderer?.dispose();
     this.bank.free();
+    this.round?.free();
     this.lender?.bank.free();
   }
 
@@ -197,13 +229,28 @@ export class CandleScene implements Scene {
     this.candles = this.setting.stands.map((stand) => new Candle(stand, this.bank.spawn(BigInt(stand.seed))));
     if (this.lender !== null) for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
     this.dragged = null;
+    this.turn();
     this.frame(this.view.width, this.view.height, this.view.footer, this.view.clear);
   }
 
-  private setWind(id: Instance, wind: number, bank = this.bank): void {
-    if (bank.inputs === 0) return;
-    this.inputs[0] = wind;
-    bank.setInstanceInputs(id, this.inputs);
+  private setWind(id: Instance, right: number, away: number, bank = this.bank): void {
+    if (bank.inputs === 1) bank.setInstanceInputs(id, [right + away]);
+    if (bank.inputs === 2) bank.setInstanceInputs(id, this.orbit.wind(right, away));
+  }
+
+  /** Where things stand, as the eye sees it: what is farthest comes first. Digits face it. */
+  private turn(): void {
+    const { cake } = this.setting;
+    for (const candle of this.candles) {
+      if (cake === null || candle.stand.figure !== null) continue;
+      const [right, near] = this.orbit.seen(...candle.seat);
+      candle.put(cake.x + right, near);
+    }
+    this.candles.sort((a, b) => a.stand.z - b.stand.z);
+  }
+
+  private outlineOf(id: Instance, z: number, foot: number): Float32Array {
+    return this.round === null ? this.bank.polyline(id) : this.orbit.see(this.bank.rings(id), this.view.flatness(foot, z));
   }
 
   private stateOf({ id, lent }: Candle): FlameState {
@@ -214,6 +261,7 @@ export class CandleScene implements Scene {
     if (this.match.held) {
       this.match.moveTo(this.view.roomX(pointer.x, this.match.z), this.view.roomY(pointer.y, this.match.z));
     }
+    if (this.orbit.drag(pointer.x, pointer.speedX, this.view.width)) this.turn();
     if (this.dragged === null) return;
     const edge = this.view.roomX(this.view.width, 0) - 0.4;
     const goal = this.view.roomX(pointer.x, 0) + this.dragged.offset;
@@ -224,24 +272,36 @@ export class CandleScene implements Scene {
     for (const candle of this.candles) candle.stand.x += way;
   }
 
-  private blowOn(candle: Candle, acting: Acting): void {
+  /** The air at a candle of a cake: later where it has farther to go, weaker behind others. */
+  private airAt({ stand }: Candle, cake: { x: number }): Air {
+    const stands = this.candles.map((candle) => candle.stand);
+    const right = this.across.at(stand.x - cake.x, stand.z);
+    const away = this.away.at(-stand.z, stand.x - cake.x);
+    return { right: right === 0 ? 0 : right * shelter(stand, stands, Math.sign(right), 0), away: away === 0 ? 0 : away * shelter(stand, stands, 0, -Math.sign(away)) };
+  }
+
+  private blowOn(candle: Candle, acting: Acting, air: Air): void {
     const { stand } = candle;
-    const breath = this.setting.cake === null ? acting.breath : this.delay.at(stand.x - this.setting.cake.x, stand.z);
+    const felt = this.setting.cake === null ? air : this.airAt(candle, this.setting.cake);
     candle.sheltered = Math.max(0, candle.sheltered - acting.seconds);
-    const busy = this.match.held || this.dragged !== null || candle.sheltered > 0;
+    const busy = this.match.held || this.dragged !== null || this.orbit.turning || candle.sheltered > 0;
     const near = this.view.scale * this.view.nearness(stand.z) * stand.unit;
     const flameX = this.view.pixelX(stand.x, stand.z);
     const flameY = this.view.pixelY(candle.foot + 0.4 * stand.unit, stand.z);
     candle.stroke.update(acting, busy, flameX, flameY, near);
-    candle.wind = breath + candle.stroke.wind + candle.motionWind(acting.seconds);
-    this.setWind(candle.id, candle.wind);
-    if (candle.lent !== null) this.setWind(candle.lent, candle.wind, this.lender?.bank);
+    const right = felt.right + candle.stroke.wind.right + candle.motionWind(acting.seconds);
+    const away = felt.away + candle.stroke.wind.away;
+    candle.wind = right + away;
+    this.setWind(candle.id, right, away);
+    if (candle.lent !== null) this.setWind(candle.lent, right, away, this.lender?.bank);
   }
 
   private showCandle(candle: Candle): void {
     const state = this.stateOf(candle);
     const sinceOut = state.lit ? Infinity : Number(state.sinceOut) / NANOSECONDS;
-    const own = this.bank.polyline(candle.id);
+    const own = this.outlineOf(candle.id, candle.stand.z, candle.foot);
+    candle.tipAway = this.orbit.tipAway;
+    candle.nearer = -this.orbit.middleAway;
     const outline = candle.lent === null || this.lender === null ? own : this.lender.lend(candle.lent, own, state);
     candle.show(outline, state.flameSize, sinceOut);
   }
@@ -286,7 +346,7 @@ export class CandleScene implements Scene {
     if (match.id !== null) {
       const state = this.bank.flameState(match.id);
       match.size = state.flameSize;
-      match.shape.update(this.bank.polyline(match.id), state.flameSize);
+      match.shape.update(this.outlineOf(match.id, match.z, match.y), state.flameSize);
       match.sinceOut = Infinity;
     } else if (match.sinceOut < Infinity) {
       match.sinceOut += seconds;

@@ -109,6 +109,7 @@ export abstract class SceneElement extends Base {
       this.canvas,
       {
         breath: (seconds) => this.breath(seconds),
+        air: () => (this.getAttribute('wind') === 'none' ? { right: 0, away: 0 } : this.wind.air),
         touched: () => undefined,
         context: (state) => this.say(state === 'absent' ? 'This browser shows no WebGL 2.' : ''),
         framed: () => {

@@ -16,12 +16,20 @@ export interface Pointer {
   present: boolean;
 }
 
+/** Wind along the table as the eye sees it: to its right, and away from it. */
+export interface Air {
+  right: number;
+  away: number;
+}
+
 /** What acts on a scene during one frame. */
 export interface Acting {
   /** time since the last frame, as scenes count it: at most a tenth of a second, 0 while paused */
   seconds: number;
-  /** from microphone and keys together, signed, 1 is a strong breath */
+  /** from microphone and keys together, signed towards the right, 1 is a strong breath: for what is blown along one line */
   breath: number;
+  /** the same for what stands in the round */
+  air?: Air;
   pointer: Pointer;
 }
 

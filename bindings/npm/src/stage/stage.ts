@@ -2,7 +2,7 @@
 
 import { FrameLoop } from './frame_loop.js';
 import { PointerReader } from './pointer.js';
-import type { Scene } from './scene.js';
+import type { Air, Scene } from './scene.js';
 
 /** Longest time that a frame stands for; after a pause the scene goes on where it was. */
 const LONGEST_FRAME = 0.1;
@@ -30,6 +30,8 @@ export interface FrameCost {
 export interface StageEvents {
   /** breath at this frame: microphone and keys, signed */
   breath(seconds: number): number;
+  /** the same as a vector; asked for after it */
+  air?(): Air;
   touched(): void;
   /** the graphics card took the picture away, or gave it back */
   context(state: 'absent' | 'lost' | 'back'): void;
@@ -162,7 +164,8 @@ export class Stage {
     const before = performance.now();
     this.pointer.update(seconds);
     if (this.still) this.pointer.now.speedX = this.pointer.now.speedY = 0;
-    this.scene.update({ seconds, breath: this.events.breath(seconds), pointer: this.pointer.now });
+    const breath = this.events.breath(seconds);
+    this.scene.update({ seconds, breath, air: this.events.air?.() ?? { right: breath, away: 0 }, pointer: this.pointer.now });
     const between = performance.now();
     this.fade = Math.min(1, this.fade + passed / FADE_SECONDS);
     if (this.gl !== null && !this.gl.isContextLost()) {

@@ -36,33 +36,52 @@ Hit hitOf(vec2 pixel) {
   return hit;
 }
 
+// A raspberry seen from above: drupelets, each round and shining. place is 1 long at its edge.
+vec3 raspberry(vec2 place, float chance) {
+  vec2 q = 2.7 * place + chance;
+  vec2 cell = vec2(q.x + 0.5 * floor(q.y), q.y);
+  vec2 off = fract(cell) - 0.5;
+  float round_ = max(0.0, 1.0 - 3.4 * dot(off, off));
+  vec3 fruit = mix(vec3(0.34, 0.02, 0.09), vec3(0.84, 0.16, 0.24), round_ * (0.55 + 0.45 * hash1(floor(cell))));
+  fruit += vec3(0.55, 0.36, 0.36) * smoothstep(0.030, 0.0, dot(off + 0.13, off + 0.13));
+  return fruit * (0.62 + 0.38 * sqrt(max(0.0, 1.0 - dot(place, place))));
+}
+
+// Cream from a star-shaped nozzle, wound to one side or the other; the candles stand where place.y is negative.
+vec3 rosette(vec2 place, float chance) {
+  float far = length(place);
+  float ridges = cos(6.0 * atan(place.y, place.x) + (chance < 0.5 ? 7.0 : -7.0) * far + 6.28 * chance);
+  vec3 sugar = mix(vec3(0.94, 0.60, 0.62), mix(vec3(0.97, 0.88, 0.78), vec3(0.90, 0.72, 0.80), step(0.7, chance)), smoothstep(0.2, 0.6, chance));
+  float lit = 0.74 - 0.20 * place.y + 0.20 * ridges * smoothstep(0.05, 0.5, far) + 0.22 * exp(-9.0 * far * far);
+  return sugar * lit * (0.72 + 0.28 * sqrt(max(0.0, 1.0 - far * far)));
+}
+
 vec4 cakeTop(vec3 at) {
   float r = length(at.xz);
   float turn = atan(at.z, at.x);
   float swirl = 0.5 + 0.5 * sin(r * 26.0 + 2.2 * sin(turn * 3.0));
-  vec3 colour = vec3(0.90, 0.88, 0.90) * (0.92 + 0.06 * swirl + 0.05 * fractal(at.xz * 9.0));
+  vec3 colour = vec3(0.93, 0.89, 0.86) * (0.92 + 0.06 * swirl + 0.05 * fractal(at.xz * 9.0));
   // A ring of piped rosettes, no two alike, and raspberries between them.
   float cells = 34.0;
-  float along = (fract(turn / 6.2832 * cells) - 0.5) * 6.2832 * (uCake.x - 0.15) / cells;
-  vec2 rose = vec2(along, r - (uCake.x - 0.155)) / 0.158;
-  float high = 1.0 - dot(rose, rose);
-  float piped = smoothstep(0.0, 0.12, high);
   float which = floor(turn / 6.2832 * cells);
-  float berry = step(0.5, fract(which / 3.0 + 0.01) * 1.5) * step(fract(which / 3.0 + 0.01), 0.5);
+  float along = (fract(turn / 6.2832 * cells) - 0.5) * 6.2832 * (uCake.x - 0.15) / cells;
   float chance = hash1(vec2(which, 11.0));
-  float curl = 0.82 + 0.18 * sin((8.0 + 2.5 * chance) * length(rose) + 2.0 * atan(rose.y, rose.x) + 6.28 * chance);
-  colour *= 1.0 - 0.35 * smoothstep(-0.5, 0.0, high) * (1.0 - piped);
-  vec3 sugar = mix(vec3(0.86, 0.42, 0.50), vec3(0.93, 0.78, 0.76), chance);
-  vec2 seeds = fract(rose * 3.4 + vec2(0.5 * floor(rose.y * 3.4), 0.0)) - 0.5;
-  vec3 fruit = vec3(0.50, 0.030, 0.085) * (0.62 + 0.75 * smoothstep(0.5, 0.1, length(seeds)));
-  colour = mix(colour, mix(sugar * curl, fruit, berry) * (0.55 + 0.47 * sqrt(max(0.0, high))), piped);
+  vec2 place = vec2(along + 0.016 * (chance - 0.5), r - (uCake.x - 0.162)) / (0.142 + 0.030 * hash1(vec2(which, 5.0)));
+  bool berry = mod(which, 3.0) < 0.5;
+  float scallops = berry ? 0.0 : 0.07 * cos(12.0 * atan(place.y, place.x) + 6.28 * chance);
+  float high = 1.0 - dot(place, place) * (1.0 + scallops);
+  float piped = smoothstep(0.0, 0.10, high);
+  // What stands there shades the icing on its outer side.
+  vec2 behind = place - vec2(0.0, 0.22);
+  colour *= 1.0 - 0.45 * smoothstep(-0.55, 0.15, 1.0 - dot(behind, behind)) * (1.0 - piped);
+  colour = mix(colour, berry ? raspberry(place, chance) : rosette(place, chance), piped);
   vec2 cell = floor(at.xz * 7.5);
   vec2 in_cell = fract(at.xz * 7.5) - 0.5;
   float angle = hash1(cell + 5.0) * 6.28;
   vec2 q = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * (in_cell - 0.3 * (vec2(hash1(cell), hash1(cell + 9.0)) - 0.5));
   float sprinkle = (1.0 - smoothstep(0.045, 0.09, length(vec2(max(abs(q.x) - 0.16, 0.0), q.y)))) * step(0.62, hash1(cell + 2.0));
   vec3 hue = 0.50 + 0.36 * cos(6.28 * (hash1(cell + 1.0) + vec3(0.0, 0.33, 0.67)));
-  return vec4(mix(colour, hue, sprinkle * (1.0 - piped)), 0.25);
+  return vec4(mix(colour, hue, sprinkle * (1.0 - piped)), berry ? mix(0.25, 0.6, piped) : 0.25);
 }
 
 vec4 cakeSide(vec3 at) {
@@ -72,14 +91,25 @@ vec4 cakeSide(vec3 at) {
   float below = uCake.y - at.y;
   float icing = 1.0 - smoothstep(drop - 0.010, drop + 0.010, below);
   float crumb = fractal(vec2(turn * 22.0, at.y * 24.0));
-  vec3 sponge = mix(vec3(0.25, 0.115, 0.060), vec3(0.46, 0.250, 0.140), crumb);
+  vec3 sponge = mix(vec3(0.34, 0.190, 0.110), vec3(0.56, 0.345, 0.210), crumb);
   float layer = smoothstep(0.045, 0.03, abs(at.y - 0.46 * uCake.y + 0.012 * crumb));
-  sponge = mix(sponge, vec3(0.84, 0.78, 0.74), layer);
-  // Thick cream: rounded towards its lower edge, which shades the sponge.
-  vec3 cream = vec3(0.86, 0.86, 0.92) * (0.62 + 0.38 * smoothstep(0.0, 0.10, drop - below));
-  sponge *= 0.55 + 0.45 * smoothstep(0.0, 0.10, below - drop);
-  float foot = smoothstep(0.20, 0.17, at.y) * (0.55 + 0.45 * abs(sin(turn * 19.0)));
-  return vec4(mix(mix(sponge, cream, icing), vec3(0.84, 0.55, 0.60), foot), 0.40 * icing);
+  sponge = mix(sponge, vec3(0.90, 0.82, 0.74), layer);
+  // Thick cream: rounded towards its lower edge, which shades the sponge; a drop shines along its shoulder and at its end.
+  float inside = drop - below;
+  float bulge = pow(0.5 + 0.5 * sin(run), 1.6);
+  vec3 cream = vec3(0.84, 0.80, 0.77) * (0.66 + 0.34 * smoothstep(0.0, 0.09, inside)) * (0.90 + 0.10 * bulge);
+  float shoulder = exp(-pow((fract(run / 6.2832 + 0.25) - 0.40) / 0.045, 2.0)) * smoothstep(0.05, 0.13, inside) * smoothstep(0.06, 0.16, below);
+  float bead = exp(-pow((inside - 0.075) / 0.022, 2.0)) * smoothstep(0.72, 0.98, bulge);
+  float lip = exp(-pow((below - 0.035) / 0.016, 2.0));
+  cream += vec3(0.20, 0.19, 0.17) * min(1.0, shoulder + bead + 0.7 * lip);
+  sponge *= 0.60 + 0.40 * smoothstep(0.0, 0.10, below - drop);
+  // Pearls of cream along the foot.
+  vec2 pearl = vec2(fract(turn * 13.0 / 1.5708) - 0.5, (at.y - 0.125) / 0.065 * 0.5) * 2.0;
+  float ball = 1.0 - dot(pearl, pearl);
+  float foot = smoothstep(-0.15, 0.05, ball) * step(at.y, 0.2);
+  vec3 pink = vec3(0.98, 0.80, 0.77) * (0.60 + 0.40 * sqrt(max(0.0, ball))) + 0.12 * smoothstep(0.10, 0.0, length(pearl - vec2(-0.25, 0.35)));
+  sponge *= 1.0 - 0.45 * smoothstep(0.24, 0.10, at.y);
+  return vec4(mix(mix(sponge, cream, icing), pink, foot), 0.40 * icing);
 }
 
 // A plaque of white chocolate that leans on the side, with a name in dark chocolate.
@@ -90,17 +120,31 @@ vec4 plaque(vec3 at, vec4 side) {
   if (uPlaque.x <= 0.0 || edge > 0.05) return side;
   vec4 shadow = vec4(side.rgb * mix(0.35, 1.0, smoothstep(0.0, 0.05, edge)), side.a);
   float rim = smoothstep(-0.030, -0.012, edge) * smoothstep(0.0, -0.008, edge);
-  vec3 white = vec3(0.92, 0.84, 0.70) * (0.90 + 0.10 * smoothstep(0.0, -0.05, edge)) + 0.10 * rim;
+  vec3 white = vec3(0.97, 0.90, 0.79) * (0.90 + 0.10 * smoothstep(0.0, -0.05, edge)) + 0.10 * rim;
   float ink = texture(uName, 0.5 + 0.5 * p / (uPlaque * vec2(0.94, 0.94))).a;
-  return mix(vec4(mix(white, vec3(0.10, 0.036, 0.016), ink), 0.35), shadow, smoothstep(-0.006, 0.006, edge));
+  return mix(vec4(mix(white, vec3(0.26, 0.115, 0.065), ink), 0.35), shadow, smoothstep(-0.006, 0.006, edge));
 }
 
 vec4 cakeSurface(Hit hit) {
   vec3 at = hit.at - vec3(uCake.z, 0, 0);
+  at.xz = before(at.xz);
   if (hit.kind == kOnCakeTop) return cakeTop(at);
   if (hit.kind == kOnCakeSide) return plaque(at, cakeSide(at));
   float rim = length(at.xz) - uCake.x;
-  return vec4(mix(vec3(0.40, 0.41, 0.45), vec3(0.52, 0.36, 0.13), smoothstep(0.022, 0.008, abs(rim - 0.285))), 1.0);
+  vec3 plate = mix(vec3(0.62, 0.62, 0.66), vec3(0.70, 0.48, 0.18), smoothstep(0.022, 0.008, abs(rim - 0.285)));
+  // In its glaze stands the cake, upside down.
+  vec3 way = hit.at - vec3(0, uEye, uView.w);
+  vec2 from = hit.at.xz - vec2(uCake.z, 0);
+  vec2 flat_ = normalize(way.xz);
+  float reach = -dot(from, flat_) - sqrt(max(0.0, uCake.x * uCake.x - dot(from, from) + pow(dot(from, flat_), 2.0)));
+  float height = 0.06 - reach * way.y / length(way.xz);
+  if (reach > 0.0 && dot(from, from) - pow(dot(from, flat_), 2.0) < uCake.x * uCake.x) {
+    vec2 mirrored = before(from + reach * flat_);
+    plate = mix(plate, 0.50 * cakeSide(vec3(mirrored.x, height, mirrored.y)).rgb, 0.52 * smoothstep(0.36, 0.30, rim));
+  }
+  // Where it stands on the plate it is dark.
+  plate *= 0.45 + 0.55 * smoothstep(0.0, 0.07, rim);
+  return vec4(plate, 1.0);
 }
 
 // How much of a flame's light comes past the candles: each throws a streak that grows softer away from its foot.

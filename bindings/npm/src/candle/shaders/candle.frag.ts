@@ -1,7 +1,7 @@
 export default /* glsl */ `
 // A candle: wax that its flame shines through, the melted pool, the wick and its ember, and the saucer below. The foot is
 // the middle of the upper end; units are the flame's.
-uniform float uRadius, uHeight, uPixel, uLight, uEmber, uSeed, uStripe, uSaucer, uClock;
+uniform float uRadius, uHeight, uPixel, uLight, uEmber, uSeed, uStripe, uSaucer, uClock, uTurn;
 uniform vec2 uFlat;      // how round the upper and the lower end look: axes of their ellipses
 uniform vec2 uLean;      // where the flame's middle is
 uniform vec3 uWax;
@@ -12,17 +12,19 @@ out vec4 colour;
 const vec3 kFire = vec3(1.0, 0.46, 0.13);
 const vec3 kMoon = vec3(0.30, 0.47, 0.92);
 
-// How far wax stands out there: old drops that ran down the side and stopped in a bead.
+// How far wax stands out there: old drops that ran down the side and stopped in a bead, twelve around it.
 float drips(float turn, float below) {
   float sum = 0.0;
-  for (int k = 0; k < 7; ++k) {
-    float chance = hash1(vec2(uSeed + 3.0, float(k)));
-    float at = -1.62 + 0.54 * float(k) + 0.36 * (hash1(vec2(uSeed, float(k))) - 0.5) + 0.03 * sin(7.0 * below + 9.0 * chance);
+  float cell = floor((turn + uTurn) / 0.5236);
+  for (float k = -1.0; k <= 1.0; ++k) {
+    float which = mod(cell + k, 12.0);
+    float chance = hash1(vec2(uSeed + 3.0, which));
+    float at = (cell + k + 0.5) * 0.5236 + 0.36 * (hash1(vec2(uSeed, which)) - 0.5) + 0.03 * sin(7.0 * below + 9.0 * chance);
     float lasts = uHeight * (0.08 + 0.46 * chance * chance);
     float bead = exp(-pow((below - lasts + 0.05) / 0.07, 2.0));
     float wide = 0.07 + 0.09 * exp(-below / 0.16) + 0.035 * bead;
     float there = smoothstep(lasts + 0.03, lasts - 0.03, below);
-    float across = (turn - at) / wide;
+    float across = (turn + uTurn - at) / wide;
     sum += there * (0.55 + 0.45 * bead) * exp(-across * across);
   }
   return min(1.0, sum) * (1.0 - uStripe);
@@ -43,7 +45,7 @@ vec3 side(float u, float below) {
   through *= 0.93 + 0.14 * fractal(vec2(turn * 3.0 + uSeed, below * 2.2));
   vec3 hue = mix(vec3(1.0, 0.56, 0.21), vec3(0.80, 0.17, 0.030), 1.0 - exp(-deep / 0.62));
   vec3 wax = uWax;
-  float band = fract((below / uRadius) * 0.42 + turn * 0.32);
+  float band = fract((below / uRadius) * 0.42 + (turn + uTurn) * 0.3183);
   float edge = fwidth((below / uRadius) * 0.42) * 2.0;
   wax = mix(wax, vec3(0.90, 0.87, 0.83), uStripe * smoothstep(0.5 - edge, 0.5 + edge, abs(band - 0.5) * 2.0));
   vec3 lit = wax * hue * through * uLight;
@@ -79,7 +81,7 @@ vec3 top(vec2 q) {
 
 // Distance from the wick's line, and how far up it is (0 to 1).
 vec2 wick(vec2 p) {
-  vec2 a = vec2(0.0, -0.012), b = vec2(-0.016, 0.10), c = vec2(0.030 + 0.02 * hash1(vec2(uSeed, 8.0)), 0.165);
+  vec2 a = vec2(0.0, -0.012), b = vec2(-0.016 * cos(uTurn), 0.10), c = vec2((0.030 + 0.02 * hash1(vec2(uSeed, 8.0))) * cos(uTurn), 0.165);
   float best = 1e9, along = 0.0;
   vec2 from = a;
   for (int k = 1; k <= 8; ++k) {

@@ -8,9 +8,13 @@ uniform vec4 uStands[14];   // each candle: foot x, z; radius; height over what 
 uniform float uGround;      // height that candles stand on
 uniform float uFoot;        // of what each candle stands on: radius, in its own radii
 uniform int uCount;
+uniform vec4 uMatch;        // pixels of the match's head and of its other end, where it lies on the table
+uniform float uMatchThick;  // pixels of its shadow's half width; 0: it does not lie there
 out vec4 colour;
 
 const vec3 kFire = vec3(1.0, 0.44, 0.115);
+// What bright icing throws to and fro loses its red least: it looks nearly white to an eye that is used to candles.
+const vec3 kOnCream = vec3(1.0, 0.60, 0.31);
 const vec3 kMoon = vec3(0.36, 0.56, 1.0);
 
 // Moonlight through a window that is not in the picture: nine panes, slanted, on the wall, low enough for wide pictures.
@@ -44,6 +48,7 @@ vec3 shown(Hit hit, vec4 surface) {
   vec3 albedo = surface.rgb * surface.rgb;
   vec3 eye = normalize(vec3(0.0, uEye, uView.w) - hit.at);
   bool level = hit.normal.y > 0.5;
+  vec3 fire = hit.kind == kOnCakeTop ? kOnCream : mix(kFire, kOnCream, hit.kind >= kOnPlate ? 0.6 : 0.0);
   vec3 light = vec3(0);
   vec3 gloss = vec3(0);
   for (int k = 0; k < uCount; ++k) {
@@ -56,10 +61,10 @@ vec3 shown(Hit hit, vec4 surface) {
     float fall = uLights[k].w / (0.22 + r2);
     float seen = shade(hit.at, uStands[k], uLights[k].xyz);
     if (hit.kind == kOnCakeTop) seen *= sticks(hit.at, uLights[k].xyz);
-    light += kFire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : hit.kind == kOnCakeTop ? 0.62 : 1.0));
+    light += fire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : hit.kind == kOnCakeTop ? 0.62 : 1.0));
     if (surface.a > 0.0 && hit.kind != kOnWall) {
       float shine = max(0.0, dot(hit.normal, normalize(way + eye)));
-      gloss += kFire * (surface.a * fall * seen * (0.9 * pow(shine, 60.0) + 0.10 * pow(shine, 12.0)));
+      gloss += fire * (surface.a * fall * seen * (0.9 * pow(shine, 60.0) + 0.10 * pow(shine, 12.0)));
     }
     // Wax lets some light through to what the candle stands on.
     if (level) {
@@ -72,7 +77,12 @@ vec3 shown(Hit hit, vec4 surface) {
   for (int k = 0; k < uCount; ++k) lit += uLights[k].w;
   float moon = mix(1.0, 0.12, min(1.0, 2.5 * lit));
   vec3 night = vec3(0.005, 0.007, 0.013) * (0.55 + 0.45 * hit.normal.y);
-  if (hit.kind == kOnWall) night += kMoon * moon * (0.040 * window(hit.at.xy) + 0.008 * exp(-0.35 * length(hit.at.xy - vec2(1.9, 2.0))));
+  if (hit.kind == kOnWall) {
+    vec2 wall = hit.at.xy + vec2(9.0 * sin(0.5 * uTurn), 0);
+    night += kMoon * moon * (0.040 * window(wall) + 0.008 * exp(-0.35 * length(wall - vec2(1.9, 2.0))));
+  }
+  // The side that is turned away from the flames is cool.
+  else if (hit.kind == kOnCakeSide) night += kMoon * (0.01 + 0.13 * smoothstep(0.30, 1.0, hit.normal.x));
   else night += kMoon * 0.013 * smoothstep(6.5, 0.0, length(hit.at.xz - vec2(1.2, -3.0)));
   float corner = hit.kind == kOnWall ? 0.30 + 0.70 * smoothstep(0.0, 1.9, hit.at.y) : 0.50 + 0.50 * smoothstep(-4.6, -2.4, hit.at.z);
   return albedo * (4.2 * light + 3.0 * night) * corner + 0.7 * gloss;
@@ -92,6 +102,10 @@ void main() {
   } else
 #endif
   light = shown(hit, texelFetch(uSurface, cell, 0));
+  if (uMatchThick > 0.0 && hit.kind == kOnTable) {
+    float off = segment(at + vec2(-0.5, 0.9) * uMatchThick, uMatch.xy, uMatch.zw) / uMatchThick;
+    light *= 1.0 - 0.70 * exp(-off * off);
+  }
   vec3 air = vec3(0);
   for (int k = 0; k < uCount; ++k) {
     float far = segment(at, uHalos[k].xy, uHalos[k].zw) / uSpread[k];

@@ -3,8 +3,11 @@ export default /* glsl */ `
 out vec4 surface;
 
 vec4 wood(vec3 at) {
-  vec2 p = at.xz;
-  float board = floor(p.y / 1.55 + 0.35);
+  vec2 p = before(at.xz);
+  float row = floor(p.y / 1.55 + 0.35);
+  // Boards end, each row elsewhere.
+  float end = (p.x + 17.0 * hash1(vec2(row, 21.0))) / 6.4;
+  float board = row + 31.0 * floor(end);
   vec2 q = vec2(p.x * 0.55 + board * 13.7, p.y * 5.0);
   float bend = fractal(q * vec2(0.5, 0.25) + board) * 2.6;
   float ring = 0.5 + 0.5 * sin((q.y + bend * 2.4) * 2.1 + board * 4.0);
@@ -12,11 +15,15 @@ vec4 wood(vec3 at) {
   vec3 colour = mix(vec3(0.115, 0.056, 0.028), vec3(0.235, 0.122, 0.060), 0.55 * ring + 0.45 * grain);
   colour *= 0.86 + 0.28 * hash1(vec2(board, 3.0));
   float gap = abs(fract(p.y / 1.55 + 0.35) - 0.5) * 2.0;
-  colour *= 1.0 - 0.72 * smoothstep(0.982, 0.997, gap);
+  float cut = min(fract(end), 1.0 - fract(end)) * 6.4;
+  // Near a cut the grain is darker: it drinks more of the oil.
+  colour *= (1.0 - 0.72 * max(smoothstep(0.982, 0.997, gap), 0.7 * smoothstep(0.012, 0.004, cut))) * (1.0 - 0.22 * exp(-cut * 9.0));
   return vec4(colour, 0.35 + 0.3 * grain);
 }
 
 vec4 plaster(vec3 at) {
+  // Other walls are like this one.
+  at.x += 9.0 * uTurn;
   float mottle = fractal(at.xy * 0.7) + 0.4 * fractal(at.xy * 3.1 + 9.0);
   float pores = fractal(at.xy * 17.0);
   return vec4(vec3(0.190, 0.150, 0.128) * (0.72 + 0.42 * mottle + 0.12 * pores), 0.0);
