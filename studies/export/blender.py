@@ -78,9 +78,10 @@ def leaf(program, models, work, frames=180, instances=3):
             place = [row[f"pos.{axis}"] for axis in "xyz"]
             turn = [row[f"q.{axis}"] for axis in "wxyz"]
             worst_place = max(worst_place, *(abs(a - b) for a, b in zip(place, thing["at"])))
-            # The mesh's corners 0 and 6 of 24 lie on the body's first two axes.
-            for axis, corner, size in ((0, 0, width), (1, 6, length)):
-                found_axis = [(p - a) / size for p, a in zip(thing["points"][corner], thing["at"])]
+            # Rows of three points: an edge, the midrib, the other edge. The edges of the middle one are 2 / 1.08 half
+            # widths apart along the body's first axis, the first and the last midrib 2 half lengths along the second.
+            for axis, (low, high), apart in ((0, (18, 20), 2 * width / 1.08), (1, (1, 37), 2 * length)):
+                found_axis = [(b - a) / apart for a, b in zip(thing["points"][low], thing["points"][high])]
                 worst_turn = max(worst_turn, *(abs(a - b) for a, b in zip(axis_of(turn, axis), found_axis)))
     print(f"leaf: {frames} frames of {instances}: places within {worst_place:.1e} m, axes within {worst_turn:.1e}")
     return worst_place < 1e-4 and worst_turn < 1e-3
@@ -100,8 +101,9 @@ def flame(program, models, work, frames=120):
         # A clamped spline begins at its first control point and ends at its last.
         ends = [[row["p0.x"], row["p0.y"]], [row["p7.x"], row["p7.y"]]]
         points = found[0]["points"]
-        # Rows of seven vertices, four of them below the base; the second and the sixth are the outline's.
-        sides = [points[row * 7 + column] for row in range(4, 20) for column in (1, 5)]
+        # The outermost shell comes first: three rows below the base, then rings of twelve, whose seventh vertex and
+        # first are the outline's sides.
+        sides = [points[row * 12 + column] for row in range(3, 15) for column in (6, 0)]
         for end, point in zip(ends, sides):
             worst = max(worst, abs(end[0] - point[0] / metres), abs(end[1] - point[2] / metres))
         top = max(point[2] for point in sides) / metres
