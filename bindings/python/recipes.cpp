@@ -2,6 +2,7 @@
 
 #include "module.hpp"
 #include "wisp/learn.hpp"
+#include "wisp/learn/prepare.hpp"
 
 namespace wisp::python {
 namespace {
@@ -40,6 +41,15 @@ void bind_arx(py::module_& module) {
            py::arg("first"), py::arg("last"))
       .def_readwrite("first", &OrderRange::first)
       .def_readwrite("last", &OrderRange::last);
+  options<Preparation>(module, "Preparation")
+      .def_readwrite("detrend", &Preparation::detrend)
+      .def_readwrite("highpass_hz", &Preparation::highpass_hz)
+      .def_readwrite("lowpass_hz", &Preparation::lowpass_hz)
+      .def_readwrite("resample_hz", &Preparation::resample_hz);
+  module.def(
+      "prepare", [](const Recording& recording, const Preparation& how) { return unwrapped(prepare(recording, how)); },
+      py::arg("recording"), py::arg("preparation"),
+      "The recording without its straight lines, filtered, and at another rate, as the preparation says.");
   options<ArxSearch>(module, "ArxSearch")
       .def_readwrite("na", &ArxSearch::na)
       .def_readwrite("nb", &ArxSearch::nb)
@@ -63,7 +73,7 @@ void bind_arx(py::module_& module) {
           })
       .def_readwrite("coupling", &ArxRecipe::coupling)
       .def_readwrite("offset", &ArxRecipe::offset)
-      .def_readwrite("ridge", &ArxRecipe::ridge)
+      .def_readwrite("preparation", &ArxRecipe::preparation)
       .def_readwrite("kernel", &ArxRecipe::kernel)
       .def_readwrite("radius", &ArxRecipe::radius)
       .def_readwrite("keep_unstable", &ArxRecipe::keep_unstable)

@@ -109,7 +109,9 @@ std::string names_of(const Channels& channels) {
 
 // Words that all languages have.
 Words common_words(const Model& model, const ArxModel& arx) {
+  const Usable& use = model.training.usable;
   return {{"MODEL", exporting::comment_text(model.name)},
+          {"USE", use.verdict ? "" : exporting::comment_text(" (not usable: " + use.reason + ")")},
           {"INPUTS", names_of(model.inputs)},
           {"OUTPUTS", names_of(model.outputs)},
           {"RATE", text_of(model.rate_hz)},
@@ -208,6 +210,7 @@ void add_rows(std::string_view key, const PlantRows& rows, JsonText& json) {
 std::string json_text(const Model& model, const ArxModel& arx) {
   JsonText json;
   json.object().value(model.name, "name").value(model.rate_hz, "rate_hz");
+  if (!model.training.usable.verdict) json.value(model.training.usable.reason, "not_usable");
   json.list("inputs");
   for (const Input& input : model.inputs) json.value(input.name, {});
   json.end().list("outputs");

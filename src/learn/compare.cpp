@@ -5,6 +5,7 @@
 
 #include "learn/arx/report/report_values.hpp"
 #include "learn/same_rate.hpp"
+#include "wisp/learn/prepare.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp {
@@ -123,19 +124,27 @@ void add_series(std::span<const NamedModel> models, const Recording& recording, 
 
 }  // namespace
 
-Result<Report> compare(std::span<const NamedModel> models, const Recording& recording, const ValidationOptions& options,
+Result<Report> compare(std::span<const NamedModel> models, const Recording& measured, const ValidationOptions& options,
                        const Progress& progress) {
   if (models.empty() || options.steps.empty()) return Error{"there is no model, or no number of steps, to compare"};
   for (const NamedModel& one : models) {
     if (!std::holds_alternative<OutlineView>(one.model.view)) continue;
     return Error{one.name + ": is a model of an outline, expected models of plain channels; wisp validate judges it"};
   }
-  const auto said = all_said(models, recording, options, progress);
+  const Preparation& preparation = models.front().model.training.preparation;
+  for (const NamedModel& one : models) {
+    if (one.model.training.preparation == preparation) continue;
+    return Error{one.name + ": was learned from recordings prepared by \"" + text_of(one.model.training.preparation) +
+                 "\", the first model by \"" + text_of(preparation) + "\": their fits are of different recordings"};
+  }
+  const auto prepared = prepare(measured, preparation);
+  if (!prepared) return prepared.error();
+  const auto said = all_said(models, measured, options, progress);
   if (!said) return said.error();
   Report report;
   ReportSection& section = report.add("Comparison, over the rows that every model predicts");
-  section.tables.push_back(table_of(models, recording, *said, options.steps));
-  add_series(models, recording, *said, options.steps.back(), section);
+  section.tables.push_back(table_of(models, *prepared, *said, options.steps));
+  add_series(models, *prepared, *said, options.steps.back(), section);
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "record/number_text.hpp"
+#include "wisp/learn/prepare.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
@@ -142,6 +143,8 @@ ReportSection made_section(const Training& made) {
   ReportSection section{"Training"};
   add(section, "made.program", made.program, "by");
   add(section, "made.sources", ReportList(made.sources.begin(), made.sources.end()), "from");
+  if (made.preparation != Preparation{}) add(section, "made.preparation", text_of(made.preparation), "prepared by");
+  if (made.own_levels) add(section, "made.own_levels", true, "each recording about its own means");
   for (const Note& note : made.recipe) {
     add(section, "made.options." + arx::as_id(note.name), note.value, "option " + note.name);
   }

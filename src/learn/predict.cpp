@@ -11,6 +11,7 @@
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "learn/same_rate.hpp"
+#include "wisp/learn/prepare.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp {
@@ -70,7 +71,11 @@ Recording table_of(const Recording& measured, const ChannelChoice& channels, con
 
 Series sd_of(const ArxModel& arx, int steps) { return prediction_sd(arx, {}, steps == kFreeRun ? kSettled : steps); }
 
-Result<Recording> predict_plain(const Model& model, const Recording& recording, const PredictionOptions& options) {
+Result<Recording> predict_plain(const Model& model, const Recording& measured, const PredictionOptions& options) {
+  const auto prepared = prepare(measured, model.training.preparation);
+  if (!prepared) return prepared.error();
+  const Recording& recording = *prepared;
+  if (auto ok = check_rate(model, recording); !ok) return ok.error();
   const auto& arx = std::get<ArxModel>(model.dynamics);
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
@@ -89,6 +94,7 @@ Result<Recording> predict_modes(const Model& model, const Recording& recording, 
   if (options.initial != InitialState::kMeasured) {
     return Error{model.name + ": is a switched model, whose free run starts from measured samples only"};
   }
+  if (auto ok = check_rate(model, recording); !ok) return ok.error();
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
   const auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
@@ -137,9 +143,6 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
                  " steps ahead, expected 1 to 100000, or free"};
   }
   const bool outline = std::holds_alternative<OutlineView>(model.view);
-  if (!outline) {
-    if (auto ok = check_rate(model, recording); !ok) return ok.error();
-  }
   if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) return predict_modes(model, recording, options);
   return outline ? predict_outline(model, recording, options) : predict_plain(model, recording, options);
 }

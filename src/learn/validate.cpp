@@ -4,10 +4,12 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
+#include "learn/arx/report/report_values.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "learn/same_rate.hpp"
 #include "record/number_text.hpp"
+#include "wisp/learn/prepare.hpp"
 
 namespace wisp {
 namespace {
@@ -77,19 +79,35 @@ Result<Report> compare(std::span<const NamedModel> models, std::span<const Recor
   return of_every(recordings, [&](const Recording& one) { return compare(models, one, options, progress); });
 }
 
+namespace {
+
+// Prepares a recording as those of the training were.
+Result<Report> validate_prepared(const Model& model, const Recording& recording, const ValidationOptions& options,
+                                 const Progress& progress) {
+  const auto prepared = prepare(recording, model.training.preparation);
+  if (!prepared) return prepared.error();
+  if (auto ok = check_rate(model, *prepared); !ok) return ok.error();
+  auto report = validate_arx(model, *prepared, options, progress);
+  if (report && model.training.preparation != Preparation{}) {
+    arx::add(report->sections.front(), "preparation", text_of(model.training.preparation), "prepared by", "",
+             "as the recordings that the model was learned from");
+  }
+  return report;
+}
+
+}  // namespace
+
 Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options,
                         const Progress& progress) {
   if (std::holds_alternative<ChainModel>(model.dynamics)) {
     return validate_chain(model, std::span(&recording, 1), options.seed, progress);
   }
   const bool outline = std::holds_alternative<OutlineView>(model.view);
-  if (!outline) {
-    if (auto ok = check_rate(model, recording); !ok) return ok.error();
-  }
   if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) {
+    if (auto ok = check_rate(model, recording); !ok) return ok.error();
     return validate_switched(model, recording, options, progress);
   }
-  if (!outline) return validate_arx(model, recording, options, progress);
+  if (!outline) return validate_prepared(model, recording, options, progress);
   auto validated = validate_outline(model, recording, options, progress);
   if (!validated) return validated.error();
   return std::move(validated->report);

@@ -172,6 +172,10 @@ Result<void> check_training(const Model& model) {
   if (made.multiply_adds_per_frame < 0 || made.operations_per_frame < 0) {
     return Error{"the training says a cost below 0"};
   }
+  const Preparation& prepared = made.preparation;
+  for (const double hz : {prepared.highpass_hz, prepared.lowpass_hz, prepared.resample_hz}) {
+    if (!std::isfinite(hz) || hz < 0) return Error{"a frequency of the training's preparation is not a number from 0"};
+  }
   return check_inputs_training(model);
 }
 

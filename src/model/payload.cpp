@@ -113,6 +113,11 @@ file::Underside write_underside(std::optional<bool> underside) {
   return *underside ? file::Underside::Yes : file::Underside::No;
 }
 
+fb::Offset<file::Preparation> write_preparation(Builder& builder, const Preparation& made) {
+  if (made == Preparation{}) return 0;
+  return file::CreatePreparation(builder, made.detrend, made.highpass_hz, made.lowpass_hz, made.resample_hz);
+}
+
 fb::Offset<file::Training> write_training(Builder& builder, const Training& made) {
   std::vector<fb::Offset<file::Note>> recipe;
   for (const Note& note : made.recipe)
@@ -132,9 +137,10 @@ fb::Offset<file::Training> write_training(Builder& builder, const Training& made
   const auto residual_sd = optional_vector(builder, made.residual_sd);
   const auto motion = write_motion(builder, made.motion);
   const auto extinction = write_extinction_training(builder, made.extinction);
+  const auto preparation = write_preparation(builder, made.preparation);
   return file::CreateTraining(builder, program, sources, recipe_at, figures_at, made.usable.verdict, reason, inputs_at,
                               residual_sd, write_underside(made.underside), motion, extinction,
-                              made.multiply_adds_per_frame, made.operations_per_frame);
+                              made.multiply_adds_per_frame, made.operations_per_frame, preparation, made.own_levels);
 }
 
 fb::Offset<file::SizeEvents> write_events(Builder& builder, const SizeEvents& events) {
@@ -329,6 +335,10 @@ Training read_training(const file::Training& stored) {
   if (stored.underside() != file::Underside::Unknown) made.underside = stored.underside() == file::Underside::Yes;
   made.motion = read_motion(stored.motion());
   made.extinction = read_extinction_training(stored.extinction());
+  if (const auto* its = stored.preparation()) {
+    made.preparation = {its->detrend(), its->highpass_hz(), its->lowpass_hz(), its->resample_hz()};
+  }
+  made.own_levels = stored.own_levels();
   made.multiply_adds_per_frame = stored.multiply_adds_per_frame();
   made.operations_per_frame = stored.operations_per_frame();
   return made;

@@ -70,6 +70,9 @@ struct ExtinctionTrainingBuilder;
 struct MotionTraining;
 struct MotionTrainingBuilder;
 
+struct Preparation;
+struct PreparationBuilder;
+
 struct Training;
 struct TrainingBuilder;
 
@@ -2480,6 +2483,83 @@ inline flatbuffers::Offset<MotionTraining> CreateMotionTrainingDirect(
       smooth_rows);
 }
 
+struct Preparation FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
+  typedef PreparationBuilder Builder;
+  struct Traits;
+  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
+    VT_DETREND = 4,
+    VT_HIGHPASS_HZ = 6,
+    VT_LOWPASS_HZ = 8,
+    VT_RESAMPLE_HZ = 10
+  };
+  bool detrend() const {
+    return GetField<uint8_t>(VT_DETREND, 0) != 0;
+  }
+  double highpass_hz() const {
+    return GetField<double>(VT_HIGHPASS_HZ, 0.0);
+  }
+  double lowpass_hz() const {
+    return GetField<double>(VT_LOWPASS_HZ, 0.0);
+  }
+  double resample_hz() const {
+    return GetField<double>(VT_RESAMPLE_HZ, 0.0);
+  }
+  bool Verify(flatbuffers::Verifier &verifier) const {
+    return VerifyTableStart(verifier) &&
+           VerifyField<uint8_t>(verifier, VT_DETREND, 1) &&
+           VerifyField<double>(verifier, VT_HIGHPASS_HZ, 8) &&
+           VerifyField<double>(verifier, VT_LOWPASS_HZ, 8) &&
+           VerifyField<double>(verifier, VT_RESAMPLE_HZ, 8) &&
+           verifier.EndTable();
+  }
+};
+
+struct PreparationBuilder {
+  typedef Preparation Table;
+  flatbuffers::FlatBufferBuilder &fbb_;
+  flatbuffers::uoffset_t start_;
+  void add_detrend(bool detrend) {
+    fbb_.AddElement<uint8_t>(Preparation::VT_DETREND, static_cast<uint8_t>(detrend), 0);
+  }
+  void add_highpass_hz(double highpass_hz) {
+    fbb_.AddElement<double>(Preparation::VT_HIGHPASS_HZ, highpass_hz, 0.0);
+  }
+  void add_lowpass_hz(double lowpass_hz) {
+    fbb_.AddElement<double>(Preparation::VT_LOWPASS_HZ, lowpass_hz, 0.0);
+  }
+  void add_resample_hz(double resample_hz) {
+    fbb_.AddElement<double>(Preparation::VT_RESAMPLE_HZ, resample_hz, 0.0);
+  }
+  explicit PreparationBuilder(flatbuffers::FlatBufferBuilder &_fbb)
+        : fbb_(_fbb) {
+    start_ = fbb_.StartTable();
+  }
+  flatbuffers::Offset<Preparation> Finish() {
+    const auto end = fbb_.EndTable(start_);
+    auto o = flatbuffers::Offset<Preparation>(end);
+    return o;
+  }
+};
+
+inline flatbuffers::Offset<Preparation> CreatePreparation(
+    flatbuffers::FlatBufferBuilder &_fbb,
+    bool detrend = false,
+    double highpass_hz = 0.0,
+    double lowpass_hz = 0.0,
+    double resample_hz = 0.0) {
+  PreparationBuilder builder_(_fbb);
+  builder_.add_resample_hz(resample_hz);
+  builder_.add_lowpass_hz(lowpass_hz);
+  builder_.add_highpass_hz(highpass_hz);
+  builder_.add_detrend(detrend);
+  return builder_.Finish();
+}
+
+struct Preparation::Traits {
+  using type = Preparation;
+  static auto constexpr Create = CreatePreparation;
+};
+
 struct Training FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef TrainingBuilder Builder;
   struct Traits;
@@ -2496,7 +2576,9 @@ struct Training FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_MOTION = 22,
     VT_EXTINCTION = 24,
     VT_MULTIPLY_ADDS_PER_FRAME = 26,
-    VT_OPERATIONS_PER_FRAME = 28
+    VT_OPERATIONS_PER_FRAME = 28,
+    VT_PREPARATION = 30,
+    VT_OWN_LEVELS = 32
   };
   const flatbuffers::String *program() const {
     return GetPointer<const flatbuffers::String *>(VT_PROGRAM);
@@ -2537,6 +2619,12 @@ struct Training FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   int64_t operations_per_frame() const {
     return GetField<int64_t>(VT_OPERATIONS_PER_FRAME, 0);
   }
+  const wisp::file::Preparation *preparation() const {
+    return GetPointer<const wisp::file::Preparation *>(VT_PREPARATION);
+  }
+  bool own_levels() const {
+    return GetField<uint8_t>(VT_OWN_LEVELS, 0) != 0;
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffset(verifier, VT_PROGRAM) &&
@@ -2565,6 +2653,9 @@ struct Training FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyTable(extinction()) &&
            VerifyField<int64_t>(verifier, VT_MULTIPLY_ADDS_PER_FRAME, 8) &&
            VerifyField<int64_t>(verifier, VT_OPERATIONS_PER_FRAME, 8) &&
+           VerifyOffset(verifier, VT_PREPARATION) &&
+           verifier.VerifyTable(preparation()) &&
+           VerifyField<uint8_t>(verifier, VT_OWN_LEVELS, 1) &&
            verifier.EndTable();
   }
 };
@@ -2612,6 +2703,12 @@ struct TrainingBuilder {
   void add_operations_per_frame(int64_t operations_per_frame) {
     fbb_.AddElement<int64_t>(Training::VT_OPERATIONS_PER_FRAME, operations_per_frame, 0);
   }
+  void add_preparation(flatbuffers::Offset<wisp::file::Preparation> preparation) {
+    fbb_.AddOffset(Training::VT_PREPARATION, preparation);
+  }
+  void add_own_levels(bool own_levels) {
+    fbb_.AddElement<uint8_t>(Training::VT_OWN_LEVELS, static_cast<uint8_t>(own_levels), 0);
+  }
   explicit TrainingBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -2637,10 +2734,13 @@ inline flatbuffers::Offset<Training> CreateTraining(
     flatbuffers::Offset<wisp::file::MotionTraining> motion = 0,
     flatbuffers::Offset<wisp::file::ExtinctionTraining> extinction = 0,
     int64_t multiply_adds_per_frame = 0,
-    int64_t operations_per_frame = 0) {
+    int64_t operations_per_frame = 0,
+    flatbuffers::Offset<wisp::file::Preparation> preparation = 0,
+    bool own_levels = false) {
   TrainingBuilder builder_(_fbb);
   builder_.add_operations_per_frame(operations_per_frame);
   builder_.add_multiply_adds_per_frame(multiply_adds_per_frame);
+  builder_.add_preparation(preparation);
   builder_.add_extinction(extinction);
   builder_.add_motion(motion);
   builder_.add_residual_sd(residual_sd);
@@ -2650,6 +2750,7 @@ inline flatbuffers::Offset<Training> CreateTraining(
   builder_.add_recipe(recipe);
   builder_.add_sources(sources);
   builder_.add_program(program);
+  builder_.add_own_levels(own_levels);
   builder_.add_underside(underside);
   builder_.add_usable(usable);
   return builder_.Finish();
@@ -2674,7 +2775,9 @@ inline flatbuffers::Offset<Training> CreateTrainingDirect(
     flatbuffers::Offset<wisp::file::MotionTraining> motion = 0,
     flatbuffers::Offset<wisp::file::ExtinctionTraining> extinction = 0,
     int64_t multiply_adds_per_frame = 0,
-    int64_t operations_per_frame = 0) {
+    int64_t operations_per_frame = 0,
+    flatbuffers::Offset<wisp::file::Preparation> preparation = 0,
+    bool own_levels = false) {
   auto program__ = program ? _fbb.CreateString(program) : 0;
   auto sources__ = sources ? _fbb.CreateVector<flatbuffers::Offset<flatbuffers::String>>(*sources) : 0;
   auto recipe__ = recipe ? _fbb.CreateVector<flatbuffers::Offset<wisp::file::Note>>(*recipe) : 0;
@@ -2696,7 +2799,9 @@ inline flatbuffers::Offset<Training> CreateTrainingDirect(
       motion,
       extinction,
       multiply_adds_per_frame,
-      operations_per_frame);
+      operations_per_frame,
+      preparation,
+      own_levels);
 }
 
 struct SizeEvents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

@@ -372,7 +372,8 @@ Result<void> CsvReader::read_columns(const CsvOptions& options) {
   if (!names) return names.error();
   const std::vector<Cell> last = ahead_.empty() ? std::vector<Cell>{} : cells_of(ahead_.back().text, separator_);
   for (std::size_t k = 0; k < names->size(); ++k) {
-    const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator_);
+    const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator_) &&
+                      !csv::names_time((*names)[k]);
     if (options.every_column && text && !own_form_) {
       columns_.push_back({});
       header_.attributes.push_back({std::string(kNotNumbers), (*names)[k]});

@@ -180,7 +180,7 @@ TEST_F(LearnArxCases, ASearchIsJudgedOnOtherRecordingsToo) {
 TEST_F(LearnArxCases, WhatIsWrongWithAFlagNamesIt) {
   const Recording recording = system(300);
   for (const auto& [flags, words] : std::vector<std::pair<std::string, std::string>>{
-           {"--ridge -1", "--ridge is -1, expected 0 or more"},
+           {"--prepare lowpas:1", "--prepare: found \"lowpas:1\""},
            {"--kernel tc --focus auto", "leave --focus auto out"},
            {"--rate 0", "--rate: 0 samples a second"},
            {"--search na=1:5000", "--search: found \"na=1:5000\", expected"},

@@ -143,7 +143,7 @@ TEST_F(LearnArxParts, ADamagedPartIsNamedAndNothingIsWritten) {
   bytes[8] = 9;
   std::ofstream(at("1.part"), std::ios::binary) << bytes;
   EXPECT_THAT(wisp("learn arx --merge" + parts + " -o " + at("m.wisp")).err,
-              HasSubstr("1.part: this part of a fit has format version 9, expected 2"));
+              HasSubstr("1.part: this part of a fit has format version 9, expected 3"));
 
   const Said table = wisp("learn arx --merge " + at("system.csv") + " -o " + at("m.wisp"));
   EXPECT_THAT(table.err, HasSubstr("system.csv: this is not a part of a fit"));

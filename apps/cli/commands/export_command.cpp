@@ -166,6 +166,7 @@ Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> lan
   if (language) {
     const auto plant = plant_text(job.model, *language, name);
     if (!plant) return Error{job.path + ": " + plant.error().message};
+    if (const Usable& use = job.model.training.usable; !use.verdict) terminal.warn("not usable: " + use.reason);
     return write_source(plant->text, plant->header, "a linear system", job, terminal);
   }
   const auto lamp = firmware_source(job.model, name);

@@ -29,9 +29,12 @@ Result<void> plot_channels(const std::string& path, const Report& report, Termin
 bool is_outline(const Recording& recording) { return find_channel(recording, "p0.x").has_value(); }
 
 Result<void> look_at_recordings(const Arguments& arguments, Terminal& terminal) {
+  const auto preparation = preparation_of(arguments);
+  if (!preparation) return preparation.error();
   std::vector<Recording> recordings;
   for (const std::string& path : arguments.positionals()) {
     auto recording = read_table(path, arguments, {.rate_hz = 1, .every_column = !arguments.has("outputs")});
+    if (recording) recording = prepare(*recording, *preparation);
     if (!recording) return recording.error();
     recordings.push_back(std::move(*recording));
   }
@@ -72,6 +75,7 @@ Command info_command() {
           {"output", Kind::kOutput, "OUT.png", "", "plot every channel of a recording (.png or .svg)"},
           {"inputs", Kind::kNames, "A,B", "", "channels that are inputs"},
           {"outputs", Kind::kNames, "C,D", "", "channels that are outputs; without it all that are no inputs"},
+          prepare_flag(),
           {"columns", Kind::kNames, "A,B,…", "", "names of all columns of a plain table, in their order"},
           {"rate", Kind::kNumber, "HZ", "", "samples a second of a plain table; default: by its time, else 1"},
           {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},

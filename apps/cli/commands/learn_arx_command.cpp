@@ -71,9 +71,8 @@ OrderCriterion criterion_of(const std::string& word) {
 std::vector<Flag> search_flags() {
   return {
       {"search", Kind::kNames, "GRID", "",
-       "try a grid of orders and delays and keep the best, such as na=1:10,nb=1:10,nk=0:3; what it leaves out is that "
-       "of "
-       "--na, --nb, --nk"},
+       "try a grid of orders and delays and keep the best, such as na=1:10,nb=1:10,nk=0:3; what it leaves out is "
+       "that of --na, --nb, --nk"},
       {"by",
        Kind::kChoice,
        "C",
@@ -161,8 +160,8 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
 Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   ArxRecipe recipe{.inputs = arguments.names("inputs"),
                    .outputs = arguments.names("outputs"),
+                   .preparation = {},
                    .offset = offset_of(arguments),
-                   .ridge = arguments.number("ridge"),
                    .kernel = arguments.text("kernel") == "tc" ? ArxKernel::kTc : ArxKernel::kNone,
                    .radius = arguments.number("radius"),
                    .keep_unstable = arguments.on("keep-unstable"),
@@ -172,7 +171,12 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   if (!(recipe.radius > 0 && recipe.radius < 1)) {
     return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
   }
-  if (recipe.ridge < 0) return Error{"--ridge is " + arguments.text("ridge") + ", expected 0 or more"};
+  const auto preparation = preparation_of(arguments);
+  if (!preparation) return preparation.error();
+  recipe.preparation = *preparation;
+  if (arguments.has("prepare") && (arguments.has("partial") || arguments.on("merge"))) {
+    return Error{"--prepare needs the recordings in one place: learn without --partial and --merge"};
+  }
   if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
     return Error{"--kernel chooses the coefficients itself: leave --focus " + arguments.text("focus") + " out"};
   }
@@ -219,8 +223,8 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
     if (!merged) return merged.error();
     return merged->part.finish(recipe, merged->sources, terminal.progress());
   }
-  // A search, open delays and free runs need the recordings in memory, however large they are.
-  const bool whole = arguments.has("search") || !recipe.nk;
+  // A search, a preparation, open delays and free runs need the recordings in memory, however large they are.
+  const bool whole = arguments.has("search") || arguments.has("prepare") || !recipe.nk;
   if (whole || recipe.focus == ArxFocus::kSimulation || !too_large(arguments)) {
     return learned_from_memory(recipe, arguments, terminal);
   }
@@ -265,6 +269,7 @@ std::vector<Flag> arx_flags() {
       all.end(),
       {
           {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
+          prepare_flag(),
           {"offset",
            Kind::kChoice,
            "O",
@@ -272,7 +277,6 @@ std::vector<Flag> arx_flags() {
            "the operating point: mean removes means, none, estimate adds a constant term",
            {"mean", "none", "estimate"}},
           focus_flag(),
-          {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
           {"kernel",
            Kind::kChoice,
            "K",
@@ -281,9 +285,7 @@ std::vector<Flag> arx_flags() {
            "as the data say; with --na 0 --nb 60 --nk 0 a step response without a choice of orders",
            {"none", "tc"}},
           {"radius", Kind::kNumber, "R", "0.999",
-           "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; "
-           "a "
-           "smaller one may simulate better"},
+           "poles of an unstable estimate are drawn in to this spectral radius, between 0 and 1"},
           {"keep-unstable", Kind::kSwitch, "", "",
            "leave an unstable estimate as it is, to compare; it cannot be played"},
       });
@@ -294,7 +296,7 @@ std::vector<Flag> arx_flags() {
   all.push_back(
       {"memory", Kind::kInteger, "MIB", "1024",
        "where learning would take more than this, recordings are read a stretch at a time, which takes 40 (not "
-       "with --search, --nk auto or --focus simulation); held-out rows and residuals are not judged then"});
+       "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"});
   for (auto* more : {&search_flags, &arx_part_flags, &recording_flags}) {
     for (Flag& flag : (*more)()) all.push_back(std::move(flag));
   }

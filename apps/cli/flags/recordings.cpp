@@ -28,6 +28,17 @@ std::vector<Flag> recording_flags() {
   return flags;
 }
 
+Flag prepare_flag() {
+  return {"prepare", Kind::kNames, "WORDS", "",
+          "what is done to recordings first, remembered by the model: detrend takes a straight line off every channel, "
+          "highpass:HZ and lowpass:HZ filter all alike, resample:HZ changes the rate; such as detrend,resample:10"};
+}
+
+Result<Preparation> preparation_of(const Arguments& arguments) {
+  auto preparation = parse_preparation(arguments.names("prepare"));
+  return preparation ? std::move(preparation) : Error{"--prepare: " + preparation.error().message};
+}
+
 namespace {
 
 // Samples a second of what is recorded of things that move: once in eleven days to a radio's.

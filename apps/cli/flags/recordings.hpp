@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "terminal.hpp"
+#include "wisp/learn/prepare.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"
 
@@ -17,6 +18,10 @@ std::vector<Flag> table_flags();
 
 /// Those, and --skip-bad of commands that read many.
 std::vector<Flag> recording_flags();
+
+/// --prepare, and what it says. Errors: as parse_preparation().
+Flag prepare_flag();
+Result<Preparation> preparation_of(const Arguments& arguments);
 
 /// Whether a name is that of a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than of a clip.
 bool is_table(const std::filesystem::path& path);

@@ -77,6 +77,15 @@ class OrderRange:
     first: int
     last: int
 
+class Preparation:
+    def __init__(self, **fields: Any) -> None: ...
+    detrend: bool
+    highpass_hz: float
+    lowpass_hz: float
+    resample_hz: float
+
+def prepare(recording: Recording, preparation: Preparation) -> Recording: ...
+
 class ArxSearch:
     def __init__(self, **fields: Any) -> None: ...
     na: OrderRange
@@ -96,7 +105,7 @@ class ArxRecipe:
     nk: Optional[int]
     coupling: Coupling
     offset: ArxOffset
-    ridge: float
+    preparation: Preparation
     kernel: ArxKernel
     radius: float
     keep_unstable: bool

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wisp/model/arx.hpp"
+#include "wisp/model/training.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -86,13 +87,13 @@ struct ArxRecipe {
   std::string name{};                  ///< of the model
   std::vector<std::string> inputs{};   ///< channels; none: a model of the outputs alone
   std::vector<std::string> outputs{};  ///< channels, at least one
+  Preparation preparation{};           ///< of every recording, and of those that the model is judged on later
   OrderChoice na = 4;                  ///< lags of outputs; 4 is two damped resonances an output, the paper's choice
   OrderChoice nb = 4;                  ///< lags of inputs
   std::optional<OrderChoice> nk = 1;   ///< delays in samples; unset: every input's delay to every output is found
   std::optional<int> max_delay{};      ///< longest delay that is tried then, 0 to 4096; unset: as the data say, to 640
   Coupling coupling = Coupling::kFull;
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
-  double ridge = 0;  ///< ≥ 0, no unit: weight of a coefficient's size, as a share of its regressor's own energy
   ArxKernel kernel = ArxKernel::kNone;  ///< kTc with na 0 and many lags of the inputs: a step response without orders
   double radius = 0.999;  ///< in (0, 1): an unstable estimate is brought within it; a smaller one may simulate better
   bool keep_unstable = false;              ///< leave an unstable estimate as it is, to compare: it cannot be played

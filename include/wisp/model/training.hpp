@@ -72,6 +72,16 @@ struct ExtinctionTraining {
   bool operator==(const ExtinctionTraining&) const = default;
 };
 
+/// What was done to the recordings before learning, and is done to every recording that the model is judged on.
+struct Preparation {
+  bool detrend = false;    ///< a straight line is taken off every channel; means stay
+  double highpass_hz = 0;  ///< ≥ 0; 0: none
+  double lowpass_hz = 0;
+  double resample_hz = 0;
+
+  bool operator==(const Preparation&) const = default;
+};
+
 /// How the model was made.
 struct Training {
   std::string program;               ///< name and version of what wrote it
@@ -82,6 +92,8 @@ struct Training {
   std::vector<InputTraining> inputs;  ///< one an input of the model; empty: it was not learned from recordings
   std::vector<double> residual_sd;    ///< of every output, one step ahead; empty where the dynamics are no regression
   std::optional<bool> underside;      ///< outlines: whether they run on along the flame's underside; none: mixed
+  Preparation preparation{};
+  bool own_levels = false;                       ///< every recording was taken about its own means
   std::optional<MotionTraining> motion;          ///< chains: how motion was cut
   std::optional<ExtinctionTraining> extinction;  ///< where there is a rule
   std::int64_t multiply_adds_per_frame = 0;      ///< by the paper's count; 0: not counted

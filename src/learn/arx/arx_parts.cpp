@@ -114,7 +114,7 @@ void add_coverage(const FactorNotes& notes, ReportSection& section) {
 Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoice& channels, const Progress& progress,
                             ArxFit& fit) {
   constexpr std::size_t kRowsAtATime = 65536;
-  Tally tally(fit.model.orders.outputs(), 1);
+  Tally tally(fit.model.orders.outputs());
   for (const Table& table : tables) {
     if (auto ok = arx::check_progress(progress, "simulating", 0); !ok) return ok;
     const auto open = open_table(table);
@@ -168,7 +168,7 @@ Result<ArxPart> ArxPart::create(const ArxRecipe& recipe) {
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   auto orders = arx::orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
   if (!orders) return orders.error();
-  auto factor = TriangularFactor::create({channels, std::move(*orders), {}});
+  auto factor = TriangularFactor::create({channels, std::move(*orders)});
   if (!factor) return factor.error();
   return ArxPart(std::make_unique<State>(State{*factor, *factor}));
 }

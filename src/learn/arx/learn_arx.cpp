@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "learn/arx/integrators.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
@@ -14,6 +15,7 @@
 #include "learn/choose/focus.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/advice.hpp"
+#include "wisp/learn/prepare.hpp"
 
 namespace wisp {
 namespace arx {
@@ -24,7 +26,7 @@ std::string word_of(ArxOffset offset) {
   return offset == ArxOffset::kEstimate ? "estimate" : "mean";
 }
 
-std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sources& sources) {
+std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const OrderMatrix& na = fit.model.orders.na;
   const bool apart = arx::coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
@@ -32,10 +34,8 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sou
   const auto& levels = fit.model.constant;  // the focus may have estimated them
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
   notes.push_back({"offset", word_of(level ? ArxOffset::kEstimate : recipe.offset)});
-  if (recipe.ridge > 0) notes.push_back({"ridge", number_text(recipe.ridge, 6)});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
   if (fit.summary.stable.changed) notes.push_back({"radius", number_text(recipe.radius, 6)});
-  if (sources.own_levels) notes.push_back({"levels", "own"});
   return notes;
 }
 
@@ -46,7 +46,6 @@ Result<ArxOrders> searched(std::span<const Recording> recordings, const ArxRecip
                               .nb = asked.nb,
                               .nk = asked.nk,
                               .coupling = recipe.coupling,
-                              .candidates = {},
                               .by = asked.by,
                               .steps = asked.steps,
                               .offset = recipe.offset};
@@ -104,7 +103,6 @@ ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders) {
   ArxOptions options;
   options.orders = orders;
   options.offset = recipe.offset;
-  options.ridge = recipe.ridge;
   options.kernel = recipe.kernel;
   options.covariance = recipe.responses;  // for the bands
   options.stabilise = !recipe.keep_unstable;
@@ -116,7 +114,8 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
   Fit out{plain_model(recipe.name, channels, sources), {}};
   Model& model = out.model;
   model.dynamics = fit.model;
-  model.training.recipe = notes_of(recipe, fit, sources);
+  model.training.own_levels = sources.own_levels;
+  model.training.recipe = notes_of(recipe, fit);
   model.training.figures = {{"fpe", fit.summary.fpe}, {"samples_used", static_cast<double>(fit.summary.samples_used)}};
   model.training.usable = fit.summary.usable;
   add_fit(fit, model, out.report);
@@ -133,6 +132,8 @@ namespace {
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;
+  std::vector<Recording> middle{};
+  std::span<const Recording> judged{};  // of very long ones the middle
   ArxOptions options{};
   Sources sources{};
 };
@@ -144,6 +145,9 @@ Result<Prepared> prepare(std::span<const Recording> recordings, const ArxRecipe&
   Prepared out{.seen = recordings, .sources = std::move(*sources)};
   out.sources.own_levels = recordings.size() > 1 && recipe.offset == ArxOffset::kMean;
   if (out.sources.own_levels) out.seen = out.moved = about_own_levels(recordings, channels);
+  std::size_t rows = 0;
+  for (const Recording& one : out.seen) rows += one.rows();
+  out.judged = rows <= kJudgedRows ? out.seen : out.middle = middles_of(out.seen, kJudgedRows);
   const auto orders = chosen_orders(out.seen, recipe, channels, progress, chosen);
   if (!orders) return orders.error();
   out.options = fit_options(recipe, *orders);
@@ -154,7 +158,7 @@ Result<Prepared> prepare(std::span<const Recording> recordings, const ArxRecipe&
 Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Report& chosen) {
   ArxOptions& options = prepared.options;
   auto plain = fit_arx(prepared.seen, channels, options);
-  if (!plain || options.offset == ArxOffset::kNone || !options.stabilise || options.ridge > 0) return plain;
+  if (!plain || options.offset == ArxOffset::kNone || !options.stabilise) return plain;
   const std::vector<int> integrators = find_integrators(prepared.seen, channels, options, *plain);
   if (integrators.empty()) return plain;
   ReportSection& section = chosen.add("Integrators");
@@ -168,12 +172,30 @@ Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Repo
 // What was learned, judged by rows that were held out and by what is remarkable of the recordings.
 void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const ArxOptions& options,
                const ResidualTests* tests, ArxSummary& summary) {
-  VerdictEvidence evidence{channels, options.orders, persistence_errors(prepared.seen, channels), tests};
-  evidence.held_out = held_out_fits(prepared.seen, channels, options);
+  VerdictEvidence evidence{channels, options.orders, persistence_errors(prepared.judged, channels), tests};
+  evidence.held_out = held_out_fits(prepared.judged, channels, options);
   evidence.integrators = options.integrators;
   evidence.redundant = redundant_channels(prepared.seen, channels.inputs);
   evidence.remarks = [&] { return remarks_on(prepared.seen, channels.inputs, channels.outputs); };
   judge_use(evidence, summary);
+}
+
+// Learns from prepared recordings, and writes the preparation down.
+Result<Fit> learn_prepared(std::span<const Recording> recordings, ArxRecipe recipe, const Progress& progress) {
+  const Preparation preparation = std::exchange(recipe.preparation, {});
+  auto ready = prepare_all(recordings, preparation);
+  if (!ready) return ready.error();
+  if (recipe.search) {
+    auto validation = prepare_all(recipe.search->validation, preparation);
+    if (!validation) return validation.error();
+    recipe.search->validation = std::move(*validation);
+  }
+  auto fit = learn_arx(*ready, recipe, progress);
+  if (!fit) return fit;
+  fit->model.training.preparation = preparation;
+  add(fit->report.add("Preparation"), "preparation", text_of(preparation), "recordings prepared by", "",
+      "those that the model is judged on later are prepared alike");
+  return fit;
 }
 
 }  // namespace
@@ -181,6 +203,7 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
 
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress) {
   if (auto ok = arx::check_recipe(recipe); !ok) return ok.error();
+  if (recipe.preparation != Preparation{}) return arx::learn_prepared(recordings, recipe, progress);
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   Report chosen;
   auto prepared = arx::prepare(recordings, recipe, channels, progress, chosen);
@@ -193,9 +216,9 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   if (!focused) return focused.error();
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
   const ResidualTestOptions testing{.lags = kReportedLags, .learned_from_it = true};
-  const auto first = test_residuals(squares, prepared->seen, channels, testing);
+  const auto first = test_residuals(squares, prepared->judged, channels, testing);
   const auto tests =
-      focused->outcome.changed ? test_residuals(focused->fit.model, prepared->seen, channels, testing) : first;
+      focused->outcome.changed ? test_residuals(focused->fit.model, prepared->judged, channels, testing) : first;
   arx::judge_fit(*prepared, channels, focused->options, first ? &*first : nullptr, focused->fit.summary);
   Fit fit = arx::finish(focused->fit, recipe, channels, prepared->sources);
   if (recipe.focus != ArxFocus::kPrediction) {

@@ -130,9 +130,7 @@ Recording seen_by(const Model& model, const Recording& recording, std::vector<do
   const ChannelChoice channels = channels_of(model);
   Recording seen = recording;
   if (moved) moved->assign(channels.outputs.size(), 0.0);
-  const auto& notes = model.training.recipe;
-  const bool own = std::any_of(notes.begin(), notes.end(), [](const Note& one) { return one.name == "levels"; });
-  if (!own) return seen;
+  if (!model.training.own_levels) return seen;
   const auto& arx = std::get<ArxModel>(model.dynamics);
   std::vector<double> means = arx.output_mean;
   means.insert(means.end(), arx.input_mean.begin(), arx.input_mean.end());

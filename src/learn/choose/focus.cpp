@@ -55,7 +55,6 @@ ArxOptions options_of(const ArxOptions& given, const FocusCandidate& candidate) 
     out.kernel = ArxKernel::kTc;
     if (out.offset == ArxOffset::kMean) out.offset = ArxOffset::kEstimate;
   }
-  if (out.first_sample) out.first_sample = std::max(*out.first_sample, out.orders.history());
   return out;
 }
 
@@ -171,7 +170,6 @@ class Chooser {
     }
     if (out.kernel_outputs.size() == channels_.outputs.size()) out.kernel_outputs.clear();
     std::sort(out.kernel_outputs.begin(), out.kernel_outputs.end());
-    if (out.first_sample) out.first_sample = std::max(*out.first_sample, out.orders.history());
     return out;
   }
 
@@ -181,7 +179,6 @@ class Chooser {
   // A kernel is tried where every stretch is long compared with it, no other prior is set, and the coefficients are few
   // enough for the time that a kernel takes.
   bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders, int lags) const {
-    if (options_.ridge > 0) return false;
     double work = 0;
     const ArxOrders many = kernel_orders(orders, lags);
     for (int i = 0; i < many.outputs(); ++i) work += std::pow(many.row_size(i), 3);
@@ -214,7 +211,7 @@ class Chooser {
       }
     }
     // All candidates are judged on the same rows.
-    const int first = std::max(kKernelLags[1], options_.first_sample.value_or(options_.orders.history()));
+    const int first = std::max(kKernelLags[1], options_.orders.history());
     const auto estimated = free_run_parts(model, fold.held_out, own, {InitialState::kEstimated, first});
     const auto measured = free_run_parts(model, starts, own, {InitialState::kMeasured, first});
     if (!estimated || !measured) {

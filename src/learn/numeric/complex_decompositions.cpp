@@ -12,12 +12,6 @@ using Eigen::VectorXcd;
 
 VectorXcd eigenvalues(const MatrixXd& matrix) { return matrix.eigenvalues(); }
 
-Eigensystem eigensystem(const MatrixXd& matrix) {
-  const Eigen::EigenSolver<MatrixXd> solver(matrix);
-  const MatrixXcd right = solver.eigenvectors();
-  return {solver.eigenvalues(), right, right.fullPivLu().inverse()};
-}
-
 MatrixXcd complex_inverse(const MatrixXcd& matrix) { return matrix.inverse(); }
 
 }  // namespace wisp

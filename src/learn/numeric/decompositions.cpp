@@ -27,8 +27,6 @@ SymmetricEigensystem symmetric_eigensystem(const MatrixXd& matrix) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-MatrixXd pseudo_inverse(const MatrixXd& matrix) { return matrix.completeOrthogonalDecomposition().pseudoInverse(); }
-
 VectorXd shortest_solution(const MatrixXd& matrix, const VectorXd& right) { return ranked_solution(matrix, right).x; }
 
 RankedSolution ranked_solution(const MatrixXd& matrix, const VectorXd& right) {

@@ -12,14 +12,6 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
-struct Eigensystem {
-  Eigen::VectorXcd values;
-  Eigen::MatrixXcd right;  ///< eigenvectors, a column each
-  Eigen::MatrixXcd left;   ///< their inverse: left eigenvectors, a row each
-};
-
-Eigensystem eigensystem(const Eigen::MatrixXd& matrix);
-
 /// Of a symmetric matrix: the smallest first.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
@@ -29,8 +21,6 @@ struct SymmetricEigensystem {
 };
 
 SymmetricEigensystem symmetric_eigensystem(const Eigen::MatrixXd& matrix);
-
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 
 /// Of all x with the least |`matrix` x − `right`| the shortest.
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);

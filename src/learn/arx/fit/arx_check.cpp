@@ -37,13 +37,8 @@ Result<void> check_orders(const ArxOrders& orders, const ChannelChoice& channels
 
 Result<void> check_options(const ArxOptions& options, const ChannelChoice& channels) {
   if (auto ok = check_orders(options.orders, channels); !ok) return ok;
-  if (!(options.ridge >= 0) || !std::isfinite(options.ridge)) return Error{"the ridge must be 0 or more"};
   if (!(options.stability_margin > 0 && options.stability_margin < 1)) {
     return Error{"the stability margin must lie between 0 and 1"};
-  }
-  if (options.first_sample && *options.first_sample < options.orders.history()) {
-    return Error{"the first sample is " + std::to_string(*options.first_sample) + ", but the longest lag is " +
-                 std::to_string(options.orders.history())};
   }
   return {};
 }
@@ -51,7 +46,7 @@ Result<void> check_options(const ArxOptions& options, const ChannelChoice& chann
 Result<void> check_rows(const RowPlan& plan, const ArxDesign& design) {
   if (plan.rows == 0) {
     return Error{"no row can be predicted: the first sample is " + std::to_string(plan.first_sample) +
-                 " (the longest lag, or what was requested), and no episode has that many rows and one more without "
+                 " (the longest lag), and no episode has that many rows and one more without "
                  "gaps; use lower orders or delays, or a longer recording"};
   }
   std::size_t most = 0;

@@ -36,8 +36,7 @@ bool has_kernel(const SharedRows& rows, const EstimateOptions& options) {
 
 SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scale, const ArxDesign& design,
                          const EstimateOptions& options, const Eigen::MatrixXd& products) {
-  SharedProblem problem{
-      rows.columns, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.columns.size())), options.ridge, {}};
+  SharedProblem problem{rows.columns, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.columns.size())), {}};
   if (has_kernel(rows, options)) problem.prior = prior_of(rows, design, products);
   for (int output : rows.outputs) problem.targets.push_back(design.layout.target(output));
   for (std::size_t p = 0; p < rows.columns.size(); ++p) {
@@ -73,20 +72,15 @@ Eigen::MatrixXd residuals_of(const Eigen::MatrixXd& triangle, const ArxDesign& d
 }
 
 // Adds the refinement step to the coefficients. Returns its size relative to them.
-double refine(const ArxDesign& design, const Eigen::MatrixXd& gram, const std::vector<SharedProblem>& problems,
-              ResidualProducts& products, ArxEstimate& estimate) {
+double refine(const ArxDesign& design, const std::vector<SharedProblem>& problems, ResidualProducts& products,
+              ArxEstimate& estimate) {
   double largest = 0;
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     SharedSolution& solution = estimate.groups[g];
     Eigen::MatrixXd slope = products.gradient[g];
-    const double ridge = problems[g].ridge;
     const Eigen::MatrixXd& prior = problems[g].prior;
-    const bool drawn_in = ridge > 0 || prior.size() > 0;
-    if (ridge > 0) {
-      const Eigen::VectorXd energy = gram.diagonal()(design.groups[g].columns);
-      slope -= ridge * energy.asDiagonal() * solution.theta;
-    }
-    if (prior.size() > 0) slope -= prior.transpose() * (prior * solution.theta);
+    const bool drawn_in = prior.size() > 0;
+    if (drawn_in) slope -= prior.transpose() * (prior * solution.theta);
     const Eigen::MatrixXd step = solution.inverse * slope;
     // (r − Xδ)ᵀ(r − Xδ) = rᵀr − δᵀXᵀr − rᵀXδ + δᵀXᵀXδ; without a prior XᵀXδ = Xᵀr, and one of the three terms remains.
     const Eigen::MatrixXd change = step.transpose() * products.gradient[g];
@@ -125,7 +119,7 @@ std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan,
   ResidualProducts products;
   for (int pass = 0; pass < 3; ++pass) {
     products = residual_products(signals, plan, design, estimate.thetas());
-    const double step = refine(design, gram, problems, products, estimate);
+    const double step = refine(design, problems, products, estimate);
     if (step < kNegligible || design.groups.size() == 1) break;
   }
   estimate.residual_gram = products.gram;

@@ -38,7 +38,6 @@ struct ArxEstimate {
 
 /// What to compute.
 struct EstimateOptions {
-  double ridge = 0;
   bool joint = false;                   ///< also the products that tie rows of different groups together
   ArxKernel kernel = ArxKernel::kNone;  ///< with one, every group has one output
   std::vector<int> kernel_outputs{};    ///< outputs that have the kernel; empty: all

@@ -53,21 +53,22 @@ Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoic
   if (!signals) return signals.error();
   const ArxDesign design =
       make_design(options.orders, options.offset, options.kernel != ArxKernel::kNone || !options.integrators.empty());
-  const RowPlan plan = plan_rows(*signals, design.layout, options.first_sample.value_or(options.orders.history()));
+  const RowPlan plan = plan_rows(*signals, design.layout, options.orders.history());
   if (auto ok = check_rows(plan, design); !ok) return ok.error();
 
   const FitFacts facts{options,   signals->outputs,  signals->names,     signals->offset,       signals->scale,
                        plan.rows, plan.first_sample, plan.episodes_used, plan.episodes_skipped, plan.rows_left_out};
   ArxEstimate estimate = estimate_from_data(
-      *signals, plan, design, {options.ridge, options.covariance, options.kernel, options.kernel_outputs});
+      *signals, plan, design, {options.covariance, options.kernel, options.kernel_outputs});
   if (!options.integrators.empty()) hold_integrators(options, design, estimate);
   ArxFit fit = report_fit(facts, design, std::move(estimate));
   const bool driven = std::any_of(options.orders.nb.values().begin(), options.orders.nb.values().end(),
                                   [](int order) { return order > 0; });
   if (options.judge_free_run && driven) {
+    const Signals judged = middle_of(*signals, kJudgedRows);
     const auto fits = [&](bool as_played) {
       const FreeRunStart start{InitialState::kMeasured, options.orders.history(), as_played};
-      return free_run_tally(fit.model, *signals, 1, start).figures(kFreeRun).fit_percent;
+      return free_run_tally(fit.model, judged, start).figures(kFreeRun).fit_percent;
     };
     fit.summary.free_run_fit_percent = fits(false);
     fit.summary.played_fit_percent = fits(true);

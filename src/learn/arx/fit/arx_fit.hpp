@@ -25,15 +25,12 @@ namespace wisp {
 struct ArxOptions {
   ArxOrders orders;                     ///< see make_orders
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
-  double ridge = 0;  ///< ≥ 0, no unit: weight of every coefficient's size, as a share of its regressor's own energy
   ArxKernel kernel = ArxKernel::kNone;  ///< a prior on every output's coefficients, found by its marginal likelihood
   std::vector<int> kernel_outputs{};    ///< outputs that have the prior; empty: all
-  std::optional<int> first_sample;      ///< first row of an episode to be predicted, 0-based, at least the longest lag;
-                                        ///< unset: the longest lag, max(na, nb + nk − 1)
   std::vector<int> integrators{};       ///< poles per output that are held where it integrates, 0 to 2; empty: none.
                                         ///< Only of outputs that remember no other output
   double integrator_pole = 1;           ///< where they are held
-  bool stabilise = true;                ///< re-estimate an unstable model under the constraint that it is stable
+  bool stabilise = true;                ///< draw the poles of an unstable estimate inwards until it is stable
   double stability_margin = 1e-3;       ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
   bool covariance = false;              ///< compute the covariance of all coefficients together, for confidence bands
   bool judge_free_run = true;           ///< simulate over the recordings too, to warn where one-step fit hides failure

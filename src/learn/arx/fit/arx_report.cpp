@@ -59,8 +59,9 @@ GroupThetas thetas_of(const FitFacts& facts, const ArxDesign& design, const ArxM
   return all;
 }
 
-std::vector<RowCurvature> curvatures(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate) {
-  std::vector<RowCurvature> all(facts.outputs);
+// (XᵀX)⁻¹ of every output row, with A's signs.
+std::vector<Eigen::MatrixXd> inverses(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate) {
+  std::vector<Eigen::MatrixXd> all(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     const SharedRows& rows = design.groups[g];
     Eigen::VectorXd sign(static_cast<Eigen::Index>(rows.columns.size()));
@@ -68,9 +69,7 @@ std::vector<RowCurvature> curvatures(const FitFacts& facts, const ArxDesign& des
       sign[static_cast<Eigen::Index>(p)] = sign_of(facts, design.layout[rows.columns[p]]);
     }
     for (int output : rows.outputs) {
-      all[output].inverse = sign.asDiagonal() * estimate.groups[g].inverse * sign.asDiagonal();
-      const double square = estimate.residual_gram(output, output);
-      all[output].weight = square > 0 ? 1 / square : 1;
+      all[output] = sign.asDiagonal() * estimate.groups[g].inverse * sign.asDiagonal();
     }
   }
   return all;
@@ -239,17 +238,14 @@ void name_rank_problems(const FitFacts& facts, const ArxDesign& design, const Ar
 }
 
 // The model is returned as single precision will see it: a repaired one is checked, and drawn in further, on that.
-void settle_stability(const FitFacts& facts, const std::vector<RowCurvature>& curvature, ArxModel& scaled,
+void settle_stability(const FitFacts& facts, const std::vector<Eigen::MatrixXd>& inverse, ArxModel& scaled,
                       ArxStability& stable) {
   stable.estimated = stable.radius = spectral_radius(scaled);
-  if (!facts.options.stabilise || stable.radius < 1) return;
-  stable.changed = true;
-  const double most = 1 - facts.options.stability_margin;
-  make_stable(scaled, curvature, most);
-  stable.radius = spectral_radius(scaled);
-  while (stable.radius >= 1) {
-    scale_poles(scaled, most / stable.radius);
+  const double share = 1 - facts.options.stability_margin;
+  for (double most = share; facts.options.stabilise && stable.radius >= 1; most *= share) {
+    make_stable(scaled, inverse, most);
     stable.radius = spectral_radius(scaled);
+    stable.changed = true;
   }
 }
 
@@ -286,7 +282,7 @@ ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate es
   ArxSummary& summary = fit.summary;
   fit.model = scaled_model(facts, design, estimate);
   const ArxModel estimated = fit.model;
-  settle_stability(facts, curvatures(facts, design, estimate), fit.model, summary.stable);
+  settle_stability(facts, inverses(facts, design, estimate), fit.model, summary.stable);
   Eigen::MatrixXd residual_gram = estimate.residual_gram;
   if (summary.stable.changed) {
     residual_gram = estimate.residual_gram_at(thetas_of(facts, design, fit.model));

@@ -101,14 +101,13 @@ SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const Shared
   const auto d = static_cast<Eigen::Index>(problem.columns.size());
   const auto targets = static_cast<Eigen::Index>(problem.targets.size());
   const Eigen::Index rows = triangle.rows();
-  const Eigen::Index ridge = problem.ridge > 0 ? d : 0, prior = problem.prior.rows();
-  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(rows + ridge + prior, d + targets);
+  const Eigen::Index prior = problem.prior.rows();
+  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(rows + prior, d + targets);
   Eigen::VectorXd norm(d);
   for (Eigen::Index j = 0; j < d; ++j) {
     const auto column = triangle.col(problem.columns[j]);
     norm[j] = column.norm();
     if (norm[j] > 0) stacked.col(j).head(rows) = column / norm[j];
-    if (ridge > 0) stacked(rows + j, j) = std::sqrt(problem.ridge);
     if (prior > 0 && norm[j] > 0) stacked.col(j).tail(prior) = problem.prior.col(j) / norm[j];
   }
   for (Eigen::Index i = 0; i < targets; ++i) stacked.col(d + i).head(rows) = triangle.col(problem.targets[i]);
@@ -134,7 +133,6 @@ std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const
   }
   Eigen::MatrixXd scaled = gram(problem.columns, problem.columns);
   scaled = norm.cwiseInverse().asDiagonal() * scaled * norm.cwiseInverse().asDiagonal();
-  scaled.diagonal().array() += problem.ridge;
   if (problem.prior.size() > 0) {
     const Eigen::MatrixXd prior = problem.prior * norm.cwiseInverse().asDiagonal();
     scaled += prior.transpose() * prior;

@@ -19,18 +19,17 @@ struct DependentColumn {
 /// The least-squares solution of rows with the same regressors X, in scaled units.
 struct SharedSolution {
   Eigen::MatrixXd theta;    ///< one column an output row, without A's sign; 0 for dependent regressors
-  Eigen::MatrixXd inverse;  ///< (XᵀX + ridge + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
+  Eigen::MatrixXd inverse;  ///< (XᵀX + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
   std::vector<DependentColumn> dependent;
   double condition = 1;         ///< of X with its columns in the data's units, dependent ones left out
   double scaled_condition = 1;  ///< of X with columns of norm 1
 };
 
-/// What to solve: for every target, minimise |target − Xθ|² + ridge Σ |X_j|² θ_j² + |Fθ|².
+/// What to solve: for every target, minimise |target − Xθ|² + |Fθ|².
 struct SharedProblem {
   std::vector<int> columns;  ///< X, as columns of the whole regression
   std::vector<int> targets;  ///< columns of the whole regression
   Eigen::VectorXd unit;      ///< data's unit / scaled unit, per column of X
-  double ridge = 0;
   Eigen::MatrixXd prior;  ///< F, square; empty: none
 };
 

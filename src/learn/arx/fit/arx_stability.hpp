@@ -1,5 +1,5 @@
 #pragma once
-// An unstable estimate, re-estimated under the constraint that it is stable.
+// An unstable estimate, made stable.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,21 +8,14 @@
 
 namespace wisp {
 
-/// The quadratic loss of one output row around its estimate: loss = (θ − θ̂)ᵀ inverse⁻¹ (θ − θ̂) · weight. θ is laid out
-/// and scaled as in the model; a constant, where it was estimated, is a last entry of the inverse.
-struct RowCurvature {
-  Eigen::MatrixXd inverse;
-  double weight = 1;
-};
-
-/// Changes the coefficients so that no pole's radius is above `max_radius`, with as little loss as it can: A moves on
-/// the constraint, and B and the constant follow with what is best for that A; where outputs that feed each other have
-/// more than 100 poles, all of theirs are scaled inwards alike. Returns the change in loss.
+/// Scales the poles of outputs that feed each other inwards alike, where one of them is beyond `max_radius`; B and the
+/// constant follow with what is best for that A. `inverse`, an output row: (XᵀX)⁻¹ of its regressors, laid out and
+/// scaled as in the model; a constant, where it was estimated, is a last entry.
 ///
-/// Preconditions: 0 < max_radius < 1; one curvature an output row, positive semidefinite.
-double make_stable(ArxModel& model, const std::vector<RowCurvature>& curvature, double max_radius);
-
-/// Multiplies every pole with `factor`: a coefficient at lag l with factor to the power of l.
-void scale_poles(ArxModel& model, double factor);
+/// Chosen on public data: least squares on the boundary of the stable set loses less one step ahead and simulates unseen
+/// rows worse (docs/studies/identification.md).
+///
+/// Preconditions: 0 < max_radius < 1; one inverse an output row, positive semidefinite.
+void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius);
 
 }  // namespace wisp

@@ -16,7 +16,7 @@ namespace wisp {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x3152544350534957;  // "WISPCTR1"
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 constexpr std::size_t kHeader = 4 * 8;
 constexpr std::uint64_t kMaxChannels = 4096;
 constexpr std::uint64_t kMaxName = 65536;
@@ -102,11 +102,6 @@ void walk(Archive& archive, FactorOptions& options) {
   archive.matrix(options.orders.na, ny, ny);
   archive.matrix(options.orders.nb, ny, nu);
   archive.matrix(options.orders.nk, ny, nu);
-  bool set = options.first_sample.has_value();
-  int first = options.first_sample.value_or(0);
-  archive.number(set, 1);
-  if (set) archive.number(first, 1 << 30);
-  if (set) options.first_sample = first;
 }
 
 // All but the options.
@@ -170,7 +165,6 @@ Result<void> check_factor_options(const FactorOptions& options) {
   if (options.channels.outputs.empty()) return Error{"no output channel was named"};
   ArxOptions fit;
   fit.orders = options.orders;
-  fit.first_sample = options.first_sample;
   return check_options(fit, options.channels);
 }
 
@@ -181,14 +175,13 @@ Result<void> check_same_model(const FactorState& state, const FactorState& other
   if (state.options.channels.outputs != other.options.channels.outputs) return differ("outputs");
   if (state.options.channels.inputs != other.options.channels.inputs) return differ("inputs");
   if (!(state.options.orders == other.options.orders)) return differ("orders");
-  if (state.first_sample() != other.first_sample()) return differ("first samples");
   const bool both = state.rate_hz != 0 && other.rate_hz != 0;
   if (both && std::abs(state.rate_hz - other.rate_hz) > 1e-6 * state.rate_hz) return differ("rates");
   return {};
 }
 
-std::vector<std::byte> factor_bytes(const FactorState& state) {
-  FactorState own = state;
+std::vector<std::byte> TriangularFactor::bytes() const {
+  FactorState own = state_;
   Archive payload, whole;
   walk(payload, own.options);
   walk(payload, own);
@@ -199,7 +192,7 @@ std::vector<std::byte> factor_bytes(const FactorState& state) {
   return bytes;
 }
 
-Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
+Result<TriangularFactor> TriangularFactor::from_bytes(std::span<const std::byte> bytes) {
   Archive header(bytes.first(std::min(bytes.size(), kHeader)));
   std::uint64_t magic = 0, version = 0, size = 0, expected = 0;
   for (auto* number : {&magic, &version, &size, &expected}) header.number(*number);
@@ -221,7 +214,7 @@ Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
   FactorState state(options);
   walk(archive, state);
   if (!archive.fine() || archive.left() != 0 || !meaningful(state) || !meaningful(state.notes)) return damaged;
-  return state;
+  return TriangularFactor(std::move(state));
 }
 
 }  // namespace wisp

@@ -190,18 +190,9 @@ Result<void> TriangularFactor::merge(const TriangularFactor& other) {
   return {};
 }
 
-std::vector<std::byte> TriangularFactor::bytes() const { return factor_bytes(state_); }
-
-Result<TriangularFactor> TriangularFactor::from_bytes(std::span<const std::byte> bytes) {
-  auto state = factor_from_bytes(bytes);
-  if (!state) return state.error();
-  return TriangularFactor(std::move(*state));
-}
-
 Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   ArxOptions own = options;
   own.orders = state_.options.orders;
-  own.first_sample = state_.options.first_sample;
   if (auto ok = check_options(own, state_.options.channels); !ok) return ok.error();
   const ArxDesign design = make_design(own.orders, own.offset, own.kernel != ArxKernel::kNone);
   RowPlan plan;
@@ -221,7 +212,7 @@ Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   Eigen::MatrixXd triangle = state_.triangle;
   shift_columns(design.layout, shift, facts.scale, triangle);
   ArxFit fit = report_fit(
-      facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.ridge, own.covariance, own.kernel}));
+      facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.covariance, own.kernel}));
   judge_fit(facts, fit.summary);
   return fit;
 }

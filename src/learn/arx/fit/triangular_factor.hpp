@@ -30,7 +30,6 @@ namespace wisp {
 struct FactorOptions {
   ChannelChoice channels;
   ArxOrders orders;
-  std::optional<int> first_sample;  ///< as ArxOptions'
 };
 
 /// Rows [begin, end) of a recording that a part takes in. Rows before them are history and belong to other parts.
@@ -76,7 +75,7 @@ struct FactorState {
 
   explicit FactorState(const FactorOptions& given);
 
-  int first_sample() const { return options.first_sample.value_or(options.orders.history()); }
+  int first_sample() const { return options.orders.history(); }
 };
 
 class TriangularFactor {
@@ -117,9 +116,8 @@ class TriangularFactor {
   /// From bytes. Errors: not a factor, cut short, changed, of another version, or not meaningful.
   static Result<TriangularFactor> from_bytes(std::span<const std::byte> bytes);
 
-  /// The fit of all that was taken in, as fit_arx makes it; channels, orders and first sample of `options` are the
-  /// factor's. Free simulation is not judged: there is no data to simulate.
-  /// Errors: too few rows.
+  /// The fit of all that was taken in, as fit_arx makes it; channels and orders of `options` are the factor's. Free
+  /// simulation is not judged: there is no data to simulate. Errors: too few rows.
   Result<ArxFit> finish(const ArxOptions& options) const;
 
  private:
@@ -129,12 +127,7 @@ class TriangularFactor {
 
 Result<void> check_factor_options(const FactorOptions& options);
 
-/// Errors: the parts are of different models; which of channels, orders, first sample or rate differs.
+/// Errors: the parts are of different models; which of channels, orders or rate differs.
 Result<void> check_same_model(const FactorState& state, const FactorState& other);
-
-std::vector<std::byte> factor_bytes(const FactorState& state);
-
-/// Errors: as TriangularFactor::from_bytes.
-Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace wisp

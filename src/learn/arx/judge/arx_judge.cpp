@@ -36,8 +36,7 @@ void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summa
   }
   if (!failing.empty() && summary.stable.changed) {
     summary.warnings.push_back(
-        "a repair with the least loss one step ahead leaves poles at the edge of stability; one that draws them "
-        "farther in (a smaller radius) may simulate better");
+        "poles that were drawn in to the edge of stability may simulate better farther in (a smaller radius)");
   }
 }
 

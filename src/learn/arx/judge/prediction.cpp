@@ -24,10 +24,6 @@ Result<void> check_figures(const ArxModel& model, const FigureOptions& options) 
   for (int steps : options.steps) {
     if (auto ok = check_steps(steps); !ok) return ok;
   }
-  if (options.group < 1 || model.orders.outputs() % options.group != 0) {
-    return Error{std::to_string(model.orders.outputs()) + " outputs cannot be taken in groups of " +
-                 std::to_string(options.group)};
-  }
   if (options.first_sample && *options.first_sample < model.orders.history()) {
     return Error{"the first sample is " + std::to_string(*options.first_sample) + ", but the model's history is " +
                  std::to_string(model.orders.history()) + " samples"};
@@ -78,13 +74,11 @@ class StepErrors {
 class Tallies {
  public:
   Tallies(const ArxModel& model, const Signals& signals, const FigureOptions& options, int first_sample)
-      : signals_(signals),
-        group_(options.group),
-        at_(1 + *std::max_element(options.steps.begin(), options.steps.end()), -1) {
+      : signals_(signals), at_(1 + *std::max_element(options.steps.begin(), options.steps.end()), -1) {
     for (int steps : options.steps) {
       if (steps == kFreeRun || at_[steps] >= 0) continue;
       at_[steps] = static_cast<int>(tallies_.size());
-      tallies_.emplace_back(signals.outputs, options.group);
+      tallies_.emplace_back(signals.outputs);
     }
     const int most = static_cast<int>(at_.size()) - 1;
     if (most < 1) return;
@@ -108,7 +102,7 @@ class Tallies {
   // The outputs' own sums differ between numbers of steps in the first rows of a run only.
   void add_outputs(const RowRun& run, int most) {
     for (int i = 0; i < signals_.outputs; ++i) {
-      Tally whole(signals_.outputs, group_);
+      Tally whole(signals_.outputs);
       const auto samples = signals_.samples[run.recording][i];
       const Eigen::Map<const Eigen::ArrayXd> rows(samples.data() + run.begin,
                                                   static_cast<Eigen::Index>(run.end - run.begin));
@@ -121,7 +115,6 @@ class Tallies {
   }
 
   const Signals& signals_;
-  int group_;
   std::vector<int> at_;
   std::vector<Tally> tallies_;
 };
@@ -180,9 +173,8 @@ Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const S
   const Tallies tallies(model, signals, options, first_sample);
   std::vector<PredictionFigures> out;
   for (int steps : options.steps) {
-    const Tally tally = steps == kFreeRun
-                            ? free_run_tally(model, signals, options.group, {options.initial, first_sample})
-                            : tallies[steps];
+    const Tally tally =
+        steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample}) : tallies[steps];
     if (tally.rows() == 0) {
       return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
                    std::to_string(model.orders.history()) + " samples"};

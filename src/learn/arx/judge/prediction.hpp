@@ -39,13 +39,12 @@ struct PredictionFigures {
   std::size_t rows = 0;             ///< rows that were predicted and measured
   std::vector<double> mean_square;  ///< of the error, per output, its unit²
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over those rows, per output; 0 where y is constant
-  std::vector<double> j;  ///< J_k: mean norm of the error, per group of outputs
+  std::vector<double> j;  ///< J_k: mean norm of the error, per group of outputs: of one here
 };
 
 /// Which figures.
 struct FigureOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};
-  int group = 1;  ///< consecutive outputs that are one vector, ≥ 1: 2 where outputs are x, y of points
   InitialState initial = InitialState::kMeasured;
   std::optional<int> first_sample;  ///< first row of an episode for one step, 0-based, at least the model's history;
                                     ///< unset: the model's history
@@ -53,7 +52,7 @@ struct FigureOptions {
 
 /// The error of predictions over all recordings together, for every number of steps. All numbers of steps are computed
 /// in one pass over the data.
-/// Errors: as predict, and where the outputs are not a multiple of `group` or nothing can be predicted.
+/// Errors: as predict, and where nothing can be predicted.
 Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
                                                           const ChannelChoice& channels,
                                                           const FigureOptions& options = {});

@@ -30,12 +30,10 @@ void Tally::add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors) {
   for (std::size_t g = 0; g < norm_.size(); ++g) {
     const auto first = static_cast<Eigen::Index>(g) * group_;
     if (group_ == 1) {
-      norm_[g] += errors.col(first).array().abs().sum();
-      continue;
+      norm_[g] += errors.col(first).lpNorm<1>();
+    } else {
+      norm_[g] += errors.middleCols(first, group_).rowwise().norm().sum();
     }
-    Eigen::ArrayXd sum = errors.col(first).array().square();
-    for (int k = 1; k < group_; ++k) sum += errors.col(first + k).array().square();
-    norm_[g] += sum.sqrt().sum();
   }
 }
 
@@ -85,8 +83,8 @@ void FreeRunTally::add(const Signals& signals, std::size_t recording, std::size_
   for (int i = 0; i < signals.outputs; ++i) tally_.add_output(i, measured_.col(i).head(whole));
 }
 
-Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, const FreeRunStart& start) {
-  Tally tally(signals.outputs, group);
+Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start) {
+  Tally tally(signals.outputs);
   FreeRunTally errors(tally);
   for (std::size_t r = 0; r < signals.samples.size(); ++r) {
     free_run(model, signals, r, start, [&](std::size_t first, std::size_t rows, const double* values) {

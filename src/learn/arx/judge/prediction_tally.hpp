@@ -15,7 +15,7 @@ namespace wisp {
 class Tally {
  public:
   /// `group`: consecutive outputs whose error is one vector.
-  Tally(int outputs, int group)
+  explicit Tally(int outputs, int group = 1)
       : group_(group), square_(outputs), y_(outputs), y_square_(outputs), norm_(outputs / group) {}
 
   std::size_t rows() const { return rows_; }
@@ -62,7 +62,7 @@ class FreeRunTally {
 /// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
 ///
 /// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
-Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, const FreeRunStart& start);
+Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start);
 
 /// What prediction_figures computes.
 Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,

@@ -10,21 +10,13 @@ namespace {
 
 bool coupled(const UniformOrders& uniform, int i, int j) {
   const int apart = std::abs(i / uniform.group - j / uniform.group);
-  switch (uniform.coupling) {
-    case Coupling::kFull:
-      return true;
-    case Coupling::kDiagonal:
-      return apart == 0;
-    case Coupling::kBand:
-      return apart <= uniform.reach;
-  }
-  return false;
+  return uniform.coupling == Coupling::kFull || apart <= (uniform.coupling == Coupling::kBand ? 1 : 0);
 }
 
 }  // namespace
 
 ArxOrders make_orders(const UniformOrders& uniform) {
-  assert(uniform.outputs >= 1 && uniform.inputs >= 0 && uniform.group >= 1 && uniform.reach >= 0);
+  assert(uniform.outputs >= 1 && uniform.inputs >= 0 && uniform.group >= 1);
   ArxOrders orders{OrderMatrix(uniform.outputs, uniform.outputs),
                    OrderMatrix(uniform.outputs, uniform.inputs, uniform.nb),
                    OrderMatrix(uniform.outputs, uniform.inputs, uniform.nk)};

@@ -17,7 +17,6 @@ struct UniformOrders {
   int nk = 1;  ///< delay of inputs in samples, 0 to 4096; 1: an input acts on the next sample
   Coupling coupling = Coupling::kFull;
   int group = 1;  ///< consecutive outputs that belong together, ≥ 1: 2 where outputs are x, y of points
-  int reach = 1;  ///< for kBand, ≥ 0
 };
 
 /// Returns na (outputs × outputs), nb and nk (outputs × inputs).

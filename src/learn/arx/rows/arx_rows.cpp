@@ -226,6 +226,22 @@ Result<Signals> gather_signals(std::span<const Recording> recordings, const Chan
   return signals;
 }
 
+Signals middle_of(const Signals& signals, std::size_t most) {
+  std::size_t total = 0;
+  for (const auto& channels : signals.samples) total += channels.front().size();
+  Signals out = signals;
+  for (std::size_t r = 0; total > most && r < out.samples.size(); ++r) {
+    const std::size_t all = out.samples[r].front().size(), rows = all * most / total, first = (all - rows) / 2;
+    for (auto& samples : out.samples[r]) samples = samples.subspan(first, rows);
+    for (Episode& episode : out.episodes[r]) {
+      episode.begin = std::clamp(episode.begin, first, first + rows) - first;
+      episode.end = std::clamp(episode.end, first, first + rows) - first;
+    }
+    std::erase_if(out.episodes[r], [](const Episode& episode) { return episode.size() == 0; });
+  }
+  return out;
+}
+
 RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample) {
   return plan_channels(signals, layout, first_sample, 0);
 }

@@ -68,6 +68,12 @@ Result<Signals> find_signals(std::span<const Recording> recordings, const Channe
 /// Finds the channels and their offsets and scales. Errors: as find_signals, and where a channel has no sample.
 Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset);
 
+/// Rows that figures are computed from: of more they are the same, but take longer.
+inline constexpr std::size_t kJudgedRows = std::size_t{1} << 18;
+
+/// The middle of every recording, `most` rows together, or all of fewer. The spans are those of `signals`.
+Signals middle_of(const Signals& signals, std::size_t most);
+
 /// The rows whose columns are all there, from row `first_sample` of every episode on.
 ///
 /// Precondition: first_sample >= layout.history().

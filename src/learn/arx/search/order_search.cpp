@@ -28,33 +28,17 @@ Result<void> check_range(const OrderRange& range, const char* name) {
 
 std::size_t length(const OrderRange& range) { return static_cast<std::size_t>(range.last - range.first) + 1; }
 
-int largest(const OrderMatrix& matrix) {
-  int most = 0;
-  for (int order : matrix.values()) most = std::max(most, order);
-  return most;
-}
-
 Result<std::vector<OrderCandidate>> list_candidates(const ChannelChoice& channels, const SearchOptions& options) {
-  std::vector<OrderCandidate> list;
-  for (const ArxOrders& orders : options.candidates) {
-    OrderCandidate& candidate = list.emplace_back();
-    candidate.orders = orders;
-    candidate.na = largest(orders.na);
-    candidate.nb = largest(orders.nb);
-    candidate.nk = largest(orders.nk);
-  }
-  if (!list.empty()) return list;
   if (auto ok = check_range(options.na, "na"); !ok) return ok.error();
   if (auto ok = check_range(options.nb, "nb"); !ok) return ok.error();
   if (auto ok = check_range(options.nk, "nk"); !ok) return ok.error();
   if (length(options.na) * length(options.nb) * length(options.nk) > kMaxCandidates) {
     return Error{"the grid has more than a million candidates; search it in parts"};
   }
+  std::vector<OrderCandidate> list;
   UniformOrders uniform{.outputs = static_cast<int>(channels.outputs.size()),
                         .inputs = static_cast<int>(channels.inputs.size()),
-                        .coupling = options.coupling,
-                        .group = options.group,
-                        .reach = options.reach};
+                        .coupling = options.coupling};
   const OrderRange nb = channels.inputs.empty() ? OrderRange{0, 0} : options.nb;
   const OrderRange nk = channels.inputs.empty() ? OrderRange{0, 0} : options.nk;
   for (uniform.nk = nk.first; uniform.nk <= nk.last; ++uniform.nk) {
@@ -86,13 +70,12 @@ class Search {
       latest_ = std::max(latest_, candidate.orders.history());
       earliest = std::min(earliest, candidate.orders.history());
     }
-    if (options.common_start) earliest = latest_;
     windows_.emplace(signals, layout_, earliest, latest_);
     if (validation != nullptr && options.steps == 1) validation_.emplace(*validation, layout_, earliest, latest_);
   }
 
   Result<void> judge(OrderCandidate& candidate) {
-    const int first = options_.common_start ? latest_ : candidate.orders.history();
+    const int first = candidate.orders.history();
     const std::vector<CandidateRows> rows = rows_of(candidate.orders);
     std::size_t most = 0;
     for (const CandidateRows& part : rows) most = std::max(most, part.columns.size());

@@ -26,20 +26,16 @@ struct SearchOptions {
   OrderRange na{1, 10};
   OrderRange nb{1, 10};
   OrderRange nk{0, 3};
-  Coupling coupling = Coupling::kFull;  ///< as in UniformOrders, with `group` and `reach`
-  int group = 1;
-  int reach = 1;
-  std::vector<ArxOrders> candidates;  ///< in the place of the grid, where it is not empty: any order matrices
+  Coupling coupling = Coupling::kFull;
   OrderCriterion by = OrderCriterion::kFpe;
-  int steps = 1;              ///< for validation: steps ahead, or kFreeRun for free simulation
-  bool common_start = false;  ///< judge all candidates on the same rows, those that the longest one can predict
+  int steps = 1;                        ///< for validation: steps ahead, or kFreeRun for free simulation
   ArxOffset offset = ArxOffset::kMean;  ///< kMean subtracts each set's own means
 };
 
 /// One candidate and its figures. Fits are as estimated, whether stable or not.
 struct OrderCandidate {
   ArxOrders orders;
-  int na = 0;  ///< of the grid; the largest entry of other order matrices
+  int na = 0;  ///< of the grid
   int nb = 0;
   int nk = 0;
   std::size_t rows = 0;      ///< that it was estimated from

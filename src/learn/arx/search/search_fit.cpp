@@ -51,7 +51,7 @@ bool solve_by_gram(const Eigen::MatrixXd& gram, const CandidateRows& rows, const
 
 bool solve_by_triangle(const Eigen::MatrixXd& triangle, const CandidateRows& rows, const LagLayout& layout,
                        Eigen::MatrixXd& annihilator) {
-  SharedProblem problem{rows.columns, {}, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.columns.size())), 0};
+  SharedProblem problem{rows.columns, {}, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.columns.size())), {}};
   for (int output : rows.outputs) problem.targets.push_back(layout.target(output));
   const SharedSolution solution = solve_with_triangle(triangle, problem);
   for (std::size_t k = 0; k < rows.outputs.size(); ++k) {

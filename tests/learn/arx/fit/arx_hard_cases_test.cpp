@@ -87,17 +87,6 @@ TEST(ArxHardCases, TwoIdenticalInputsAreNamedBoth) {
   EXPECT_FALSE(got.summary.usable.verdict);
 }
 
-TEST(ArxHardCases, RidgeSharesOutBetweenIdenticalInputs) {
-  Recording recording = second_order(300, 0.1);
-  recording.channels.push_back({"twin", "", Role::kInput, recording.channels[0].samples});
-  ArxOptions with_ridge = options(2);
-  with_ridge.ridge = 1e-6;
-  const ArxFit got = fit(recording, with_ridge, {{"u", "twin"}, {"y"}});
-  EXPECT_TRUE(got.summary.rank_problems.empty());
-  EXPECT_NEAR(got.model.theta[0][2], 0.5, 0.02);
-  EXPECT_NEAR(got.model.theta[0][4], got.model.theta[0][2], 1e-8);
-}
-
 TEST(ArxHardCases, OneMissingSampleInAHundredThousandCostsItsRowsOnly) {
   Recording recording = second_order(100000, 0.1);
   recording.channels[1].samples[54321] = kMissing;
@@ -229,14 +218,6 @@ TEST(ArxHardCases, OrderMatricesOfTheWrongShapeAreAnError) {
   ArxOptions wrong = options();
   wrong.orders.na = OrderMatrix(2, 2, 1);
   EXPECT_THAT(error_of(second_order(300), wrong), AllOf(HasSubstr("na is 2 × 2"), HasSubstr("1 × 1")));
-}
-
-TEST(ArxHardCases, FirstSampleBeforeTheLongestLagIsAnError) {
-  ArxOptions early = options();
-  early.first_sample = 1;
-  EXPECT_THAT(error_of(second_order(300), early), HasSubstr("longest lag is 2"));
-  early.first_sample = 10;
-  EXPECT_EQ(fit(second_order(300), early).summary.samples_used, 290u);
 }
 
 }  // namespace

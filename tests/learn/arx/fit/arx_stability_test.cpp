@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/response.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp::arx_stability_test {
@@ -23,19 +24,12 @@ ArxModel model_with(std::vector<std::vector<double>> theta, const ArxOrders& ord
   return model;
 }
 
-double loss(const std::vector<double>& theta, const std::vector<double>& estimate, const Eigen::MatrixXd& inverse) {
-  const Eigen::Index size = inverse.rows();
-  const Eigen::VectorXd moved =
-      Eigen::Map<const Eigen::VectorXd>(theta.data(), size) - Eigen::Map<const Eigen::VectorXd>(estimate.data(), size);
-  return moved.dot(inverse.inverse() * moved);
-}
-
-TEST(MakeStable, OrderOneGoesToTheBoundaryAndBFollows) {
+TEST(MakeStable, OrderOneGoesToTheRadiusAndBFollows) {
   const ArxOrders orders = make_orders({.outputs = 1, .inputs = 1, .na = 1, .nb = 1, .nk = 1});
   ArxModel model = model_with({{-1.1, 2.0}}, orders);
   Eigen::Matrix2d inverse;
   inverse << 2, 0.5, 0.5, 1;
-  make_stable(model, {{inverse, 1}}, kMax);
+  make_stable(model, {inverse}, kMax);
   EXPECT_NEAR(model.theta[0][0], -kMax, 1e-9);
   EXPECT_NEAR(model.theta[0][1], 2.0 + 0.5 / 2 * 0.101, 1e-9);
 }
@@ -46,76 +40,26 @@ TEST(MakeStable, ManyPolesAreScaledInwardsAlike) {
   std::vector<double> theta(kOrder);
   theta[kOrder - 1] = -std::pow(1.02, kOrder);  // poles on a circle of radius 1.02
   ArxModel model = model_with({theta}, orders);
-  make_stable(model, {{Eigen::MatrixXd::Identity(kOrder, kOrder), 1}}, kMax);
+  make_stable(model, {Eigen::MatrixXd::Identity(kOrder, kOrder)}, kMax);
   EXPECT_NEAR(model.theta[0][kOrder - 1], -std::pow(kMax, kOrder), 1e-9);
 }
 
-TEST(MakeStable, OrderTwoFindsTheLeastLossOfAllStablePolynomials) {
-  const ArxOrders orders = make_orders({.outputs = 1, .inputs = 0, .na = 2, .nb = 0, .nk = 0});
-  std::mt19937 generator(3);
-  std::normal_distribution<double> normal;
-  for (int trial = 0; trial < 20; ++trial) {
-    const double a1 = 2 * normal(generator);
-    const double a2 = 1.3 * normal(generator);
-    const ArxModel estimate = model_with({{a1, a2}}, orders);
-    if (spectral_radius(estimate) < 1) continue;
-    const Eigen::Matrix2d root = Eigen::Matrix2d::NullaryExpr([&] { return normal(generator); });
-    const Eigen::Matrix2d inverse = root * root.transpose() + 0.1 * Eigen::Matrix2d::Identity();
-    ArxModel model = estimate;
-    make_stable(model, {{inverse, 1}}, kMax);
-    ASSERT_LT(spectral_radius(model), 1);  // in single precision
-    // The stable polynomials are a triangle: |a2| <= r², |a1| <= r + a2/r. Its edges in steps of a thousandth.
-    double least = std::numeric_limits<double>::infinity();
-    for (int step = 0; step <= 1000; ++step) {
-      const double b2 = kMax * kMax * (2 * step / 1000.0 - 1);
-      const double b1 = kMax + b2 / kMax;
-      least =
-          std::min({least, loss({b1, b2}, estimate.theta[0], inverse), loss({-b1, b2}, estimate.theta[0], inverse)});
-      const double top = 2 * kMax * (2 * step / 1000.0 - 1);
-      least = std::min(least, loss({top, kMax * kMax}, estimate.theta[0], inverse));
-    }
-    EXPECT_LE(loss(model.theta[0], estimate.theta[0], inverse), least * 1.01) << trial;
-  }
-}
-
-// Two outputs that feed each other, with an unstable pair of poles.
-TEST(MakeStable, CoupledOutputsLoseLessThanByScalingAllPoles) {
+TEST(MakeStable, OutputsThatFeedEachOtherKeepTheirPolesDirections) {
   const ArxOrders orders = make_orders({.outputs = 2, .inputs = 0, .na = 2, .nb = 0, .nk = 0});
-  std::mt19937 generator(5);
-  std::normal_distribution<double> normal;
-  int tried = 0;
-  double gain = 0;
-  for (int trial = 0; trial < 60 && tried < 20; ++trial) {
-    std::vector<std::vector<double>> theta(2);
-    for (auto& row : theta) {
-      for (int p = 0; p < 4; ++p) row.push_back(0.7 * normal(generator));
-    }
-    const ArxModel estimate = model_with(theta, orders);
-    const double radius = spectral_radius(estimate);
-    if (radius < 1.02 || radius > 1.5) continue;
-    ++tried;
-    std::vector<RowCurvature> curvature;
-    for (int i = 0; i < 2; ++i) {
-      const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(4, 4, [&] { return normal(generator); });
-      curvature.push_back({root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(4, 4), 1});
-    }
-    ArxModel model = estimate;
-    ArxModel scaled = estimate;
-    const double reported = make_stable(model, curvature, kMax);
-    scale_poles(scaled, kMax / radius);
-    double ours = 0;
-    double theirs = 0;
-    for (int i = 0; i < 2; ++i) {
-      ours += loss(model.theta[i], estimate.theta[i], curvature[i].inverse);
-      theirs += loss(scaled.theta[i], estimate.theta[i], curvature[i].inverse);
-    }
-    EXPECT_LE(spectral_radius(model), kMax + 1e-5);
-    EXPECT_NEAR(reported, ours, 1e-6 * ours);
-    EXPECT_LE(ours, theirs * 1.0001);
-    gain += std::log(theirs / ours) / 20;
+  ArxModel model = model_with({{-1.2, 0.3, 0.6, -0.2}, {0.4, -0.1, -0.9, 0.5}}, orders);
+  const auto before = poles(model);
+  double radius = 0;
+  for (const auto& pole : before) radius = std::max(radius, std::abs(pole));
+  ASSERT_GT(radius, 1.02);
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(4, 4);
+  make_stable(model, {one, one}, kMax);
+  const auto after = poles(model);
+  ASSERT_EQ(after.size(), before.size());
+  for (const auto& pole : before) {
+    EXPECT_TRUE(std::any_of(after.begin(), after.end(), [&](const auto& other) {
+      return std::abs(other - pole * (kMax / radius)) < 1e-9;
+    })) << pole;
   }
-  EXPECT_EQ(tried, 20);
-  EXPECT_GT(std::exp(gain), 2);  // in the geometric mean less than half of what scaling loses
 }
 
 TEST(MakeStable, BlocksThatAreStableStayAsTheyAre) {
@@ -123,7 +67,7 @@ TEST(MakeStable, BlocksThatAreStableStayAsTheyAre) {
       make_orders({.outputs = 2, .inputs = 0, .na = 1, .nb = 0, .nk = 0, .coupling = Coupling::kDiagonal});
   ArxModel model = model_with({{-0.5}, {-1.2}}, orders);
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
-  make_stable(model, {{one, 1}, {one, 1}}, kMax);
+  make_stable(model, {one, one}, kMax);
   EXPECT_EQ(model.theta[0][0], -0.5);
   EXPECT_NEAR(model.theta[1][0], -kMax, 1e-9);
 }
