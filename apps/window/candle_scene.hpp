@@ -40,8 +40,8 @@ inline constexpr float kRingDepth = 0.07F;
 
 inline constexpr float kClickPixels = 5;
 
-inline FlameStyle style_of(int candles) {
-  FlameStyle style;
+inline FlameStyle style_of(const Model& model, int candles) {
+  FlameStyle style = candle_style(model);
   if (candles > 1) style.candle_width = 0.36F;
   return style;
 }
@@ -63,7 +63,7 @@ class CandleScene {
   void resize(int width, int height) {
     width_ = width;
     height_ = height;
-    painter_ = std::make_unique<LiveFlames>(width, height, style_of(candles()));
+    painter_ = std::make_unique<LiveFlames>(width, height, style_);
     arrange();
   }
 
@@ -212,7 +212,7 @@ class CandleScene {
     float wind = 0;
   };
 
-  CandleScene(Bank bank, const Model& model, int candles) : bank_(std::move(bank)), flame_(is_flame(model)) {
+  CandleScene(Bank bank, const Model& model, int candles) : bank_(std::move(bank)), flame_(is_flame(model)), style_(style_of(model, candles)) {
     if (model.extinction) {
       wind_input_ = model.extinction->input;
       level_ = static_cast<float>(model.extinction->level);
@@ -329,6 +329,7 @@ class CandleScene {
 
   Bank bank_;
   bool flame_;  // otherwise drawn as a plain shape
+  FlameStyle style_;
   std::size_t wind_input_ = 0;
   float level_ = 2;
   std::vector<Candle> candles_;

@@ -22,7 +22,7 @@ CandlePictures::CandlePictures(const Model& model, const Bank& bank)
 
 CandlePictures::CandlePictures(const Model& model, int count, int points)
     : width_(std::min(kLoneWidth + 220 * (count - 1), kWidest)), height_(kHeight), image_(width_, height_) {
-  if (is_flame(model)) candles_.emplace(width_, height_);
+  if (is_flame(model)) candles_.emplace(width_, height_, candle_style(model));
   for (int k = 0; k < count; ++k) {
     FlameScene scene = framed(width_, height_);
     const double spacing = static_cast<double>(width_) / (count + 1);

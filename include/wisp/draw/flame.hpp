@@ -96,6 +96,9 @@ void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& 
 /// upwards, in the middle of its range.
 bool is_flame(const Model& model);
 
+/// The style of a model's own candle: wax and width as the film showed them; the default where it showed none.
+FlameStyle candle_style(const Model& model);
+
 /// Draws outlines of other things as filled shapes on a plain ground, each at its scene's place. Times, smoke and size
 /// are ignored.
 void draw_shapes(Image& image, std::span<const Flame> shapes);

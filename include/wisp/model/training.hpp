@@ -82,6 +82,10 @@ struct Preparation {
   bool operator==(const Preparation&) const = default;
 };
 
+/// Figures of a flame's own candle, where the film showed one: its width in mean heights of the flame, and its red,
+/// green and blue, 0 to 255, as it was lit.
+inline constexpr std::array<const char*, 4> kCandleFigures{"candle.width", "candle.red", "candle.green", "candle.blue"};
+
 /// How the model was made.
 struct Training {
   std::string program;               ///< name and version of what wrote it

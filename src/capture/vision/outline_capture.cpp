@@ -6,6 +6,7 @@
 
 #include "base/statistics.hpp"
 #include "capture/vision/candidates.hpp"
+#include "capture/vision/candle_look.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
@@ -111,6 +112,7 @@ class OutlineCapture::Stage {
   std::vector<Waited> stood_still_;  // what was there meanwhile
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
+  std::optional<CandleLook> candle_;
   std::optional<Picture> format_;  // the first picture's layout, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
@@ -202,6 +204,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   if (!survey) return complaint(no_flame() + survey.error().message);
   if (flame && survey->flames < options_.flame) return complaint(too_few(*survey));
   survey_ = std::move(*survey);
+  if (survey_->flames > 0) candle_ = look_of_candle(pictures, survey_->home);
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
   cloud_options_.base = options_.base.value_or(survey_->flames > 0 ? BaseSide::kBottom : base_side(*survey_, area));
   seeker_.emplace(*survey_, area, cloud_options_.base, options_.dark);
@@ -345,6 +348,9 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   recording.source = options_.source;
   recording.rate_hz = options_.rate_hz;
   if (report.knots_placed) set_numbers_attribute(recording, "knots", knots);
+  if (candle_)
+    set_numbers_attribute(recording, "candle",
+                          std::array{candle_->width, candle_->rgb[0], candle_->rgb[1], candle_->rgb[2]});
   recording.attributes.push_back({"source", options_.source});
   recording.attributes.push_back({"width", std::to_string(width_)});
   recording.attributes.push_back({"height", std::to_string(height_)});

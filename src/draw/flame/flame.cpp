@@ -190,6 +190,25 @@ bool is_flame(const Model& model) {
   return stands && width_at(outline, 0.88F * tip.y) < kNarrower * width_at(outline, 0.4F * tip.y);
 }
 
+FlameStyle candle_style(const Model& model) {
+  FlameStyle style;
+  const std::vector<Figure>& figures = model.training.figures;
+  const auto found =
+      std::find_if(figures.begin(), figures.end(), [](const Figure& one) { return one.name == kCandleFigures[0]; });
+  if (figures.end() - found < std::ssize(kCandleFigures)) return style;
+  style.candle_width = static_cast<float>(found->value);
+  // By daylight: what white wax beside a flame lacks of green and blue is put back, and the brightest of them is white.
+  constexpr std::array<double, 3> kLit{1.0, 0.86, 0.66};
+  std::array<double, 3> wax{};
+  for (std::size_t k = 0; k < 3; ++k) wax[k] = found[static_cast<std::ptrdiff_t>(k) + 1].value / kLit[k];
+  const double most = std::max({wax[0], wax[1], wax[2], 1.0});
+  const auto level = [&](double one) {
+    return static_cast<std::uint8_t>(std::lround(240 * std::clamp(one / most, 0.0, 1.0)));
+  };
+  style.wax = {level(wax[0]), level(wax[1]), level(wax[2])};
+  return style;
+}
+
 void draw_shapes(Image& image, std::span<const Flame> shapes) {
   {
     const CairoContext context = context_of(image);

@@ -77,6 +77,16 @@ void note_what_is_borrowed(OutlineFit& fit) {
   fit.model.training.usable = fit.summary.usable;
 }
 
+// The candle that the first film with one shows: its width in heights of the flame, and its colour.
+void keep_candle(std::span<const Recording> recordings, Training& training) {
+  for (const Recording& recording : recordings) {
+    const auto look = numbers_attribute(recording, "candle");
+    if (!look || !*look || (*look)->size() != 4) continue;
+    for (std::size_t k = 0; k < 4; ++k) training.figures.push_back({kCandleFigures[k], (**look)[k]});
+    return;
+  }
+}
+
 }  // namespace
 
 Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
@@ -100,6 +110,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   const auto extinction = seen->complete(fit->model, recipe.extinction);
   if (!extinction) return extinction.error();
   note_what_is_borrowed(*fit);
+  keep_candle(recordings, fit->model.training);
   if (const auto why = refused_by_capture(recordings)) {
     fit->summary.usable = fit->model.training.usable = {false, *why};
     fit->summary.code = "capture";

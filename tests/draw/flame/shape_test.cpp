@@ -37,6 +37,20 @@ TEST(Shape, WhatCanGoOutIsAFlame) {
   EXPECT_TRUE(is_flame(model));
 }
 
+TEST(CandleStyle, IsTheFilmsOwnWaxAndWidth) {
+  Model model = outline_of(kFlame);
+  EXPECT_EQ(candle_style(model).candle_width, FlameStyle{}.candle_width);
+  model.training.figures = {
+      {"fit.1", 90}, {"candle.width", 1.2}, {"candle.red", 160}, {"candle.green", 30}, {"candle.blue", 20}};
+  const FlameStyle red = candle_style(model);
+  EXPECT_FLOAT_EQ(red.candle_width, 1.2F);
+  EXPECT_EQ(red.wax.red, 240);
+  EXPECT_LT(red.wax.green, 70);
+  EXPECT_LT(red.wax.blue, 70);
+  model.training.figures.pop_back();  // a file that was cut
+  EXPECT_EQ(candle_style(model).candle_width, FlameStyle{}.candle_width);
+}
+
 TEST(Shape, ThereIsNoCandleUnderAPlainShape) {
   Image image(200, 200);
   const std::vector<Point> square{{-0.2F, 0}, {-0.2F, 0.5F}, {0.2F, 0.5F}, {0.2F, 0}};

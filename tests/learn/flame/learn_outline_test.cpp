@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 #include "learn/flame/made_blow_outs.hpp"
@@ -52,6 +53,18 @@ TEST(LearnOutline, TheReportHasEveryPromisedField) {
   EXPECT_GT(figure<double>(fit.report, "tip.held_out_fit_percent.inf"), 50);
   ASSERT_TRUE(fit.report.verdict);
   EXPECT_EQ(fit.report.verdict->usable, fit.model.training.usable.verdict);
+}
+
+TEST(LearnOutline, KeepsTheCandleThatTheFirstFilmWithOneShows) {
+  std::vector<Recording> recordings{windy(), windy(2)};
+  set_numbers_attribute(recordings[1], "candle", std::array{0.8, 200.0, 60.0, 40.0});
+  const auto& figures = learned(recordings, {}).model.training.figures;
+  const auto found =
+      std::find_if(figures.begin(), figures.end(), [](const Figure& one) { return one.name == "candle.width"; });
+  ASSERT_GE(figures.end() - found, 4);
+  EXPECT_EQ(found[0].value, 0.8);
+  EXPECT_EQ(found[3].name, "candle.blue");
+  EXPECT_EQ(found[3].value, 40);
 }
 
 TEST(LearnOutline, AnOutlineIsNotExtinguishedAndAFlameIs) {
