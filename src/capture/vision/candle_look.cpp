@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kReach = 2.5;                      // heights of the flame to both sides of it
 constexpr double kBelow = 0.2, kDeep = 0.5;         // … and below it, from the strip's top to its end: the rim glows
-constexpr double kMinSeen = 16, kMinContrast = 14;  // levels of 255
+constexpr double kMinWax = 16, kMinEdge = 14;  // levels of 255
 constexpr double kNarrowest = 0.15, kWidest = 4;    // heights: what is wider is a table
 
 // Mean levels of a strip's columns over all pictures, 0 to 255.
@@ -44,7 +44,7 @@ std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, cons
   const auto at = static_cast<std::size_t>(middle - strip.x);
   std::vector<double> sorted = levels;
   const double seen = levels[at], ground = quantile(sorted, 0.1);
-  if (seen < kMinSeen || seen - ground < kMinContrast) return std::nullopt;
+  if (seen < kMinWax || seen - ground < kMinEdge) return std::nullopt;
   std::size_t begin = at, end = at + 1;
   while (begin > 0 && levels[begin - 1] > (seen + ground) / 2) --begin;
   while (end < levels.size() && levels[end] > (seen + ground) / 2) ++end;
