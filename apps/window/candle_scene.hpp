@@ -212,7 +212,8 @@ class CandleScene {
     float wind = 0;
   };
 
-  CandleScene(Bank bank, const Model& model, int candles) : bank_(std::move(bank)), flame_(is_flame(model)), style_(style_of(model, candles)) {
+  CandleScene(Bank bank, const Model& model, int candles)
+      : bank_(std::move(bank)), flame_(is_flame(model)), style_(style_of(model, candles)) {
     if (model.extinction) {
       wind_input_ = model.extinction->input;
       level_ = static_cast<float>(model.extinction->level);
