@@ -140,7 +140,7 @@ vec4 cakeSurface(Hit hit) {
   float height = 0.06 - reach * way.y / length(way.xz);
   if (reach > 0.0 && dot(from, from) - pow(dot(from, flat_), 2.0) < uCake.x * uCake.x) {
     vec2 mirrored = before(from + reach * flat_);
-    plate = mix(plate, 0.50 * cakeSide(vec3(mirrored.x, height, mirrored.y)).rgb, 0.52 * smoothstep(0.36, 0.30, rim));
+    plate = mix(plate, 0.38 * cakeSide(vec3(mirrored.x, height, mirrored.y)).rgb, 0.52 * smoothstep(0.36, 0.30, rim));
   }
   // Where it stands on the plate it is dark.
   plate *= 0.45 + 0.55 * smoothstep(0.0, 0.07, rim);

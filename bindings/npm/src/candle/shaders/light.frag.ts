@@ -14,7 +14,7 @@ out vec4 colour;
 
 const vec3 kFire = vec3(1.0, 0.44, 0.115);
 // What bright icing throws to and fro loses its red least: it looks nearly white to an eye that is used to candles.
-const vec3 kOnCream = vec3(1.0, 0.60, 0.31);
+const vec3 kOnCream = vec3(1.0, 0.67, 0.40);
 const vec3 kMoon = vec3(0.36, 0.56, 1.0);
 
 // Moonlight through a window that is not in the picture: nine panes, slanted, on the wall, low enough for wide pictures.
