@@ -47,10 +47,7 @@ export async function openBrowser(flags = []) {
   };
 }
 
-/**
- * For the tests of a `describe`: a browser and a page in it, which `ready` is told of before them. After them the page must have made no
- * error and asked no other host.
- */
+/** For the tests of a `describe`: a page, of which `ready` is told before them. After them it must have made no error and asked no other host. */
 export function onPage(hash, ready, { flags, ...options } = {}) {
   let opened, page;
   before(async () => {

@@ -21,7 +21,7 @@ function inputOf({ name, unit, lowest, highest }: Model['inputs'][number]): stri
 
 function commonFacts(model: Model, bytes: number): Fact[] {
   const { facts } = model;
-  const list: Fact[] = [
+  return [
     ['Name', model.name || 'none given'],
     ['What it is', KINDS[model.view]],
     ['Moved by', model.inputs.map(inputOf).join(', ') || 'nothing: it has no input'],
@@ -29,7 +29,6 @@ function commonFacts(model: Model, bytes: number): Fact[] {
     ['Its own clock', `${number(facts.rateHz)} steps a second`],
     ['Cost of a step', `${number(facts.operationsPerFrame)} operations`],
   ];
-  return list;
 }
 
 function flameFacts(model: Model): Fact[] {

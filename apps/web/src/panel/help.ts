@@ -32,12 +32,8 @@ const KEYS: readonly (readonly [string[], string])[] = [
 
 /** Fills the dialog. */
 export function fillHelp(dialog: HTMLDialogElement, app: App): void {
-  const rows = GESTURES.map(([what, how]) => element('tr', {}, element('th', { scope: 'row' }, what), element('td', {}, how)));
-  for (const [keys, how] of KEYS) {
-    const cell = element('th', { scope: 'row' });
-    keys.forEach((key, k) => cell.append(...(k > 0 ? [' '] : []), element('kbd', {}, key)));
-    rows.push(element('tr', {}, cell, element('td', {}, how)));
-  }
+  const row = (how: string, ...what: (string | HTMLElement)[]): HTMLElement => element('tr', {}, element('th', { scope: 'row' }, ...what), element('td', {}, how));
+  const rows = [...GESTURES.map(([what, how]) => row(how, what)), ...KEYS.map(([keys, how]) => row(how, ...keys.flatMap((key) => [element('kbd', {}, key), ' '])))];
   const single = element('input', { type: 'checkbox', checked: true, 'data-knob': 'keys' });
   single.addEventListener('input', () => (app.singleKeys = single.checked));
   const pause = element('button', { type: 'button', class: 'tool', 'data-knob': 'pause' }, 'Pause, or go on');

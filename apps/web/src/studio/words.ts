@@ -60,8 +60,9 @@ const REFUSED: Readonly<Record<string, string>> = {
 
 /** What a flame that will do can do, in a sentence or two. */
 function praiseOf(report: Report): string {
-  const [tip, overlap] = [figure(report, 'tip', 'held_out_fit_percent', 'inf') ?? figure(report, 'tip', 'fit_percent', 'inf'), figure(report, 'overlap')];
-  const follows = tip !== null ? `In the wind of your film it leans as your flame did (${Math.round(tip)} % of the tip's way).` : overlap !== null ? 'It flickers as your flame did.' : '';
+  const inputs = within(report, 'inputs');
+  const tip = Array.isArray(inputs) && inputs.length > 0 ? (figure(report, 'tip', 'held_out_fit_percent', 'inf') ?? figure(report, 'tip', 'fit_percent', 'inf')) : null;
+  const follows = tip === null ? 'It flickers as your flame did.' : `In the wind of your film it leans as your flame did (${Math.round(tip)} % of the tip’s way).`;
   const modes = within(report, 'extinction', 'modes');
   const own = (name: string): boolean => Array.isArray(modes) && (modes as Report[]).some((mode) => mode.name === name && mode.source === 'recorded');
   const lacks = [own('dying') ? '' : 'goes out', own('catching') ? '' : 'catches fire'].filter(Boolean).join(' and how it ');

@@ -159,6 +159,12 @@ export class Duet {
     context.rect(0, foot, width, height - foot);
     context.clip();
     drawKept(context, kept, fit);
+    // What the film has behind it begins softly.
+    const soft = context.createLinearGradient(0, foot, 0, foot + 0.14 * fit.scale * tall);
+    soft.addColorStop(0, '#030304');
+    soft.addColorStop(1, 'rgb(3 3 4 / 0%)');
+    context.fillStyle = soft;
+    context.fillRect(0, foot, width, height - foot);
     context.restore();
   }
 }
