@@ -55,6 +55,19 @@ function madeBreath(seconds) {
   });
 }
 
+/** A blow at a microphone that takes its rumble away: a hiss from 0.8 to 3.2 kHz. */
+export function hiss(seconds, level) {
+  const next = noise(31);
+  const [low, high] = [800, 3200].map((hertz) => 1 - Math.exp((-2 * Math.PI * hertz) / rate));
+  const state = new Float64Array(8);
+  const passed = (value) => {
+    for (let k = 0; k < 4; ++k) value -= state[k] += low * (value - state[k]);
+    for (let k = 4; k < 8; ++k) value = state[k] += high * (value - state[k]);
+    return value;
+  };
+  return loud(Float32Array.from({ length: Math.round(seconds * rate) }, () => passed(next())), level);
+}
+
 function samplesOf(path) {
   const bytes = readFileSync(path);
   let at = 12;
@@ -80,18 +93,6 @@ function loudest(samples, seconds) {
 export function breath(seconds, level) {
   const recorded = join(data, 'sound/breath_normal.wav');
   return loud(existsSync(recorded) ? loudest(samplesOf(recorded), seconds) : madeBreath(seconds), level);
-}
-
-/** A blow at a microphone that takes its rumble away: what a breath has from 0.8 to 3.2 kHz. */
-export function hiss(seconds, level) {
-  const [low, high] = [800, 3200].map((hertz) => 1 - Math.exp((-2 * Math.PI * hertz) / rate));
-  const state = new Float64Array(8);
-  const passed = (value) => {
-    for (let k = 0; k < 4; ++k) value -= state[k] += low * (value - state[k]);
-    for (let k = 4; k < 8; ++k) value = state[k] += high * (value - state[k]);
-    return value;
-  };
-  return loud(breath(seconds, 0.3).map(passed), level);
 }
 
 /** A sentence, or null where nothing here can speak. */
