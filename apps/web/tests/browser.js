@@ -9,7 +9,6 @@ import { drawing, executablePath, quiet, serve } from '../../../bindings/npm/tes
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
-/** Chromium, or undefined where there is none: tests skip then. */
 export const chromiumPath = existsSync(executablePath) ? executablePath : undefined;
 export const skip = chromiumPath === undefined && 'there is no Chromium here';
 
