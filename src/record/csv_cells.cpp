@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 
 #include "record/number_text.hpp"
 
@@ -79,6 +81,42 @@ std::optional<double> number_of(const Cell& cell, char separator) {
   const std::size_t exponent = text.find_first_of("dD");
   if (exponent != text.npos && exponent > 0) text[exponent] = 'e';
   return text == cell.text ? std::nullopt : parsed(text);
+}
+
+PlainNumber plain_number(std::string_view text) {
+  // Powers of ten that a double holds exactly; so it does whole numbers up to 2^53.
+  static constexpr double kTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  constexpr std::uint64_t kMaxExact = std::uint64_t{1} << 53;
+  const char *at = text.data(), *const end = at + text.size();
+  const bool minus = at != end && *at == '-';
+  at += minus;
+  std::uint64_t whole = 0;
+  std::ptrdiff_t digits = 0;
+  const char* point = nullptr;
+  for (; at != end; ++at) {
+    const auto digit = static_cast<unsigned>(*at - '0');
+    if (digit <= 9) {
+      whole = 10 * whole + digit, ++digits;
+    } else if (*at == '.' && !point) {
+      point = at + 1;
+    } else {
+      break;
+    }
+  }
+  std::ptrdiff_t power = point ? point - at : 0;
+  if (digits == 0 || digits > 18 || whole > kMaxExact) return {};
+  if (at != end && (*at == 'e' || *at == 'E')) {
+    int exponent = 0;
+    const char* const first = at + 1 + (at + 1 != end && at[1] == '+' ? 1 : 0);
+    const auto [last, code] = std::from_chars(first, end, exponent);
+    if (code != std::errc() || (first == at + 2 && first != end && *first == '-')) return {};
+    power += exponent, at = last;
+  }
+  if (power < -22 || power > 22) return {};
+  const double size = static_cast<double>(whole);
+  const double value = power < 0 ? size / kTens[-power] : size * kTens[power];
+  return {minus ? -value : value, static_cast<std::size_t>(at - text.data()), point != nullptr};
 }
 
 }  // namespace wisp::csv

@@ -65,6 +65,17 @@ bool is_missing(const Cell& cell);
 /// where it is not one. Too small for a double is zero, too large is infinite.
 std::optional<double> number_of(const Cell& cell, char separator);
 
+/// Decimal digits with or without a sign, a point and an exponent, as far as few digits allow to say the nearest double
+/// in one multiplication or division.
+struct PlainNumber {
+  double value = 0;
+  std::size_t length = 0;  ///< 0: there is none, or it has too many digits
+  bool point = false;
+};
+
+/// The one that a text begins with.
+PlainNumber plain_number(std::string_view text);
+
 /// Whether a cell that is a number has a decimal comma.
 inline bool has_comma(const Cell& cell) { return cell.text.find(',') != std::string_view::npos; }
 

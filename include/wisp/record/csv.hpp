@@ -2,10 +2,9 @@
 // Recordings as CSV: Wisp's own form (docs/reference/recordings.md) and plain tables from elsewhere.
 
 #include <cstddef>
-#include <deque>
 #include <filesystem>
 #include <iosfwd>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,10 +13,6 @@
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
-
-namespace csv {
-struct Cell;
-}
 
 /// How to understand a table that does not say so itself. A file's own words win where both speak, except
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
@@ -35,6 +30,10 @@ struct CsvOptions {
 /// A table read a stretch at a time, for recordings larger than memory.
 class CsvReader {
  public:
+  CsvReader(CsvReader&&) noexcept;
+  CsvReader& operator=(CsvReader&&) noexcept;
+  ~CsvReader();
+
   /// Reads the comment lines and the header. `name` stands for the file in messages.
   /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
   /// tells Excel the separator, a line of units, and comment lines that begin with # or %, also between rows. Where
@@ -47,16 +46,7 @@ class CsvReader {
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
 
   /// The recording without its rows: rate, channels, flags and attributes.
-  const Recording& header() const { return header_; }
-
-  /// Takes time as it comes from here on. Precondition: no row was read.
-  void take_uneven_time() { uneven_time_ = true; }
-
-  /// Whether reading ended because time did not go on evenly.
-  bool time_is_uneven() const { return time_was_uneven_; }
-
-  /// When the rows were that were read since take_uneven_time(), in seconds.
-  const std::vector<double>& times() const { return times_; }
+  const Recording& header() const;
 
   /// Appends up to `max_rows` further rows to `recording`, which is the header or what was read before.
   /// Returns how many; 0 at the end.
@@ -71,73 +61,10 @@ class CsvReader {
   Result<std::size_t> skip(std::size_t max_rows);
 
  private:
-  struct Column {
-    enum class Kind { kSkip, kChannel, kFlag, kEpisode } kind = Kind::kSkip;
-    std::size_t index = 0;  // of the channel or flag
-  };
-
-  struct Line {
-    std::string text;
-    std::size_t row = 0;
-  };
-
-  // A column of time.
-  struct Time {
-    std::size_t place = 0;  // among all columns
-    std::string name;
-    std::string unit;
-    double seconds = 1;  // of one unit
-    double step = 0;     // in units; 0: not looked at
-    double tolerance = 0;
-    std::optional<double> before{};  // in the row before
-    bool dated = false;              // by the calendar
-  };
-
-  // What a column's commas may be.
-  struct Marks {
-    std::size_t thousand = 0;  // row of the first number such as 1,012; 0: none
-    std::size_t hundred = 0;   // and of the first such as 987
-  };
-
-  Result<bool> read_line(Line& line);
-  Result<bool> next_line();
-  Result<std::vector<std::string>> look_ahead(std::size_t count);
-  Result<void> read_attribute();
-  Result<void> read_attributes();
-  Result<std::vector<std::string>> read_names(const CsvOptions& options);
-  Result<void> add_column(const std::string& name, const CsvOptions& options);
-  Result<void> check_columns(const std::vector<std::string>& names, const CsvOptions& options) const;
-  void find_time(const std::vector<std::string>& names);
-  Result<void> read_units();
-  Result<void> read_rate(const CsvOptions& options);
-  Result<void> learn_step();
-  std::optional<double> time_in(const csv::Cell& cell);
-  Result<void> check_time(const csv::Cell& cell);
-  Result<void> read_columns(const CsvOptions& options);
-  Result<void> add_row(Recording& recording);
-  Result<void> add_cell(Recording& recording, const Column& column, const csv::Cell& cell, std::size_t place);
-  Result<void> check_mark(const csv::Cell& cell, std::size_t place);
-  Result<void> check_thousands();
-  Error at_row(const std::string& what) const;
-
-  std::istream* stream_ = nullptr;
-  std::string name_;
-  Recording header_;
-  std::vector<Column> columns_;
-  std::string line_;
-  std::size_t row_ = 0;  // of line_, 1-based
-  std::deque<Line> ahead_;
-  std::size_t rows_read_ = 0;
-  std::optional<Time> time_;
-  char separator_ = '\0';
-  bool own_form_ = false;
-  bool uneven_time_ = false, time_was_uneven_ = false;
-  std::vector<double> times_;
-  bool in_table_ = false;  // the header was found: comments are passed over
-  bool commas_ = false;    // numbers so far had decimal commas, points
-  bool points_ = false;
-  bool decimals_ = false;     // a comma so far cannot separate thousands
-  std::vector<Marks> marks_;  // a column
+  friend Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options);
+  struct State;
+  explicit CsvReader(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
 };
 
 /// Reads a recording from a CSV file.

@@ -1,0 +1,337 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "record/csv_dialect.hpp"
+#include "record/csv_state.hpp"
+#include "record/csv_time.hpp"
+#include "record/number_text.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kLookedAt = 3;  // lines that show how a table is written: names, units, a row
+constexpr std::size_t kTimed = 1000;  // rows that show how far apart all are
+
+std::vector<csv::Cell> cells_of(std::string_view line, char separator) {
+  std::vector<csv::Cell> cells;
+  csv::for_each_cell(line, separator, [&](const csv::Cell& cell) { cells.push_back(cell); });
+  return cells;
+}
+
+struct ColumnName {
+  std::string role;
+  std::string name;
+  std::string unit;
+};
+
+ColumnName split_name(std::string_view text) {
+  ColumnName out;
+  for (std::string_view role : {"u", "y", "m", "flag"}) {
+    if (text.size() > role.size() && text.substr(0, role.size()) == role && text[role.size()] == ':') {
+      out.role = role;
+      text.remove_prefix(role.size() + 1);
+      break;
+    }
+  }
+  const std::size_t bracket = text.find('[');
+  if (bracket != std::string_view::npos && text.back() == ']') {
+    out.unit = text.substr(bracket + 1, text.size() - bracket - 2);
+    text = text.substr(0, bracket);
+  }
+  out.name = csv::trimmed(text);
+  return out;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The role of a column, or nothing where it is not wanted.
+std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options) {
+  if (contains(options.inputs, column.name)) return Role::kInput;
+  if (contains(options.outputs, column.name)) return Role::kOutput;
+  if (column.role == "m") return Role::kMotion;
+  if (column.role.empty() && contains(options.usual_inputs, column.name)) return Role::kInput;
+  if (column.role.empty() && contains(options.usual_outputs, column.name)) return Role::kOutput;
+  const bool chosen = !options.inputs.empty() || !options.outputs.empty();
+  if (chosen && !options.every_column) return std::nullopt;
+  if (column.role == "u") return Role::kInput;
+  if (column.role == "y") return Role::kOutput;
+  if (options.every_column && column.role.empty() && !column.name.empty() && !csv::names_time(column.name)) {
+    return Role::kOutput;
+  }
+  return std::nullopt;
+}
+
+// As --inputs takes it: a name that holds a comma stands in quotes, with its own doubled.
+std::string as_named(const std::string& name) {
+  if (name.find(',') == std::string::npos && name.front() != '"') return name;
+  std::string text = "\"";
+  for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + "\"";
+}
+
+// Whole steps that loggers count in thousandths of a second, and seconds are not counted in.
+bool counts_milliseconds(double step) {
+  return step == std::round(step) && step >= 2 && step <= 1000 && std::fmod(step, 15) != 0;
+}
+
+// Enough of them to choose from.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMax = 40;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(names.size(), kMax); ++k) text += (k == 0 ? "" : ", ") + as_named(names[k]);
+  return names.size() > kMax ? text + " and " + std::to_string(names.size() - kMax) + " more" : text;
+}
+
+}  // namespace
+
+// What the file says, what its reader says, what a column of time says, what is usual.
+Result<void> CsvReader::State::read_rate(const CsvOptions& options) {
+  if (header.rate_hz == 0) header.rate_hz = options.rate_hz;
+  if (header.rate_hz != 0) time.reset();
+  if (time) {
+    if (auto ok = learn_step(); !ok) return ok;
+  }
+  if (header.rate_hz == 0 && options.usual_rate_hz > 0) {
+    header.rate_hz = options.usual_rate_hz;
+    header.rate_note = {"the table states no rate: taken as " + number_text(header.rate_hz, 6) + " Hz", true};
+  }
+  if (header.rate_hz == 0) {
+    return Error{lines.name() +
+                 ": states no rate; expected a line \"# rate_hz 30\" above the header, a column of time in seconds, or "
+                 "--rate HZ or --dt S"};
+  }
+  if (std::isfinite(header.rate_hz) && header.rate_hz > 0) return {};
+  return Error{lines.name() + ": the rate is " + std::to_string(header.rate_hz) + " Hz, expected above 0"};
+}
+
+// One comment line.
+Result<void> CsvReader::State::read_attribute() {
+  const std::string_view line = csv::trimmed(csv::trimmed(lines.text()).substr(1));
+  const std::size_t space = line.find_first_of(" \t");
+  const std::string key(line.substr(0, space));
+  const std::string value(space == std::string_view::npos ? "" : csv::trimmed(line.substr(space)));
+  if (key == "wisp-recording") {
+    if (value != "1")
+      return lines.at_row("is a Wisp recording of version " + csv::shown(value) +
+                          ", this program reads version 1; update Wisp");
+    own_form = true;
+  } else if (key == "rate_hz") {
+    const auto rate = csv::number_of({value, false}, ',');
+    if (!rate || !(std::isfinite(*rate) && *rate > 0)) {
+      return lines.at_row("rate_hz is " + csv::shown(value) + ", expected a number of samples a second above 0");
+    }
+    header.rate_hz = *rate;
+  } else if (own_form && !key.empty()) {
+    header.attributes.push_back({key, value});
+  }
+  return {};
+}
+
+// Comment lines and what Excel is told; leaves the first line of the table in lines.text().
+Result<void> CsvReader::State::read_attributes() {
+  for (bool first = true;; first = false) {
+    const auto more = lines.next();
+    if (!more) return more.error();
+    if (!*more) return Error{lines.name() + ": is empty, expected a header line with column names"};
+    if (const char told = csv::told_separator(lines.text()); first && told != '\0') {
+      separator = told;
+    } else if (csv::trimmed(lines.text()).front() == '#' || csv::trimmed(lines.text()).front() == '%') {
+      if (auto ok = read_attribute(); !ok) return ok;
+    } else {
+      lines.pass_comments();
+      return {};
+    }
+  }
+}
+
+// Names of all columns, from the options or from lines.text(), which is then used up.
+Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& options) {
+  const auto ahead = lines.look_ahead(kLookedAt - 1);
+  if (!ahead) return ahead.error();
+  std::vector<std::string> first{std::string(lines.text())};
+  for (const auto& line : *ahead) first.push_back(line.text);
+  if (own_form) separator = ',';
+  if (separator == '\0') separator = csv::separator_of(first);
+  const std::vector<csv::Cell> cells = cells_of(lines.text(), separator);
+  std::vector<std::string> names;
+  names.reserve(cells.size());
+  for (const csv::Cell& cell : cells) names.push_back(csv::text_of(cell));
+  while (names.size() > 1 && names.back().empty()) names.pop_back();
+  const bool numbers = csv::is_row(lines.text(), separator);
+  if (!options.columns.empty()) {
+    if (options.columns.size() != names.size()) {
+      return lines.at_row("has " + std::to_string(names.size()) + " columns, --columns names " +
+                          std::to_string(options.columns.size()) + "; name all of them, in their order");
+    }
+    if (numbers) lines.back();
+    return options.columns;
+  }
+  if (!numbers) return names;
+  std::string example;
+  for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), 6); ++k)
+    example += (k == 0 ? "" : ",") + std::string(k + 1 < names.size() ? "u" + std::to_string(k + 1) : "y1");
+  return lines.at_row("starts with numbers, expected a header line with column names; give names to its " +
+                      std::to_string(names.size()) + " columns with --columns, such as --columns " + example);
+}
+
+// One more column, by its name.
+Result<void> CsvReader::State::add_column(const std::string& text, const CsvOptions& options) {
+  const ColumnName column = split_name(text);
+  const bool episode = column.role.empty() && column.name == "episode";
+  if (own_form && column.role.empty() && !episode) {
+    return lines.at_row("column " + csv::shown(text) + " has no role; expected u:, y:, m: or flag: before its name");
+  }
+  if (column.name.empty() && (own_form || !column.role.empty())) {
+    return lines.at_row("column " + std::to_string(columns.size() + 1) + " has no name");
+  }
+  if (episode) {
+    columns.push_back({Column::Kind::kEpisode, 0});
+  } else if (column.role == "flag") {
+    columns.push_back({Column::Kind::kFlag, header.flags.size()});
+    header.flags.push_back({column.name, {}});
+  } else if (const auto role = role_of(column, options)) {
+    columns.push_back({Column::Kind::kChannel, header.channels.size()});
+    header.channels.push_back({column.name, column.unit, *role, {}});
+  } else {
+    columns.push_back({});
+  }
+  return {};
+}
+
+// Two columns of one name are an error where one of them is wanted.
+Result<void> CsvReader::State::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
+  std::set<std::string> seen;
+  std::vector<std::string> available;
+  bool any_role = false;
+  for (const std::string& name : names) {
+    const ColumnName column = split_name(name);
+    any_role |= !column.role.empty();
+    if (column.name.empty() || (column.role.empty() && column.name == "episode")) continue;
+    available.push_back(column.name);
+    if (seen.insert(column.role == "flag" ? name : column.name).second) continue;
+    if (own_form || role_of(column, options)) {
+      return lines.at_row("two columns are named " + csv::shown(column.name) +
+                          "; rename one, or name all with --columns");
+    }
+  }
+  for (const auto* wanted : {&options.inputs, &options.outputs}) {
+    for (const std::string& name : *wanted) {
+      if (!contains(available, name))
+        return lines.at_row("has no column " + csv::shown(name) + "; its columns are " + listed(available));
+    }
+  }
+  if (!header.channels.empty()) return {};
+  return lines.at_row(any_role ? "the header has no input, output or motion column"
+                               : "the columns (" + listed(available) +
+                                     ") state no roles; name them with --inputs and --outputs");
+}
+
+// The first column that says when rows were.
+void CsvReader::State::find_time(const std::vector<std::string>& names) {
+  for (std::size_t k = 0; !own_form && k < names.size(); ++k) {
+    const ColumnName column = split_name(names[k]);
+    if (time || !column.role.empty() || !csv::names_time(column.name)) continue;
+    time = Time{k, column.name, column.unit.empty() ? csv::unit_in_time_name(column.name) : column.unit};
+  }
+}
+
+// A line below the names that says in what they are measured.
+Result<void> CsvReader::State::read_units() {
+  const auto ahead = lines.look_ahead(2);
+  if (!ahead) return ahead.error();
+  if (own_form || ahead->size() < 2) return {};
+  if (!csv::is_row_of_units((*ahead)[0].text, (*ahead)[1].text, separator)) return {};
+  const std::vector<std::string> units = csv::units_in((*ahead)[0].text, separator);
+  if (time && time->place < units.size() && csv::seconds_of_date(units[time->place])) return {};
+  if (time && time->unit.empty() && time->place < units.size()) time->unit = units[time->place];
+  for (std::size_t k = 0; k < std::min(units.size(), columns.size()); ++k) {
+    if (columns[k].kind != Column::Kind::kChannel) continue;
+    std::string& unit = header.channels[columns[k].index].unit;
+    if (unit.empty()) unit = units[k];
+  }
+  if (const auto passed = lines.next(); !passed) return passed.error();
+  return {};
+}
+
+Result<void> CsvReader::State::read_columns(const CsvOptions& options) {
+  const auto names = read_names(options);
+  if (!names) return names.error();
+  const auto ahead = lines.look_ahead(kLookedAt - 1);
+  if (!ahead) return ahead.error();
+  const std::vector<csv::Cell> last =
+      ahead->empty() ? std::vector<csv::Cell>{} : cells_of(ahead->back().text, separator);
+  for (std::size_t k = 0; k < names->size(); ++k) {
+    const bool text = k < last.size() && !csv::is_missing(last[k]) && !csv::number_of(last[k], separator) &&
+                      !csv::names_time((*names)[k]);
+    if (options.every_column && text && !own_form) {
+      columns.push_back({});
+      header.attributes.push_back({std::string(kNotNumbers), (*names)[k]});
+    } else if (auto ok = add_column((*names)[k], options); !ok) {
+      return ok;
+    }
+  }
+  if (auto ok = check_columns(*names, options); !ok) return ok;
+  find_time(*names);
+  return read_units();
+}
+
+// The rate, from the first rows' time.
+Result<void> CsvReader::State::learn_step() {
+  const auto ahead = lines.look_ahead(kTimed);
+  if (!ahead) return ahead.error();
+  std::vector<double> found;
+  double resolution = 1;
+  for (const auto& line : *ahead) {
+    const std::vector<csv::Cell> cells = cells_of(line.text, separator);
+    const auto now = time->place < cells.size() ? time_in(cells[time->place]) : std::nullopt;
+    if (!now || !std::isfinite(*now)) break;
+    found.push_back(*now);
+    resolution = std::min(resolution, csv::resolution_of(cells[time->place].text));
+  }
+  const std::string column = "column " + csv::shown(time->name);
+  const auto seconds = time->unit.empty() ? 1 : csv::seconds_of(time->unit);
+  const std::string instead = "; say --rate HZ or --dt S instead";
+  if (!seconds)
+    return Error{lines.name() + ": " + column + " is in " + csv::shown(time->unit) + ", expected s or ms" + instead};
+  if (found.empty() && !ahead->empty()) {
+    return lines.at_row(column + " is no number of seconds" + instead, ahead->front().row);
+  }
+  if (found.size() < 2) return {};
+  time->seconds = *seconds;
+  const auto step = csv::step_of(found, resolution, *seconds);
+  if (!step) {
+    return lines.at_row(column + " does not go on: " + number_text(found[1], 12) + " after " +
+                            number_text(found[0], 12) + "; sort the rows by time, or say --rate HZ or --dt S",
+                        (*ahead)[1].row);
+  }
+  if (time->unit.empty() && step->step == 1 && !time->dated) return {};  // counts rows
+  if (time->unit.empty() && !time->dated && counts_milliseconds(step->step)) {
+    time->seconds = 1e-3;
+    header.rate_note = {
+        column + " has no unit and goes on by whole steps of " + number_text(step->step) + ": taken as milliseconds",
+        true};
+  }
+  time->step = step->step;
+  time->tolerance = step->tolerance;
+  header.rate_hz = 1 / (step->step * time->seconds);
+  if (header.rate_note.text.empty()) {
+    header.rate_note.text = "from " + column + ", in steps of " + number_text(step->step, 6) + " " +
+                            (time->unit.empty() ? "s" : time->unit);
+  }
+  return {};
+}
+
+// A number, or the seconds of a date.
+std::optional<double> CsvReader::State::time_in(const csv::Cell& cell) {
+  const auto number = csv::number_of(cell, separator);
+  if (number) return number;
+  const auto seconds = csv::seconds_of_date(csv::trimmed(cell.text));
+  time->dated |= seconds.has_value();
+  return seconds;
+}
+
+}  // namespace wisp

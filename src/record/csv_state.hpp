@@ -1,0 +1,76 @@
+#pragma once
+// A table being read: what its first lines said of it, and where its rows stand.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/csv_cells.hpp"
+#include "record/csv_lines.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+
+struct CsvReader::State {
+  struct Column {
+    enum class Kind { kSkip, kChannel, kFlag, kEpisode } kind = Kind::kSkip;
+    std::size_t index = 0;  // of the channel or flag
+  };
+
+  // A column of time.
+  struct Time {
+    std::size_t place = 0;  // among all columns
+    std::string name;
+    std::string unit;
+    double seconds = 1;  // of one unit
+    double step = 0;     // in units; 0: not looked at
+    double tolerance = 0;
+    std::optional<double> before{};  // in the row before
+    bool dated = false;              // by the calendar
+  };
+
+  // What a column's commas may be.
+  struct Marks {
+    std::size_t thousand = 0;  // row of the first number such as 1,012; 0: none
+    std::size_t hundred = 0;   // and of the first such as 987
+  };
+
+  csv::Lines lines;
+  Recording header{};  // without its rows
+  std::vector<Column> columns{};
+  std::optional<Time> time{};
+  char separator = '\0';
+  bool own_form = false;
+  bool uneven_time = false, time_was_uneven = false;
+  std::vector<double> times{};
+  bool plain_columns = false;  // channels and what is passed over, between separators that are no blanks
+  bool commas = false;         // numbers so far had decimal commas, points
+  bool points = false;
+  bool decimals = false;       // a comma so far cannot separate thousands
+  std::vector<Marks> marks{};  // a column
+  std::vector<double> row{};
+
+  // As far as the first row: csv_head.cpp.
+  Result<void> read_attribute();
+  Result<void> read_attributes();
+  Result<std::vector<std::string>> read_names(const CsvOptions& options);
+  Result<void> add_column(const std::string& text, const CsvOptions& options);
+  Result<void> check_columns(const std::vector<std::string>& names, const CsvOptions& options) const;
+  void find_time(const std::vector<std::string>& names);
+  Result<void> read_units();
+  Result<void> read_columns(const CsvOptions& options);
+  Result<void> learn_step();
+  Result<void> read_rate(const CsvOptions& options);
+  std::optional<double> time_in(const csv::Cell& cell);
+
+  // Rows: csv_reader.cpp.
+  Result<void> check_time(std::optional<double> now, std::string_view text);
+  bool take_plain_row(Recording& recording, double& seconds);
+  Result<void> add_row(Recording& recording);
+  Result<void> add_cell(Recording& recording, const Column& column, const csv::Cell& cell, std::size_t place);
+  Result<void> check_mark(const csv::Cell& cell, std::size_t place);
+  Result<void> check_thousands() const;
+};
+
+}  // namespace wisp
