@@ -9,6 +9,14 @@ std::optional<RecordingVerdict> verdict_of(const Recording& recording) {
   return RecordingVerdict{*usable != "no", reason ? std::string(*reason) : std::string()};
 }
 
+std::optional<std::string> refused_by_capture(std::span<const Recording> recordings) {
+  for (const Recording& recording : recordings) {
+    const auto verdict = verdict_of(recording);
+    if (verdict && !verdict->usable) return recording.source + " was captured as not usable: " + verdict->reason;
+  }
+  return std::nullopt;
+}
+
 void set_verdict(Recording& recording, bool usable, const std::string& reason) {
   std::erase_if(recording.attributes, [](const Attribute& attribute) {
     return attribute.name == "usable" || attribute.name == "usable_reason";

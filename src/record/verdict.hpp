@@ -2,6 +2,7 @@
 // What capturing thought of a recording travels with it, so that whoever learns from the file hears of it.
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "wisp/record/recording.hpp"
@@ -16,6 +17,10 @@ struct RecordingVerdict {
 
 /// Nothing where the recording does not say.
 std::optional<RecordingVerdict> verdict_of(const Recording& recording);
+
+/// Why a model of these recordings is not usable, however well it plays: one of them was captured as not usable.
+/// Nothing: none was.
+std::optional<std::string> refused_by_capture(std::span<const Recording> recordings);
 
 /// Says it.
 void set_verdict(Recording& recording, bool usable, const std::string& reason);
