@@ -109,7 +109,7 @@ bool CsvReader::State::take_plain_row(Recording& recording, double& seconds) {
   row.resize(count);
   const char *at = line.data(), *const end = at + line.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const csv::PlainNumber number = csv::plain_number({at, end});
+    const csv::PlainNumber number = csv::plain_number({at, static_cast<std::size_t>(end - at)});
     at += number.length;
     const bool last = k + 1 == count;
     const bool over = last ? at == end : at != end && *at == separator;
