@@ -258,7 +258,8 @@ TEST_F(Plant, AModelThatIsNotUsableSaysSoInItsFile) {
   for (const bool usable : {false, true}) {
     model.training.usable = {usable, "it drifts */"};
     for (const PlantLanguage language : {PlantLanguage::kOctave, PlantLanguage::kPython, PlantLanguage::kC}) {
-      EXPECT_EQ(plant_text(model, language, "plant")->text.find("(not usable: it drifts ") == std::string::npos, usable);
+      EXPECT_EQ(plant_text(model, language, "plant")->text.find("(not usable: it drifts ") == std::string::npos,
+                usable);
     }
     const auto json = nlohmann::json::parse(plant_text(model, PlantLanguage::kJson, "")->text);
     EXPECT_EQ(json.contains("not_usable"), !usable);

@@ -119,8 +119,11 @@ TEST(Prepare, MissingSamplesStayMissingAndEpisodesApart) {
 }
 
 TEST(Prepare, WhatCannotBeDoneIsAnErrorThatNamesTheRecording) {
-  for (const Preparation& bad : {Preparation{.lowpass_hz = 50}, {.highpass_hz = 60}, {.resample_hz = 1e5},
-                                 {.highpass_hz = 5, .lowpass_hz = 4}, {.resample_hz = 0.01}}) {
+  for (const Preparation& bad : {Preparation{.lowpass_hz = 50},
+                                 {.highpass_hz = 60},
+                                 {.resample_hz = 1e5},
+                                 {.highpass_hz = 5, .lowpass_hz = 4},
+                                 {.resample_hz = 0.01}}) {
     const auto out = prepare(tone(1), bad);
     ASSERT_FALSE(out) << text_of(bad);
     EXPECT_THAT(out.error().message, HasSubstr("tone: "));
@@ -166,10 +169,7 @@ TEST(Prepare, AModelRemembersAndItsRecordingsArePreparedAlike) {
 }
 
 TEST(Prepare, AModelOfAnotherRateTakesRecordingsAtTheirOwn) {
-  const ArxRecipe recipe{.name = "made",
-                         .inputs = {"u1", "u2"},
-                         .outputs = {"y1"},
-                         .preparation = {.resample_hz = 5}};
+  const ArxRecipe recipe{.name = "made", .inputs = {"u1", "u2"}, .outputs = {"y1"}, .preparation = {.resample_hz = 5}};
   const Recording recording = record_system(made_system(), 2000, 23);
   const auto fit = learn(recording, recipe);
   ASSERT_TRUE(fit) << fit.error().message;
