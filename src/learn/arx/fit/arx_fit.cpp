@@ -58,8 +58,8 @@ Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoic
 
   const FitFacts facts{options,   signals->outputs,  signals->names,     signals->offset,       signals->scale,
                        plan.rows, plan.first_sample, plan.episodes_used, plan.episodes_skipped, plan.rows_left_out};
-  ArxEstimate estimate = estimate_from_data(
-      *signals, plan, design, {options.covariance, options.kernel, options.kernel_outputs});
+  ArxEstimate estimate =
+      estimate_from_data(*signals, plan, design, {options.covariance, options.kernel, options.kernel_outputs});
   if (!options.integrators.empty()) hold_integrators(options, design, estimate);
   ArxFit fit = report_fit(facts, design, std::move(estimate));
   const bool driven = std::any_of(options.orders.nb.values().begin(), options.orders.nb.values().end(),

@@ -30,7 +30,7 @@ struct SharedProblem {
   std::vector<int> columns;  ///< X, as columns of the whole regression
   std::vector<int> targets;  ///< columns of the whole regression
   Eigen::VectorXd unit;      ///< data's unit / scaled unit, per column of X
-  Eigen::MatrixXd prior;  ///< F, square; empty: none
+  Eigen::MatrixXd prior;     ///< F, square; empty: none
 };
 
 /// Solves with RᵀR = Gram, R the triangle of the whole regression.

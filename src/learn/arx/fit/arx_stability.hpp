@@ -12,8 +12,8 @@ namespace wisp {
 /// constant follow with what is best for that A. `inverse`, an output row: (XᵀX)⁻¹ of its regressors, laid out and
 /// scaled as in the model; a constant, where it was estimated, is a last entry.
 ///
-/// Chosen on public data: least squares on the boundary of the stable set loses less one step ahead and simulates unseen
-/// rows worse (docs/studies/identification.md).
+/// Chosen on public data: least squares on the boundary of the stable set loses less one step ahead and simulates
+/// unseen rows worse (docs/studies/identification.md).
 ///
 /// Preconditions: 0 < max_radius < 1; one inverse an output row, positive semidefinite.
 void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius);

@@ -211,8 +211,8 @@ Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   for (std::size_t c = 0; c < facts.offset.size(); ++c) shift.push_back(state_.reference[c] - facts.offset[c]);
   Eigen::MatrixXd triangle = state_.triangle;
   shift_columns(design.layout, shift, facts.scale, triangle);
-  ArxFit fit = report_fit(
-      facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.covariance, own.kernel}));
+  ArxFit fit =
+      report_fit(facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.covariance, own.kernel}));
   judge_fit(facts, fit.summary);
   return fit;
 }
