@@ -72,7 +72,8 @@ class Reference {
   }
 
   /// What a guided calibration heard: breath that is soft for sure, or blowing that is hard. The level is then set by
-  /// them, between the two where both are known, and goes on from there.
+  /// them, and goes on from there: half-way where both are known and lie far enough apart; where they do not, the breath
+  /// stays as far under wind 1 as if it were known alone, since a soft breath must not put a flame out.
   void set_soft(T gust_db) {
     soft_db_ = gust_db + T(kSoftDb);
     knows_soft_ = true;
@@ -110,7 +111,8 @@ class Reference {
   }
 
   void set_known() {
-    const T both = T(0.5F) * (soft_db_ + hard_db_);
+    const T middle = T(0.5F) * (soft_db_ + hard_db_);
+    const T both = middle < soft_db_ ? soft_db_ : middle;
     start(knows_soft_ && knows_hard_ ? both : (knows_soft_ ? soft_db_ : hard_db_), kKnownGusts);
   }
 
