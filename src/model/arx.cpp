@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string>
 
+#include "model/check_finite.hpp"
+
 namespace wisp {
 namespace {
 
@@ -35,16 +37,6 @@ Result<void> check_orders(const ArxOrders& orders) {
         }
       }
     }
-  }
-  return {};
-}
-
-Result<void> check_finite(std::span<const double> values, std::size_t expected, const std::string& what) {
-  if (values.size() != expected) {
-    return Error{what + " has " + std::to_string(values.size()) + " values, expected " + std::to_string(expected)};
-  }
-  for (double value : values) {
-    if (!std::isfinite(value)) return Error{what + " holds a number that is not finite"};
   }
   return {};
 }

@@ -5,23 +5,15 @@
 #include <span>
 #include <string>
 
+#include "model/check_finite.hpp"
+
 namespace wisp {
 namespace {
 
 constexpr double kProbabilityError = 1e-6;
 
-Result<void> check_numbers(std::span<const double> values, std::size_t expected, const std::string& what) {
-  if (values.size() != expected) {
-    return Error{what + " has " + std::to_string(values.size()) + " values, expected " + std::to_string(expected)};
-  }
-  for (double value : values) {
-    if (!std::isfinite(value)) return Error{what + " holds a number that is not finite"};
-  }
-  return {};
-}
-
 Result<void> check_probabilities(std::span<const double> values, std::size_t modes, const std::string& what) {
-  if (auto ok = check_numbers(values, modes, what); !ok) return ok;
+  if (auto ok = check_finite(values, modes, what); !ok) return ok;
   double sum = 0;
   for (double value : values) {
     if (value < 0) return Error{what + " holds a probability below 0"};
@@ -35,7 +27,7 @@ Result<void> check_probabilities(std::span<const double> values, std::size_t mod
 
 Result<void> check_shock(std::span<const double> shock, int ny, const std::string& mode) {
   const auto size = static_cast<std::size_t>(ny);
-  if (auto ok = check_numbers(shock, size * size, mode + "the size of shocks"); !ok) return ok;
+  if (auto ok = check_finite(shock, size * size, mode + "the size of shocks"); !ok) return ok;
   for (int i = 0; i < ny; ++i) {
     for (int j = i + 1; j < ny; ++j) {
       if (shock[i * size + j] != 0) return Error{mode + "the matrix of shocks is not lower triangular"};
@@ -53,7 +45,7 @@ Result<void> check_mode(const SwitchedArxModel& model, std::size_t k) {
 
 Result<void> check_quantiles(const std::vector<double>& quantiles) {
   if (quantiles.empty()) return {};
-  if (auto ok = check_numbers(quantiles, kShockQuantiles, "the list of a shock's quantiles"); !ok) return ok;
+  if (auto ok = check_finite(quantiles, kShockQuantiles, "the list of a shock's quantiles"); !ok) return ok;
   if (std::is_sorted(quantiles.begin(), quantiles.end())) return {};
   return Error{"a shock's quantiles do not ascend"};
 }
@@ -61,7 +53,7 @@ Result<void> check_quantiles(const std::vector<double>& quantiles) {
 Result<void> check_chain(const SwitchedArxModel& model) {
   const std::size_t modes = model.modes.size();
   if (auto ok = check_probabilities(model.initial, modes, "the probability of the first mode"); !ok) return ok;
-  if (auto ok = check_numbers(model.transitions, modes * modes, "the matrix of transitions"); !ok) return ok;
+  if (auto ok = check_finite(model.transitions, modes * modes, "the matrix of transitions"); !ok) return ok;
   for (std::size_t from = 0; from < modes; ++from) {
     const auto of_mode = std::span(model.transitions).subspan(from * modes, modes);
     if (auto ok = check_probabilities(of_mode, modes, "what follows mode " + std::to_string(from)); !ok) return ok;

@@ -71,9 +71,8 @@ class Reference {
     end();
   }
 
-  /// What a guided calibration heard: breath that is soft for sure, or blowing that is hard. The level is then set by
-  /// them, and goes on from there: half-way where both are known and lie far enough apart; where they do not, the breath
-  /// stays as far under wind 1 as if it were known alone, since a soft breath must not put a flame out.
+  /// What a guided calibration heard: breath that is surely soft, or hard blowing. It sets the level: half-way where
+  /// both are known and far enough apart, else by the breath, which must not put a flame out. Learning goes on there.
   void set_soft(T gust_db) {
     soft_db_ = gust_db + T(kSoftDb);
     knows_soft_ = true;
@@ -111,9 +110,9 @@ class Reference {
   }
 
   void set_known() {
-    const T middle = T(0.5F) * (soft_db_ + hard_db_);
-    const T both = middle < soft_db_ ? soft_db_ : middle;
-    start(knows_soft_ && knows_hard_ ? both : (knows_soft_ ? soft_db_ : hard_db_), kKnownGusts);
+    T level = knows_soft_ ? soft_db_ : hard_db_;
+    if (knows_soft_ && knows_hard_ && soft_db_ < hard_db_) level = T(0.5F) * (soft_db_ + hard_db_);
+    start(level, kKnownGusts);
   }
 
   void end() {

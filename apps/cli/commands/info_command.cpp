@@ -49,7 +49,8 @@ Result<void> look_at_recordings(const Arguments& arguments, Terminal& terminal) 
 }
 
 Result<void> run_info(const Arguments& arguments, Terminal& terminal) {
-  if (is_table(arguments.positional())) return look_at_recordings(arguments, terminal);
+  const bool several = arguments.positionals().size() > 1;
+  if (several || is_table(arguments.positional())) return look_at_recordings(arguments, terminal);
   const auto bytes = read_file(arguments.positional());
   if (!bytes) return bytes.error();
   const auto model = parse_model(*bytes, arguments.positional());

@@ -5,6 +5,7 @@
 
 #include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
 
 namespace wisp {
@@ -21,13 +22,9 @@ using Sizes = std::vector<double>;
 
 double size_of(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
   const auto at = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };
-  const std::size_t points = layout.points;
-  double twice = 0;
-  for (std::size_t p = 0; p < points; ++p) {
-    const std::size_t q = (p + 1) % points;
-    twice += at(2 * p) * at(2 * q + 1) - at(2 * q) * at(2 * p + 1);
-  }
-  return std::sqrt(std::abs(twice) / 2);
+  std::vector<OutlinePoint> points;
+  for (std::size_t p = 0; p < layout.points; ++p) points.push_back({at(2 * p), at(2 * p + 1)});
+  return std::sqrt(enclosed_area(points));
 }
 
 // The sizes that the camera saw while the flame died, as shares of its size before: rows from `lit` on.

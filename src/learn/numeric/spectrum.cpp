@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -76,6 +77,33 @@ Spectrum welch(Samples stretches, double rate_hz, std::size_t length) {
     const double sides = k == 0 || k == length / 2 ? 1 : 2;
     out.power.push_back(sides * sum[k] / (rate_hz * energy * static_cast<double>(out.segments)));
   }
+  return out;
+}
+
+CrossSpectrum cross_spectrum(std::span<const double> a, std::span<const double> b, double rate_hz, std::size_t length,
+                             double frequency_hz) {
+  const std::vector<double> window = hann(length);
+  const auto amplitude = [&](std::span<const double> samples) {
+    const std::vector<double> moved = without_mean(samples);
+    std::complex<double> sum = 0;
+    for (std::size_t k = 0; k < length; ++k) {
+      sum += moved[k] * std::polar(window[k], -2 * std::numbers::pi * static_cast<double>(k) * frequency_hz / rate_hz);
+    }
+    return sum;
+  };
+  std::complex<double> cross = 0;
+  double power_a = 0, power_b = 0;
+  CrossSpectrum out;
+  for (std::size_t first = 0; first + length <= std::min(a.size(), b.size()); first += length / 2) {
+    const auto of_a = amplitude(a.subspan(first, length)), of_b = amplitude(b.subspan(first, length));
+    if (std::isnan(of_a.real() + of_b.real())) continue;
+    cross += of_a * std::conj(of_b);
+    power_a += std::norm(of_a);
+    power_b += std::norm(of_b);
+    ++out.segments;
+  }
+  out.phase = std::arg(cross);
+  out.coherence = std::norm(cross) / std::max(power_a * power_b, 1e-300);
   return out;
 }
 

@@ -27,6 +27,15 @@ struct Spectrum {
 /// Precondition: length is even and >= 2; rate_hz > 0.
 Spectrum welch(Samples stretches, double rate_hz, std::size_t length);
 
+/// How two series of one rate move together at a frequency.
+struct CrossSpectrum {
+  double phase = 0;          ///< of the second after the first, −π to π
+  double coherence = 0;      ///< 0 to 1
+  std::size_t segments = 0;  ///< averaged: windowed as welch() has them, those with a missing sample left out
+};
+CrossSpectrum cross_spectrum(std::span<const double> a, std::span<const double> b, double rate_hz, std::size_t length,
+                             double frequency_hz);
+
 /// Root mean square over frequency of 10 log10(P/Q), in decibels; the frequency 0 is left out, because segments have
 /// had their means removed. Power more than 100 dB below the larger spectrum's peak counts as that, so that a still
 /// channel against a still one is 0. NaN where a spectrum has no power estimates.

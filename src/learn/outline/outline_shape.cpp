@@ -178,6 +178,15 @@ bool crosses_itself(std::span<const OutlinePoint> polyline) {
   return false;
 }
 
+double enclosed_area(std::span<const OutlinePoint> polygon) {
+  double twice = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const OutlinePoint &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    twice += a[0] * b[1] - b[0] * a[1];
+  }
+  return std::abs(twice) / 2;
+}
+
 double area_of(std::span<const OutlinePoint> polygon) {
   Range range;
   range.take(polygon);

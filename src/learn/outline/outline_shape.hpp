@@ -55,6 +55,9 @@ bool crosses_itself(std::span<const OutlinePoint> polyline);
 /// Area of the closed polygon where it is filled by the even-odd rule.
 double area_of(std::span<const OutlinePoint> polygon);
 
+/// Area that a polygon goes round, where it does not cross itself: faster than area_of().
+double enclosed_area(std::span<const OutlinePoint> polygon);
+
 /// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an
 /// area. Both are cut into 1024 horizontal strips over their common height, and each strip's intervals are exact at its
 /// middle: the error is that of a strip where a side is level, at most 1e-3, and 1e-4 on round outlines.

@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kMostSegments = 256, kMostRings = 1 << 20;
+constexpr int kMaxRingSegments = 256, kMaxRings = 1 << 20;
 
 struct Vector {
   float x, y, z;
@@ -42,7 +42,7 @@ Vector normal_of(Vector around, Vector from, Vector to) {
 }  // namespace
 
 bool ring_mesh(std::span<const float> rings, int segments, std::span<float> numbers, std::size_t stride) {
-  if (rings.size() < 2 * kRingNumbers || segments < 3 || segments > kMostSegments || stride < kVertexNumbers)
+  if (rings.size() < 2 * kRingNumbers || segments < 3 || segments > kMaxRingSegments || stride < kVertexNumbers)
     return false;
   const std::size_t count = rings.size() / kRingNumbers, last = count - 1;
   if (numbers.size() / count / static_cast<std::size_t>(segments) < stride) return false;
@@ -66,7 +66,7 @@ bool ring_mesh(std::span<const float> rings, int segments, std::span<float> numb
 }
 
 bool ring_triangles(int rings, int segments, std::span<std::uint32_t> indices) {
-  if (rings < 2 || rings > kMostRings || segments < 3 || segments > kMostSegments) return false;
+  if (rings < 2 || rings > kMaxRings || segments < 3 || segments > kMaxRingSegments) return false;
   if (indices.size() != 3 * static_cast<std::size_t>(ring_triangle_count(rings, segments))) return false;
   auto out = indices.begin();
   const auto add = [&](int a, int b, int c) {

@@ -81,6 +81,14 @@ TEST(OutlineMotion, TwoThatHaveNothingToDoWithEachOtherAreSaidToBe) {
   EXPECT_THAT(report->find("coherence")->meaning, HasSubstr("the phase says nothing"));
 }
 
+TEST(OutlineMotion, OfFewFramesAMinuteThereIsNoFlicker) {
+  Recording slow = flickering(0, 0, 1, 40);
+  slow.rate_hz = 0.2;
+  const auto report = outline_motion({&slow, 1});
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->find("flicker_hz"), nullptr);
+}
+
 TEST(OutlineMotion, RefusesWhatIsNoOutlineAndWhatWasNotFilmedAtOnce) {
   const Recording table{.source = "table.csv", .rate_hz = 10, .channels = {{"y", "", Role::kOutput, {1, 2, 3}}}};
   EXPECT_THAT(outline_motion({&table, 1}).error().message, HasSubstr("table.csv"));

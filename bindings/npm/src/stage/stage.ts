@@ -30,7 +30,7 @@ export interface FrameCost {
 export interface StageEvents {
   /** breath at this frame: microphone and keys, signed */
   breath(seconds: number): number;
-  /** the same as a vector; asked for after it */
+  /** that breath as a vector of the table: breath() is called first in every frame */
   air?(): Air;
   touched(): void;
   /** the graphics card took the picture away, or gave it back */

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 
 #include "base/statistics.hpp"
+#include "learn/arx/report/report_values.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
@@ -20,49 +19,20 @@ namespace {
 
 constexpr double kWindowSeconds = 4;  // of a periodogram: a quarter of a hertz apart
 constexpr double kLowestHz = 1;       // slower swaying is the room's
+constexpr std::size_t kMinSegments = 3;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// One row each; what has no outline is left out, and ends a stretch of sizes.
-struct Motion {
-  std::vector<double> height, area, lean;
-  std::vector<double> size;  // √area of every row, NaN where there is no outline
-};
-
-double enclosed_by(std::span<const OutlinePoint> line) {
-  double twice = 0;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const OutlinePoint &a = line[k], &b = line[(k + 1) % line.size()];
-    twice += a[0] * b[1] - b[0] * a[1];
-  }
-  return std::abs(twice) / 2;
-}
-
-Motion motion_of(const Recording& recording, const OutlineLayout& layout) {
-  const OutlineCurve curve(layout.knots);
-  Motion out;
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
-    const std::vector<double> control = whole_row(recording, layout, row);
-    out.size.push_back(std::nan(""));
-    if (control.empty()) continue;
-    const auto line = curve.polyline(control);
-    const OutlinePoint tip = tip_of(line);
-    const double x = tip[0] - (line.front()[0] + line.back()[0]) / 2,
-                 up = (line.front()[1] + line.back()[1]) / 2 - tip[1];
-    out.height.push_back(height_of(line));
-    out.area.push_back(enclosed_by(line));
-    out.lean.push_back(std::atan2(x, up) * kDegrees);
-    out.size.back() = std::sqrt(out.area.back());
-  }
-  return out;
-}
-
+// What lies between missing samples, within episodes.
 std::vector<std::vector<double>> stretches_of(const std::vector<double>& samples, const Recording& recording) {
-  std::vector<std::vector<double>> out(1);
-  for (std::size_t row = 0; row < samples.size(); ++row) {
-    const bool another =
-        row > 0 && !recording.episode_ids.empty() && recording.episode_ids[row] != recording.episode_ids[row - 1];
-    if ((another || std::isnan(samples[row])) && !out.back().empty()) out.emplace_back();
-    if (!std::isnan(samples[row])) out.back().push_back(samples[row]);
+  std::vector<std::vector<double>> out;
+  for (const Episode& episode : episodes(recording)) {
+    out.emplace_back();
+    for (std::size_t row = episode.begin; row < episode.end; ++row) {
+      if (std::isnan(samples[row]))
+        out.emplace_back();
+      else
+        out.back().push_back(samples[row]);
+    }
   }
   return out;
 }
@@ -103,29 +73,49 @@ std::optional<Flicker> flicker_of(const Spectrum& of) {
 }
 
 std::size_t window_rows(double rate_hz) {
-  return 2 * static_cast<std::size_t>(std::lround(kWindowSeconds * rate_hz / 2));
+  return 2 * std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowSeconds * rate_hz / 2)));
 }
 
-void add_flicker(const Motion& motion, const Recording& recording, ReportSection& section) {
-  const Spectrum spectrum =
-      welch(stretches_of(motion.size, recording), recording.rate_hz, window_rows(recording.rate_hz));
-  if (spectrum.segments < 3) {
-    section.entries.push_back({"", "no stretch of 8 seconds without a gap", "flicker", ""});
-    return;
+// One row each; what has no outline is left out, and ends a stretch of sizes.
+struct Motion {
+  std::vector<double> height, area, lean;
+  std::vector<double> size;  // √area of every row, NaN where there is no outline
+  Spectrum spectrum;         // of that
+  std::optional<Flicker> flicker;
+};
+
+Motion motion_of(const Recording& recording, const OutlineLayout& layout) {
+  const OutlineCurve curve(layout.knots);
+  Motion out;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const std::vector<double> control = whole_row(recording, layout, row);
+    out.size.push_back(std::nan(""));
+    if (control.empty()) continue;
+    const auto line = curve.polyline(control);
+    const OutlinePoint tip = tip_of(line);
+    const double x = tip[0] - (line.front()[0] + line.back()[0]) / 2,
+                 up = (line.front()[1] + line.back()[1]) / 2 - tip[1];
+    out.height.push_back(height_of(line));
+    out.area.push_back(enclosed_area(line));
+    out.lean.push_back(std::atan2(x, up) * kDegrees);
+    out.size.back() = std::sqrt(out.area.back());
   }
-  const auto flicker = flicker_of(spectrum);
-  if (!flicker) {
-    section.entries.push_back({"", "no frequency of its own: its power falls with frequency", "flicker", ""});
+  out.spectrum = welch(stretches_of(out.size, recording), recording.rate_hz, window_rows(recording.rate_hz));
+  if (out.spectrum.segments >= kMinSegments) out.flicker = flicker_of(out.spectrum);
+  return out;
+}
+
+void add_flicker(const Motion& motion, ReportSection& section) {
+  const Spectrum& spectrum = motion.spectrum;
+  if (spectrum.segments < kMinSegments) {
+    return arx::add_line(section, "flicker", "no stretch of 8 seconds without a gap");
+  }
+  if (!motion.flicker) {
+    arx::add_line(section, "flicker", "no frequency of its own: its power falls with frequency");
   } else {
-    section.entries.push_back(
-        {"flicker_hz", flicker->hz, "flicker", "Hz", {}, "where the spectrum of √area has its peak"});
-    section.entries.push_back(
-        {"flicker_width_hz",
-         flicker->width_hz,
-         "its width",
-         "Hz",
-         {},
-         "at half of its power; periodograms tell " + number_text(1.5 / kWindowSeconds, 2) + " Hz apart"});
+    arx::add(section, "flicker_hz", motion.flicker->hz, "flicker", "Hz", "where the spectrum of √area has its peak");
+    arx::add(section, "flicker_width_hz", motion.flicker->width_hz, "its width", "Hz",
+             "at half of its power; periodograms tell " + number_text(1.5 / kWindowSeconds, 2) + " Hz apart");
   }
   section.series.push_back(
       {"flicker", "√area", "frequency, Hz", "power, px²/Hz", spectrum.frequency_hz, spectrum.power});
@@ -139,75 +129,30 @@ ReportSection section_of(const Recording& recording, const Motion& motion) {
   table.rows.push_back({"area", mean(motion.area), deviation(motion.area), "px²"});
   table.rows.push_back({"lean", mean(motion.lean), deviation(motion.lean), "degrees to the right"});
   section.tables.push_back(std::move(table));
-  add_flicker(motion, recording, section);
+  add_flicker(motion, section);
   return section;
 }
 
-// How two series move together at a frequency: the phase of b after a in degrees, −180 to 180, and their coherence.
-struct Together {
-  double phase = 0, coherence = 0;
-  std::size_t windows = 0;
-};
-
-Together together_at(double hz, const std::vector<double>& a, const std::vector<double>& b, double rate_hz) {
-  const std::size_t length = window_rows(rate_hz);
-  std::complex<double> cross = 0;
-  double power_a = 0, power_b = 0;
-  Together out;
-  for (std::size_t first = 0; first + length <= std::min(a.size(), b.size()); first += length / 2) {
-    const std::span<const double> x(a.data() + first, length), y(b.data() + first, length);
-    const double mean_x = mean(x), mean_y = mean(y);
-    std::complex<double> of_x = 0, of_y = 0;
-    for (std::size_t k = 0; k < length; ++k) {
-      const double turn = 2 * std::numbers::pi * static_cast<double>(k);
-      const double window = 0.5 - 0.5 * std::cos(turn / static_cast<double>(length));
-      const auto wave = std::polar(window, -turn * hz / rate_hz);
-      of_x += wave * (x[k] - mean_x);
-      of_y += wave * (y[k] - mean_y);
-    }
-    const auto product = of_x * std::conj(of_y);
-    if (std::isnan(product.real())) continue;
-    cross += product;
-    power_a += std::norm(of_x);
-    power_b += std::norm(of_y);
-    ++out.windows;
-  }
-  out.phase = std::arg(cross) * kDegrees;
-  out.coherence = std::norm(cross) / std::max(power_a * power_b, 1e-300);
-  return out;
-}
-
-// Independent series have a coherence of 1/windows on average, and one above this in one of twenty cases
-// (G. C. Carter, "Coherence and time delay estimation", Proc. IEEE 75, 1987).
-double coherence_by_chance(std::size_t windows) {
-  return 1 - std::pow(0.05, 1 / std::max(1.0, static_cast<double>(windows) - 1));
+// What independent series exceed in at most one of twenty cases (G. C. Carter, "Coherence and time delay estimation",
+// Proc. IEEE 75, 1987), where half of the segments, which overlap, count.
+double coherence_by_chance(std::size_t segments) {
+  return 1 - std::pow(0.05, 1 / std::max(1.0, static_cast<double>(segments - 1) / 2));
 }
 
 ReportSection between(const Recording& a, const Motion& of_a, const Motion& of_b) {
   ReportSection section{"Between the two"};
-  const Spectrum spectrum = welch(stretches_of(of_a.size, a), a.rate_hz, window_rows(a.rate_hz));
-  const auto flicker = spectrum.segments < 3 ? std::nullopt : flicker_of(spectrum);
-  if (!flicker) {
-    section.entries.push_back({"", "the first has no flicker of one frequency", "phase", ""});
+  if (!of_a.flicker) {
+    arx::add_line(section, "phase", "the first has no flicker of one frequency");
     return section;
   }
-  const Together found = together_at(flicker->hz, of_a.size, of_b.size, a.rate_hz);
-  const double chance = coherence_by_chance(found.windows);
-  section.entries.push_back(
-      {"phase",
-       found.phase,
-       "phase",
-       "degrees",
-       {},
-       "of the second after the first at " + number_text(flicker->hz, 3) + " Hz: 0 together, 180 by turns"});
-  section.entries.push_back({"coherence",
-                             found.coherence,
-                             "coherence",
-                             "",
-                             {},
-                             (found.coherence > chance ? "they move together: chance gives at most "
-                                                       : "the phase says nothing: chance gives up to ") +
-                                 number_text(chance, 2)});
+  const CrossSpectrum found = cross_spectrum(of_a.size, of_b.size, a.rate_hz, window_rows(a.rate_hz), of_a.flicker->hz);
+  const double chance = coherence_by_chance(found.segments);
+  arx::add(section, "phase", found.phase * kDegrees, "phase", "degrees",
+           "of the second after the first at " + number_text(of_a.flicker->hz, 3) + " Hz: 0 together, 180 by turns");
+  arx::add(section, "coherence", found.coherence, "coherence", "",
+           (found.coherence > chance ? "they move together: chance gives at most "
+                                     : "the phase says nothing: chance gives up to ") +
+               number_text(chance, 2));
   return section;
 }
 
