@@ -1,6 +1,7 @@
 // Tasmota driver: the light flickers like a candle while it is on. Put this file beside Tasmota's other drivers
 // (tasmota/tasmota_xdrv_driver), candle.c and candle.h into tasmota/include or lib/lib_div/candle, and build with
-// -DUSE_WISP_CANDLE. `WispBreeze 0…255` turns the dial from calm over as recorded (128) to breezy.
+// -DUSE_WISP_CANDLE. `WispBreeze 0…255` turns the dial from calm over as recorded (128) to breezy; `Dimmer` is the mean
+// light, and 60 leaves room to flare. The candle's light is linear: `LedTable 0`, `Fade 0`.
 #ifdef USE_WISP_CANDLE
 #ifdef USE_LIGHT
 #define XDRV_120 120
@@ -29,9 +30,9 @@ void WispStep(void) {
   }
   if ((int32_t)(millis() - Wisp.next) < 0) return;
   Wisp.next += 1000 / CANDLE_RATE_HZ;
-  // The mean light at 60 %, so that there is room to flare.
-  const int32_t level = (int32_t)candle_step(&Wisp.flame) * 153 / CANDLE_ONE;
-  if (TasmotaGlobal.power) LightSetBri(Light.device, level < 0 ? 0 : level > 255 ? 255 : level);
+  // The state alone: LightSetBri() would write each step into the settings, which are saved to flash. Never 0, which is off.
+  const int32_t level = (int32_t)candle_step(&Wisp.flame) * LightStateClass::DimmerToBri(Settings->light_dimmer) / CANDLE_ONE;
+  if (Light.power) light_state.setBri(level < 1 ? 1 : level > 255 ? 255 : level);
 }
 
 bool Xdrv120(uint32_t function) {

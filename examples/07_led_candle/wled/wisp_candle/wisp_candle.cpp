@@ -9,6 +9,8 @@ class WispCandleUsermod : public Usermod {
     for (uint16_t k = 0; k < kMax; ++k) candle_start(&flames_[k], 77u + k);
   }
 
+  void loop() override {}
+
   // WLED calls this when the strip is about to be shown: what stands in it is dimmed as the candles burn.
   void handleOverlayDraw() override {
     if (!enabled_) return;
