@@ -4,8 +4,10 @@
     tools/flame_picture.py [HEIGHT]
 
 A column for each shell of src/export/gltf.cpp, the outermost first, a row from the tip (1) to the drop below the base (0).
-Drawn one over the other they are the flame as it is seen across: translucent blue at the base, dark around the wick, bright
-in the middle, orange at the rim and the tip. Profiles as src/draw/flame.
+Seen through each other they are the flame as it is seen across: translucent blue at the base, dark around the wick, bright
+in the middle, orange at the rim and the tip. Colours and opacities are fitted to that (least squares) in the two ways in
+which shells are composited: by a screen's colours in the order of the mesh, the innermost last (three.js and others that
+do not sort), and by light in the order of a ray, the outermost first (Blender's Cycles). Profiles as src/draw/flame.
 """
 import math
 import pathlib
@@ -13,8 +15,12 @@ import struct
 import sys
 import zlib
 
+import numpy as np
+from scipy.optimize import least_squares
+
 ACROSS, DROP = 1.75, 0.12
 SHELLS = (1.0, 0.93, 0.82, 0.66, 0.46, 0.22)
+STRENGTH = 5  # kEmissiveStrength
 # Emission in terms of the sum that 1 - exp(-x) shows, linear, sRGB's primaries.
 RIM, BODY, CORE, BASE = (1.9, 0.27, 0.014), (3.0, 0.83, 0.07), (3.0, 3.0, 1.6), (0.09, 0.50, 3.0)
 
@@ -51,33 +57,58 @@ def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def shells(along):
-    """What each shell adds where it is drawn over those around it: sRGB and opacity."""
-    behind, light, columns = 0, [0, 0, 0], []
+def composited(shells):
+    """What is seen where the first shells lie behind each other, by a screen's colours and by light, and the light itself."""
+    light = STRENGTH * np.where(shells[:, :3] <= 0.04045, shells[:, :3] / 12.92, ((shells[:, :3] + 0.055) / 1.055) ** 2.4)
+    drawn, traced, through, seen = np.zeros(3), np.zeros(3), 1.0, []
+    for emitted, opacity in zip(light, shells[:, 3]):
+        drawn = opacity * screen(emitted) + (1 - opacity) * drawn
+        traced = traced + through * opacity * emitted
+        through *= 1 - opacity
+        seen.append((drawn, screen(traced), traced))
+    return map(np.array, zip(*seen))
+
+
+def screen(light):
+    shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
+    return np.where(shown > 1, 1 + 0.02 * np.tanh(shown - 1), shown)  # with a slope, for the fit
+
+
+def fitted(along, start, pull):
+    """Colour and opacity of each shell, sRGB, 0 to 1, near those of the start; and what is missed."""
     rings = [colour(along, (shell + inner) / 2) for shell, inner in zip(SHELLS, SHELLS[1:] + (0,))]
-    for at, (red, green, blue, seen) in enumerate(rings):
-        # Where it is dark inside, all that lies in front of it is fainter.
-        seen = math.sqrt(seen * min(ring[3] for ring in rings[at:]))
-        through = max(0, 1 - (1 - seen) / (1 - behind)) if behind < 1 else 0
-        wanted = [seen * each for each in (red, green, blue)]
-        added = [min(1, max(0, (each - (1 - through) * old) / through)) if through > 1e-3 else each / max(seen, 1e-6)
-                 for each, old in zip(wanted, light)]
-        light = [through * each + (1 - through) * old for each, old in zip(added, light)]
-        behind = through + (1 - through) * behind
-        columns.append((*added, through))
-    return columns
+    # Where it is dark inside, all that lies in front of it is fainter.
+    wanted = np.array([[math.sqrt(seen * min(ring[3] for ring in rings[at:])) * each for each in (red, green, blue)]
+                       for at, (red, green, blue, seen) in enumerate(rings)])
+
+    def misses(flat):
+        shells = flat.reshape(-1, 4)
+        drawn, traced, light = composited(shells)
+        hue = drawn[:, 1:] * wanted[:, :1] - wanted[:, 1:] * drawn[:, :1]
+        return np.concatenate([(drawn - wanted).ravel(), (traced - wanted).ravel(), 2 * hue.ravel(),
+                               0.03 * np.maximum(0, light - 1.5).ravel(), pull * (shells - start).ravel()])
+
+    found = least_squares(misses, np.clip(start, 0.011, 0.979).ravel(), bounds=(0.01, 0.98)).x.reshape(-1, 4)
+    drawn, traced, _ = composited(found)
+    return found, np.abs(drawn - wanted).mean(), np.abs(traced - wanted).mean()
 
 
 def main():
     width, height = len(SHELLS), int((sys.argv[1:] or [96])[0])
-    rows = bytearray()
-    for y in range(height):
-        rows.append(0)
-        for column in shells(1 - (1 + DROP) * (y + 0.5) / height):
-            rows += bytes(round(255 * min(1, max(0, each))) for each in column)
+    places = [1 - (1 + DROP) * (y + 0.5) / height for y in range(height)]
+    picture = np.full((height, width, 4), 0.5)
+    for y, along in enumerate(places):
+        picture[y] = fitted(along, picture[max(0, y - 1)], 0.4)[0]
+    # Again from the mean of the rows around: where two solutions are as good, the first ones jump between them.
+    first, misses = picture.copy(), []
+    for y, along in enumerate(places):
+        picture[y], *miss = fitted(along, first[max(0, y - 6):y + 7].mean(0), 1)
+        misses.append(miss)
+    rows = b"".join(bytes([0]) + row.tobytes() for row in np.rint(255 * picture).astype(np.uint8))
     png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
     png += chunk(b"IDAT", zlib.compress(bytes(rows), 9)) + chunk(b"IEND", b"")
     pathlib.Path(__file__).resolve().parents[1].joinpath("src/export/flame.png").write_bytes(png)
+    print("mean miss, of 1: drawn {:.3f}, traced {:.3f}".format(*np.mean(misses, axis=0)))
     for along in (-DROP, 0, 0.08, 0.16, 0.25, 0.4, 0.6, 0.8, 1):
         r, g, b, a = colour(along, 0.75)
         print(f"{{{along}, {r:.3f}, {g:.3f}, {b:.3f}, {max(a, 0.35):.3f}}},")

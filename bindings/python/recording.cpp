@@ -57,7 +57,14 @@ void bind_recording(py::module_& module) {
   py::class_<Recording>(module, "Recording", "Inputs and outputs over time at one fixed rate; a missing sample is NaN.")
       .def(py::init(&make), py::arg("rate_hz"), py::arg("outputs"), py::arg("inputs") = py::none(),
            py::arg("episodes") = std::vector<std::int64_t>{}, py::arg("source") = "",
-           "From mappings of names to columns: dictionaries of arrays, or pandas frames.")
+           "From mappings of names to columns: dictionaries of arrays, pandas frames, xarray datasets.")
+      .def("__repr__",
+           [](const Recording& self) {
+             const auto listed = [&](Role role) { return py::repr(py::cast(names(self, role))).cast<std::string>(); };
+             return "<wisp.Recording of " + std::to_string(self.rows()) + " rows at " +
+                    py::repr(py::cast(self.rate_hz)).cast<std::string>() + " Hz, inputs " + listed(Role::kInput) +
+                    ", outputs " + listed(Role::kOutput) + ">";
+           })
       .def_readonly("source", &Recording::source)
       .def_readonly("rate_hz", &Recording::rate_hz)
       .def_property_readonly("inputs", [](const Recording& self) { return names(self, Role::kInput); })

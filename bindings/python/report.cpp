@@ -41,6 +41,9 @@ void bind_report(py::module_& module) {
           "to_dict", [](const Report& self) { return py::module_::import("json").attr("loads")(to_json(self)); },
           "The fields of the program's --json document.")
       .def("__str__", [](const Report& self) { return to_text(self); })
+      .def(
+          "to_html", [](const Report& self) { return to_html(self); }, "A piece of an HTML page; notebooks show it.")
+      .def("_repr_html_", [](const Report& self) { return to_html(self); })
       .def("__repr__", [](const Report& self) {
         if (!self.verdict) return std::string("<wisp.Report>");
         return "<wisp.Report " + std::string(self.verdict->usable ? "usable: " : "not usable: ") +

@@ -259,7 +259,7 @@ void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
 }
 
 // A flame is a few bodies, one in the other, of which each adds some light, so that it is bright where it is thick and
-// has no edge. The outermost is drawn first; flame.png has a column for each.
+// has no edge, whether the outermost is drawn first or lies in front; flame.png has a column for each.
 constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
 // Rings below the base, a drop around the wick, and one that closes the tip.
@@ -394,7 +394,7 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
   json.end();
 }
 
-constexpr double kEmissiveStrength = 1.5;  // of a screen's white: what glows in an engine's bloom
+constexpr double kEmissiveStrength = 5;  // of a screen's white; tools/flame_picture.py knows it too
 
 void write_mesh(const Mesh& mesh, JsonText& json) {
   json.list("meshes").object().value("shape", "name").list("primitives").object().object("attributes");

@@ -11,6 +11,12 @@ const flameBytes = readFileSync(new URL('flame.wisp', models));
 const leafBytes = readFileSync(new URL('leaf.wisp', models));
 const wisp = await load();
 
+const leafRate = (() => {
+  const model = wisp.model(leafBytes), { rateHz } = model.facts;
+  model.free();
+  return rateHz;
+})();
+
 const wrong = (status, words) => (error) => {
   assert.ok(error instanceof WispError, String(error));
   assert.equal(error.status, status);
@@ -225,6 +231,10 @@ test('time passes at any frame rate', () => {
   assert.equal(bank.advance(-5), 0);
   assert.equal(bank.advance(NaN), 0);
   assert.equal(bank.advance(1e30), 300); // no more than ten seconds
+  const hasty = flames({ longest: 100 });
+  assert.equal(hasty.advance(5e9), 3); // no more than was asked for
+  hasty.free();
+  assert.throws(() => flames({ longest: 20000 }), wrong(Status.badArgument, /longest/));
   bank.setNoise(0);
   assert.equal(bank.noise, 0);
   bank.free();
@@ -248,7 +258,14 @@ test('a flame is blown out, smokes, and is lit again', () => {
   for (let k = 0; k < 60; ++k) bank.advance(1e9 / 60);
   assert.equal(bank.flameState(flame).lit, true);
   bank.extinguish(flame);
-  assert.equal(bank.flameState(flame).lit, false);
+  assert.deepEqual([bank.flameState(flame).lit, bank.flameState(flame).wentOut], [false, true]);
+  for (let k = 0; k < 60; ++k) bank.advance(1e9 / 60);
+  assert.equal(bank.flameState(flame).intensity, 0);
+  assert.equal(bank.flameState(flame).wentOut, false);
+  bank.relight(flame);
+  assert.equal(bank.flameState(flame).relit, true);
+  bank.step();
+  assert.deepEqual([bank.flameState(flame).relit, bank.flameState(flame).wentOut], [false, false]);
   bank.free();
 });
 
@@ -257,8 +274,19 @@ test('a leaf falls, is thrown, and comes to rest on the ground', () => {
   const leaf = bank.spawn();
   bank.place(leaf, { position: [1, 2, 3], velocity: [0.6, 0, -0.75] });
   assert.ok(Math.abs(bank.instanceOutputs(leaf)[2] - 3) < 1e-4);
+  assert.deepEqual([bank.chainPlace(leaf).lies, bank.chainPlace(leaf).landed], [false, false]);
+  const before = bank.instanceOutputs(leaf).slice();
+  bank.step();
+  const after = bank.instanceOutputs(leaf), { velocity } = bank.chainPlace(leaf), rate = leafRate;
+  for (let k = 0; k < 3; ++k) assert.ok(Math.abs(velocity[k] - (after[k] - before[k]) * rate) < 1e-2, `${velocity}`);
   bank.setGround(0);
-  for (let k = 0; k < 600; ++k) bank.step();
+  let landings = 0;
+  for (let k = 0; k < 600; ++k) {
+    bank.step();
+    landings += bank.chainPlace(leaf).landed;
+  }
+  assert.deepEqual([landings, bank.chainPlace(leaf).lies], [1, true]);
+  assert.deepEqual([...bank.chainPlace(leaf).velocity, ...bank.chainPlace(leaf).spin], [0, 0, 0, 0, 0, 0]);
   const rest = bank.instanceOutputs(leaf);
   bank.step();
   assert.deepEqual(bank.instanceOutputs(leaf), rest);
@@ -274,6 +302,27 @@ test('a leaf falls, is thrown, and comes to rest on the ground', () => {
   assert.equal(flame.chainPlace(flame.spawn()), null);
   assert.throws(() => flame.place(flame.at(0), { position: [0, 0, 0] }), wrong(Status.badArgument, /not a chain/));
   flame.free();
+});
+
+test('a flame in the round has a surface: vertices on its rings, and triangles between them', () => {
+  const flat = wisp.model(readFileSync(new URL('../../../apps/web/public/models/flame.wisp', import.meta.url)));
+  const bank = flat.inTheRound().bank();
+  flat.free();
+  const flame = bank.spawn();
+  bank.step();
+  const rings = bank.rings(flame).slice(), vertices = bank.mesh(flame, 8), triangles = bank.triangles(8);
+  assert.equal(vertices.length, rings.length * 8);
+  assert.equal(triangles.length, 3 * (2 * (rings.length / 6) * 8 - 4));
+  assert.equal(Math.max(...triangles), vertices.length / 6 - 1);
+  for (let ring = 0; ring < rings.length / 6; ++ring) {
+    const middle = [0, 1, 2].map((k) => {
+      let sum = 0;
+      for (let v = 0; v < 8; ++v) sum += vertices[6 * (8 * ring + v) + k] / 8;
+      return sum;
+    });
+    for (let k = 0; k < 3; ++k) assert.ok(Math.abs(middle[k] - rings[6 * ring + k]) < 1e-5);
+  }
+  bank.free();
 });
 
 test('a chain takes its ground, and saves it', () => {

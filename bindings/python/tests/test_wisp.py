@@ -10,11 +10,14 @@ import os
 import pathlib
 import pickle
 import re
+import shutil
 import signal
+import struct
 import subprocess
 import tempfile
 import threading
 import unittest
+import zlib
 
 import numpy as np
 
@@ -269,6 +272,84 @@ class EveryModel(unittest.TestCase):
             wisp.ArxRecipe(na="three")
         self.assertIn("lags of outputs", wisp.ArxRecipe.na.__doc__)
 
+    def test_help_says_what_each_field_is(self):
+        options = [each for each in vars(wisp).values() if isinstance(each, type) and "**kwargs" in (each.__init__.__doc__ or "")]
+        self.assertGreater(len(options), 8)
+        for each in (*options, wisp.ClipCapture):
+            for name in dir(each):
+                if not name.startswith("_"):
+                    self.assertTrue(getattr(each, name).__doc__, f"{each.__name__}.{name}")
+
+    def test_names_and_time_are_kept(self):
+        of = made_system()
+        model = wisp.learn(of, recipe).model
+        self.assertEqual(model.verdict, (model.usable, model.reason))
+        self.assertIn("2000 rows at 10.0 Hz, inputs ['u'], outputs ['y']", repr(of))
+        y = wisp.simulate(model, of["u"], noise=0)
+        for library, frame in (("pandas", lambda: of.to_pandas()), ("xarray", lambda: of.to_xarray())):
+            if not importlib.util.find_spec(library):
+                continue
+            given = frame()
+            simulated = wisp.simulate(model, given, noise=0)
+            self.assertEqual(list(simulated), ["y"])
+            np.testing.assert_array_equal(np.asarray(simulated["y"]), y[:, 0])
+            over = simulated.index if library == "pandas" else simulated["time"].values
+            np.testing.assert_array_equal(over, of.time)
+            again = wisp.Recording(of.rate_hz, given[["y"]], given[["u"]])
+            self.assertEqual(bytes(wisp.learn(again, recipe).model), bytes(model))
+            with self.assertRaisesRegex(ValueError, "expected the inputs"):
+                wisp.simulate(model, given[["y"]])
+        self.assertGreater(of.time[-1], 199)
+
+    def test_a_report_is_a_page_and_a_film_strip_a_figure(self):
+        self.assertIn("<", wisp.learn(made_system(), recipe).report.to_html())
+        if not importlib.util.find_spec("matplotlib"):
+            self.skipTest("no matplotlib; script/bootstrap --verify brings it")
+        os.environ["MPLBACKEND"] = "Agg"
+        bank, outlines = wisp.Bank(wisp.read_model(flame)), []
+        for _ in range(5):
+            bank.step(4)
+            outlines.append(bank.polylines()[0])
+        figure = wisp.film_strip({"played": outlines, "again": outlines[:3]}, times=[0, 0.1])
+        self.assertEqual(len(figure.axes), 10)
+        self.assertEqual([len(axis.patches) for axis in figure.axes], [1, 1, 1, 1, 1, 1, 1, 1, 0, 0])
+        self.assertEqual(figure.axes[6].texts[0].get_text(), "0.10 s")
+        with self.assertRaisesRegex(ValueError, "frames, points, 2"):
+            wisp.film_strip({"played": outlines[0]})
+
+
+    def test_an_exported_flame_is_bright_inside_and_orange_outside_however_it_is_composited(self):
+        shipped = wisp.read_model(root / "apps/web/public/models/flame.wisp")
+        with tempfile.TemporaryDirectory() as folder:
+            shipped.export(folder + "/flame.glb", seconds=1, loop=True)
+            glb = pathlib.Path(folder, "flame.glb").read_bytes()
+        length = struct.unpack_from("<I", glb, 12)[0]
+        document = json.loads(glb[20:20 + length])
+        strength = document["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"]
+        view = document["bufferViews"][document["images"][0]["bufferView"]]
+        picture = glb[28 + length + view["byteOffset"]:][:view["byteLength"]]
+        width, height = struct.unpack_from(">II", picture, 16)
+        at = picture.index(b"IDAT")
+        data = picture[at + 4:][:struct.unpack_from(">I", picture, at - 4)[0]]
+        shells = np.frombuffer(zlib.decompress(data), np.uint8).reshape(height, 1 + 4 * width)[:, 1:].reshape(height, width, 4) / 255
+        shells = shells[height // 3]  # below the tip, above the base
+        light = strength * np.where(shells[:, :3] < 0.04, shells[:, :3] / 12.92, ((shells[:, :3] + 0.055) / 1.055) ** 2.4)
+
+        def screen(linear):
+            return np.minimum(1, np.where(linear < 0.0031, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+
+        for through in (1, width):  # shells that a ray meets at the rim, and in the middle
+            drawn, traced, left = np.zeros(3), np.zeros(3), 1.0
+            for emitted, opacity in zip(light[:through], shells[:through, 3]):
+                drawn = opacity * screen(emitted) + (1 - opacity) * drawn  # a screen's colours, the innermost last: three.js
+                traced, left = traced + left * opacity * emitted, left * (1 - opacity)  # light, the outermost first: Cycles
+            for red, green, blue in (drawn, screen(traced)):
+                self.assertGreater(red, 0.6)
+                if through == 1:
+                    self.assertLess(green, 0.75 * red)
+                else:
+                    self.assertGreater(min(green, blue), 0.7)
+
 
 class Guide(unittest.TestCase):
     """docs/guide/python.md: what stands there runs."""
@@ -308,6 +389,25 @@ class Guide(unittest.TestCase):
         frame = pandas.DataFrame({"u": of["u"], "y": of["y"]})
         fit = wisp.learn(wisp.Recording(10, frame[["y"]], frame[["u"]]), recipe)
         self.assertEqual(bytes(fit.model), bytes(wisp.learn(of, recipe).model))
+
+    def test_mypy_finds_the_stubs_and_agrees_with_its_programs(self):
+        if not shutil.which("mypy"):
+            self.skipTest("no mypy; script/bootstrap --verify brings it")
+        programs = re.findall(r"```python\n(.*?)```", (root / "docs/guide/python.md").read_text(), re.S)
+        with tempfile.TemporaryDirectory() as folder:
+            whole, wrong = pathlib.Path(folder) / "whole.py", pathlib.Path(folder) / "wrong.py"
+            whole.write_text("\n".join(["import numpy", "block = numpy.zeros(800, numpy.float32)", *programs]))
+            wrong.write_text("import wisp\nwisp.Bank('flame.wisp').polyline(3)\n")
+            said = {}
+            for path in (whole, wrong):
+                # Where the package is installed, mypy of another interpreter finds it by its marker py.typed.
+                done = subprocess.run(["mypy", "--ignore-missing-imports", "--no-error-summary", "--cache-dir", folder, path],
+                                      env={**os.environ, "MYPYPATH": str(pathlib.Path(wisp.__file__).parents[1])},
+                                      capture_output=True, text=True)
+                said[path] = done.stdout + done.stderr
+        self.assertEqual(said[whole], "")
+        self.assertIn('has incompatible type "str"; expected "Model"', said[wrong])
+        self.assertIn('has no attribute "polyline"', said[wrong])
 
     def test_its_stubs_name_what_the_module_has(self):
         said = {node.name: node for node in ast.parse((root / "bindings/python/wisp/__init__.pyi").read_text()).body

@@ -1,5 +1,7 @@
 """Learns how a thing behaves from recordings of it, and plays that behaviour live."""
 
+from collections import namedtuple as _namedtuple
+
 import numpy as _numpy
 
 from . import _wisp
@@ -21,8 +23,8 @@ def __getattr__(name):
     try:
         from . import _capture
     except ImportError as why:
-        raise ImportError(f"wisp.{name} reads films with FFmpeg's libraries (libavformat 59), which cannot be loaded: "
-                          f"{why}; the rest of wisp does without") from why
+        raise ImportError(f"wisp.{name} reads films with wispflame-capture and FFmpeg's libraries (libavformat 59), which cannot "
+                          f"be loaded: {why}; the rest of wisp does without") from why
     for each in _of_films:
         globals()[each] = getattr(_capture, each)
     return globals()[name]
@@ -50,13 +52,55 @@ def _poles_of(a):
 
 Model.poles = property(_poles)  # noqa: F405
 
+Verdict = _namedtuple("Verdict", "usable reason")
+Verdict.__doc__ = "Whether a model may be used, and why or why not."
+Model.verdict = property(lambda self: Verdict(self.usable, self.reason), doc=Verdict.__doc__)  # noqa: F405
+
+
+def _time(self):
+    """Seconds since the first row."""
+    return _numpy.arange(len(self)) / self.rate_hz
+
+
+def _to_pandas(self):
+    """A pandas frame: a column a channel, inputs first, over seconds."""
+    import pandas
+
+    return pandas.DataFrame({name: self[name] for name in self.inputs + self.outputs},
+                            index=pandas.Index(self.time, name="time"))
+
+
+def _to_xarray(self):
+    """An xarray dataset: a variable a channel over the coordinate `time`, seconds; who is an input is in its attributes."""
+    import xarray
+
+    return xarray.Dataset({name: ("time", self[name]) for name in self.inputs + self.outputs}, {"time": self.time},
+                          {"rate_hz": self.rate_hz, "inputs": self.inputs, "outputs": self.outputs})
+
+
+Recording.time = property(_time)  # noqa: F405
+Recording.to_pandas = _to_pandas  # noqa: F405
+Recording.to_xarray = _to_xarray  # noqa: F405
+
 
 def simulate(model, u=None, *, steps=None, instances=1, seed=1, noise=1.0):
     """What a model does in an input: y (steps x outputs) for u (steps x inputs; one column may be a vector).
 
     With `instances` above 1 y is steps x instances x outputs, and u may be steps x instances x inputs. Without u it plays
-    `steps` steps in calm. noise=0 is what follows from the input alone.
+    `steps` steps in calm. noise=0 is what follows from the input alone. A pandas frame or an xarray dataset whose columns
+    are called as the inputs gives one of the outputs, over the same times.
     """
+    if hasattr(u, "data_vars") or hasattr(u, "columns"):
+        if instances != 1:
+            raise ValueError("a frame or a dataset goes with one instance")
+        missing = [name for name in model.inputs if name not in u]
+        if missing:
+            raise ValueError(f"u: found {list(u)}, expected the inputs {model.inputs}")
+        y = simulate(model, _numpy.stack([_numpy.asarray(u[name]) for name in model.inputs], 1), seed=seed, noise=noise)
+        if hasattr(u, "columns"):
+            return type(u)(y, index=u.index, columns=model.outputs)
+        (over,) = u[model.inputs[0]].dims
+        return type(u)({name: (over, column) for name, column in zip(model.outputs, y.T)}, {over: u[over]})
     bank = Bank(model, instances, seed=seed)  # noqa: F405
     bank.noise = noise
     width = len(model.inputs)
@@ -73,3 +117,30 @@ def simulate(model, u=None, *, steps=None, instances=1, seed=1, noise=1.0):
         raise ValueError(f"u: found shape {u.shape}, expected (steps, {width}) or (steps, {instances}, {width})")
     y = bank.play(len(u), u)
     return y[:, 0] if instances == 1 else y
+
+
+def film_strip(rows, times=None):
+    """A film strip as a matplotlib figure: `rows` are captions and their outlines (frames x points x 2, bank.polylines() of one
+    flame frame by frame), `times` what stands under the columns, in seconds.
+    """
+    import matplotlib.pyplot as plt
+
+    strips = {caption: _numpy.asarray(outlines) for caption, outlines in dict(rows).items()}
+    for caption, outlines in strips.items():
+        if outlines.ndim != 3 or outlines.shape[2] != 2:
+            raise ValueError(f"{caption}: found shape {outlines.shape}, expected (frames, points, 2)")
+    points = _numpy.concatenate([outlines.reshape(-1, 2) for outlines in strips.values()])
+    low, high = points.min(0) - 0.1, points.max(0) + 0.1
+    columns = max(len(outlines) for outlines in strips.values())
+    figure, axes = plt.subplots(len(strips), columns, squeeze=False, facecolor="black",
+                                figsize=(columns * (high - low)[0] * 1.6, len(strips) * (high - low)[1] * 1.6))
+    for row, (caption, outlines) in zip(axes, strips.items()):
+        for axis in row:
+            axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+            axis.axis("off")
+        for axis, outline in zip(row, outlines):
+            axis.fill(*outline.T, facecolor="#ffb347", edgecolor="#fff2c0")
+        row[0].set_title(caption, color="white", loc="left")
+    for axis, time in zip(axes[-1], times if times is not None else ()):
+        axis.text(_numpy.mean((low[0], high[0])), low[1], f"{time:.2f} s", color="white", ha="center", va="top")
+    return figure

@@ -2,7 +2,7 @@
 
 import os
 from enum import Enum
-from typing import Any, Callable, Mapping, Optional, Sequence, Union, overload
+from typing import Any, Callable, Iterable, Mapping, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,6 +27,10 @@ class Recording:
     inputs: list[str]
     outputs: list[str]
     attributes: dict[str, str]
+    @property
+    def time(self) -> NDArray[np.float64]: ...
+    def to_pandas(self) -> Any: ...
+    def to_xarray(self) -> Any: ...
     def __len__(self) -> int: ...
     def __getitem__(self, channel: str) -> NDArray[np.float64]: ...
     def rows(self, first: int, last: int) -> Recording: ...
@@ -40,6 +44,7 @@ class Report:
     warnings: list[str]
     series: list[dict[str, Any]]
     def to_dict(self) -> dict[str, Any]: ...
+    def to_html(self) -> str: ...
 
 class ArxOffset(Enum):
     MEAN = ...
@@ -175,6 +180,10 @@ class Captured:
 
 def capture(path: Path, options: ClipCapture = ..., *, progress: Progress = None) -> Captured: ...
 
+class Verdict(NamedTuple):
+    usable: bool
+    reason: str
+
 class Model:
     """What a thing is like: equal where its file is."""
 
@@ -187,6 +196,8 @@ class Model:
     view: str
     usable: bool
     reason: str
+    @property
+    def verdict(self) -> Verdict: ...
     training: dict[str, Any]
     ranges: dict[str, tuple[float, float]]
     a: NDArray[np.float64]
@@ -202,8 +213,9 @@ class Model:
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
 
-def simulate(model: Model, u: Optional[ArrayLike] = None, *, steps: Optional[int] = None, instances: int = 1, seed: int = 1,
-             noise: float = 1.0) -> NDArray[np.float32]: ...
+def simulate(model: Model, u: Any = None, *, steps: Optional[int] = None, instances: int = 1, seed: int = 1,
+             noise: float = 1.0) -> Any: ...
+def film_strip(rows: Mapping[str, ArrayLike], times: Optional[Iterable[float]] = None) -> Any: ...
 def read_model(path: Path) -> Model: ...
 
 class Fit:
