@@ -40,6 +40,7 @@ struct Flag {
   std::vector<std::string> unless{};  ///< flags that make this one optional
   /// Further files of an output: extensions that replace its own or, for a folder, names in it.
   std::vector<std::string> brings{};
+  std::string with{};  ///< the flag without which this one does nothing
 };
 
 /// The flag's help, with the words that it accepts.

@@ -52,13 +52,14 @@ std::string complaint(const Flag& flag, const std::string& text) {
     case Kind::kNames:
       return text.empty() ? "is empty" : std::string();
     case Kind::kInteger:
-      return is_whole(text) ? std::string() : found + "a whole number";
+      return is_whole(text) ? std::string() : found + "a whole number from 0";
     case Kind::kNumber:
       return is_number(text) ? std::string() : found + "a number";
     case Kind::kChoice:
       return is_word(flag, text) ? std::string() : found + "one of " + words_of(flag);
     case Kind::kIntegerOrWord:
-      return is_whole(text) || is_word(flag, text) ? std::string() : found + "a whole number or " + words_of(flag);
+      return is_whole(text) || is_word(flag, text) ? std::string()
+                                                   : found + "a whole number from 0, or " + words_of(flag);
     case Kind::kSamples:
       return is_sample_range(text) ? std::string() : found + "a range A:B of samples with 1 <= A <= B, such as 1:300";
   }
@@ -95,11 +96,14 @@ void add_flag(Wired& wired, const Flag& flag) {
   if (flag.required && flag.unless.empty()) option->required();
 }
 
-// Checks flags that are required unless another one is given.
+// Checks flags that are required unless another one is given, or that do nothing without another one.
 void check_required(const Wired& wired) {
+  const auto given = [&](const std::string& other) { return wired.app->count("--" + other) > 0; };
   for (const Flag& flag : wired.command->flags) {
-    if (!flag.required || flag.unless.empty() || wired.app->count("--" + flag.name) > 0) continue;
-    const auto given = [&](const std::string& other) { return wired.app->count("--" + other) > 0; };
+    if (given(flag.name) && !flag.with.empty() && !given(flag.with)) {
+      throw CLI::RequiresError("--" + flag.name, "--" + flag.with);
+    }
+    if (!flag.required || flag.unless.empty() || given(flag.name)) continue;
     if (std::none_of(flag.unless.begin(), flag.unless.end(), given)) throw CLI::RequiredError("--" + flag.name);
   }
 }

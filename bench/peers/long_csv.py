@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """From a long CSV file to an ARX fit, in one run: Wisp, and NumPy's loadtxt and normal equations.
 
-    bench/peers/long_csv.py WISP [ROWS]      # two million rows
+    bench/peers/long_csv.py WISP [ROWS [PAIRS]]      # two million rows, seven pairs
 
-Processor time, time on the clock and peak memory of each, and the largest difference of their coefficients.
+Medians of processor time, time on the clock and peak memory of each, run in turn; the ratio is that within a pair.
 """
 import json
 import os
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -48,25 +49,40 @@ def timed(*words):
         return said.read(), used.ru_utime + used.ru_stime, time.monotonic() - begin, used.ru_maxrss / 1024
 
 
+def learned(wisp, path, memory, folder):
+    text, own, clock, peak = timed(wisp, "learn", "arx", path, "--inputs", "u", "--outputs", "y", "--rate", 1,
+                                   "--memory", memory, "-o", folder / "m.wisp", "--json")
+    fit = json.loads(text)
+    return fit["A"][0][0] + fit["B"][0][0], own, clock, peak
+
+
 def main():
     # This process stays small: a child's peak begins with its parent's size.
-    wisp, rows = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 2_000_000
+    wisp = sys.argv[1]
+    rows, pairs = [int(word) for word in sys.argv[2:]] + [2_000_000, 7][len(sys.argv) - 2:]
     with tempfile.TemporaryDirectory() as name:
-        path = pathlib.Path(name) / "long.csv"
+        folder = pathlib.Path(name)
+        path = folder / "long.csv"
         version, *_ = timed(sys.executable, "-c", MAKE, path, rows)
-        print(f"{rows} rows, {path.stat().st_size / 1e6:.0f} MB, NumPy {version}")
-        print("| way | processor, s | clock, s | peak, MiB |\n| --- | --- | --- | --- |")
-        text, own, clock, peak = timed(sys.executable, "-c", PEER, path)
-        peer, theta = own, json.loads(text)
-        print(f"| NumPy: loadtxt, Gram matrix | {own:.2f} | {clock:.2f} | {peak:.0f} |")
-        for memory in (1024, 45):
-            text, own, clock, peak = timed(wisp, "learn", "arx", path, "--inputs", "u", "--outputs", "y", "--rate", 1,
-                                           "--memory", memory, "-o", pathlib.Path(name) / "m.wisp", "--json")
-            fit = json.loads(text)
-            found = fit["A"][0][0] + fit["B"][0][0]
-            apart = max(abs(a - b) for a, b in zip(found, theta))
-            print(f"| Wisp, --memory {memory} | {own:.2f}: {own / peer:.2f} of it | {clock:.2f} | {peak:.0f} |")
-            print(f"# coefficients differ by {apart:.1e}", file=sys.stderr)
+        print(f"{rows} rows, {path.stat().st_size / 1e6:.0f} MB, NumPy {version.strip()}, {pairs} pairs")
+        ways = {"NumPy: loadtxt, Gram matrix": None, "Wisp, --memory 1024": 1024, "Wisp, --memory 45": 45}
+        runs = {way: [] for way in ways}
+        for _ in range(pairs):  # one after the other, so that what else the machine does falls on all alike
+            for way, memory in ways.items():
+                if memory is None:
+                    text, *used = timed(sys.executable, "-c", PEER, path)
+                    theta = json.loads(text)
+                else:
+                    found, *used = learned(wisp, path, memory, folder)
+                    print(f"# apart by {max(abs(a - b) for a, b in zip(found, theta)):.1e}", file=sys.stderr)
+                runs[way].append(used)
+        print("| way | processor, s | of NumPy's in the same pair | clock, s | peak, MiB |\n| --- | --- | --- | --- | --- |")
+        peer = [own for own, *_ in runs["NumPy: loadtxt, Gram matrix"]]
+        for way, used in runs.items():
+            ratio = sorted(one[0] / its for one, its in zip(used, peer))
+            own, clock, peak = (statistics.median(one[k] for one in used) for k in range(3))
+            print(f"| {way} | {own:.2f} | {statistics.median(ratio):.2f} ({ratio[0]:.2f} to {ratio[-1]:.2f}) "
+                  f"| {clock:.2f} | {peak:.0f} |")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include "module.hpp"
 #include "wisp/learn.hpp"
+#include "wisp/learn/advice.hpp"
 #include "wisp/learn/prepare.hpp"
 
 namespace wisp::python {
@@ -50,6 +51,9 @@ void bind_arx(py::module_& module) {
       "prepare", [](const Recording& recording, const Preparation& how) { return unwrapped(prepare(recording, how)); },
       py::arg("recording"), py::arg("preparation"),
       "The recording without its straight lines, filtered, and at another rate, as the preparation says.");
+  module.def("advise", &advise, py::arg("recording"),
+             "What there is to see in a recording before any model: rate, channels, and what will spoil a model, with "
+             "cures.");
   options<ArxSearch>(module, "ArxSearch")
       .def_readwrite("na", &ArxSearch::na)
       .def_readwrite("nb", &ArxSearch::nb)

@@ -107,6 +107,7 @@ ReportTable table_of(std::span<const NamedModel> models, const Recording& record
 void add_series(std::span<const NamedModel> models, const Recording& recording, const std::vector<Said>& said,
                 int steps, ReportSection& section) {
   const std::vector<double> seconds = seconds_of(recording);
+  const std::string way = steps == kFreeRun ? ", free simulation" : ", " + std::to_string(steps) + " ahead";
   const auto outputs = outputs_of(models);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const Channel& measured = recording.channels[*find_channel(recording, outputs[i])];
@@ -116,8 +117,8 @@ void add_series(std::span<const NamedModel> models, const Recording& recording, 
     for (const Said& one : said) {
       const auto* predicted = one.steps == steps ? series_of(one.table, outputs[i] + ".predicted") : nullptr;
       if (!predicted) continue;
-      section.series.push_back({"model" + place + "." + std::to_string(one.model), models[one.model].name, "time, s", y,
-                                seconds, *predicted});
+      section.series.push_back({"model" + place + "." + std::to_string(one.model), models[one.model].name + way,
+                                "time, s", y, seconds, *predicted});
     }
   }
 }

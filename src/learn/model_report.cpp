@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "learn/arx/report/arx_description.hpp"
+#include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/complete.hpp"
 #include "learn/flame/extinction_learning.hpp"

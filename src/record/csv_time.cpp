@@ -126,6 +126,14 @@ class LineError {
   double sum_ = 0, square_ = 0, error_ = 0, rows_ = 0;
 };
 
+// Whether a channel stands still from most samples to the next, as an input does that is set now and then. Straight
+// lines would give its jumps values that it never had.
+bool moves_in_steps(std::span<const double> samples) {
+  std::size_t still = 0;
+  for (std::size_t t = 1; t < samples.size(); ++t) still += samples[t] == samples[t - 1];
+  return 2 * still > samples.size();
+}
+
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
@@ -161,6 +169,8 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
   out.rate_hz = 1 / step;
   const auto rows = static_cast<std::size_t>(std::floor((times.back() - times.front()) / step)) + 1;
   std::vector<LineError> errors(recording.channels.size());
+  std::vector<bool> in_steps;
+  for (const Channel& channel : recording.channels) in_steps.push_back(moves_in_steps(channel.samples));
   for (std::size_t row = 0, at = 0; row < rows; ++row) {
     const double now = times.front() + static_cast<double>(row) * step;
     while (at + 2 < times.size() && times[at + 1] <= now) ++at;
@@ -169,9 +179,10 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
     for (std::size_t c = 0; c < out.channels.size(); ++c) {
       const auto& samples = recording.channels[c].samples;
       const bool there = gap <= kGap * step || share == 0;
-      out.channels[c].samples.push_back(there ? samples[at] + share * (samples[at + 1] - samples[at])
+      const double past = in_steps[c] && share < 1 ? 0 : share;
+      out.channels[c].samples.push_back(there ? samples[at] + past * (samples[at + 1] - samples[at])
                                               : std::numeric_limits<double>::quiet_NaN());
-      if (there) errors[c].add(samples, nearest, share);
+      if (there) errors[c].add(samples, nearest, past);
     }
     for (std::size_t f = 0; f < out.flags.size(); ++f) out.flags[f].rows.push_back(recording.flags[f].rows[nearest]);
     if (!recording.episode_ids.empty()) out.episode_ids.push_back(recording.episode_ids[nearest]);

@@ -25,9 +25,10 @@ std::optional<double> seconds_of(std::string_view unit);
 /// of a time of day alone, on a scale of their own; nothing where it is none.
 std::optional<double> seconds_of_date(std::string_view text);
 
-/// A recording whose rows were at `times`, at even steps of their median by straight lines between samples; its
-/// rate_note says how uneven the clock was and what the straight lines may be wrong by. Gaps of more than 1.5 steps are
-/// missing samples. Errors: time goes back, or half of the steps are no usual one.
+/// A recording whose rows were at `times`, at even steps of their median by straight lines between samples, or by the
+/// last sample where a channel moves in steps; its rate_note says how uneven the clock was and what the straight lines
+/// may be wrong by. Gaps of more than 1.5 steps are missing samples. Errors: time goes back, or half of the steps are
+/// no usual one.
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Steps of time, in the column's unit.

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "cli/program.hpp"
@@ -11,6 +13,8 @@
 
 namespace wisp::guide_test {
 namespace {
+
+using testing::HasSubstr;
 
 // Lines of an indented block that begin with "wisp ", lines that end in a backslash joined to the next.
 std::vector<std::string> commands_of(const std::string& page) {
@@ -59,6 +63,10 @@ TEST_F(Guide, IdentifyingATableRuns) {
   for (const std::string& command : commands) {
     const std::string line = "cd " + folder_.string() + " && " WISP_PROGRAM " " + command + " >said 2>&1 </dev/null";
     EXPECT_EQ(std::system(line.c_str()), 0) << command << "\n" << file_text(at("said"));
+    if (command.ends_with("-o load.wisp")) {
+      std::istringstream shown(page.substr(page.find("```text") + 8, page.find("```\n") - page.find("```text") - 8));
+      for (std::string one; std::getline(shown, one);) EXPECT_THAT(file_text(at("said")), HasSubstr(one));
+    }
     if (command.starts_with("learn")) {
       EXPECT_TRUE(file_text(at("said")).starts_with("usable")) << command << "\n" << file_text(at("said"));
     }
@@ -66,6 +74,35 @@ TEST_F(Guide, IdentifyingATableRuns) {
   for (const char* made :
        {"channels.png", "compared.png", "load.html", "load.m", "load.py", "load.c", "load.h", "load.json"}) {
     EXPECT_TRUE(std::filesystem::exists(at(made))) << made;
+  }
+}
+
+std::string source_text(const std::string& path) { return file_text(WISP_SOURCE_DIR "/" + path); }
+
+// The sentences of `not usable`, and where each is made.
+TEST_F(Guide, EverySentenceOfNotUsableHasItsRow) {
+  const std::string page = source_text("docs/guide/identify.md");
+  const std::string rows = page.substr(page.find("## What to do at each *not usable*"));
+  const std::map<std::string, std::vector<std::string>> sentences{
+      {"advice.cpp",
+       {"it stands for a missing sample", " outliers", " never changes", "it tells nothing new",
+        "is missing, and every row", "has only ", "moves only ", "a controller closes the loop", " acts on ",
+        " integrates", " drifts by "}},
+      {"judge/arx_verdict.cpp",
+       {"rows are too few for ", "to make the estimate stable a coefficient was moved by ", "in the same sample",
+        "the recording shows no cause", "played in single precision", "is predicted no better than by its"}},
+      {"judge/arx_judge.cpp", {"the data cannot tell all coefficients", "the model is unstable"}},
+      {"search/delay_estimate.cpp", {"no delay is supported"}}};
+  const std::string kinds = source_text("include/wisp/learn/advice.hpp");
+  const auto causes = kinds.substr(0, kinds.find("kClock"));
+  EXPECT_EQ(std::count(causes.begin() + std::ptrdiff_t(causes.find("enum class")), causes.end(), '<'),
+            std::ssize(sentences.at("advice.cpp")));
+  for (const auto& [file, said] : sentences) {
+    const std::string source = source_text("src/learn/arx/" + file);
+    for (const std::string& sentence : said) {
+      EXPECT_THAT(source, HasSubstr(sentence)) << file;
+      EXPECT_THAT(rows, HasSubstr(sentence)) << file;
+    }
   }
 }
 

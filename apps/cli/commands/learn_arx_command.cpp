@@ -69,7 +69,7 @@ OrderCriterion criterion_of(const std::string& word) {
 
 // --search, --by, --validate, --steps.
 std::vector<Flag> search_flags() {
-  return {
+  std::vector<Flag> flags{
       {"search", Kind::kNames, "GRID", "",
        "try a grid of orders and delays and keep the best, such as na=1:10,nb=1:10,nk=0:3; what it leaves out is "
        "that of --na, --nb, --nk"},
@@ -82,6 +82,8 @@ std::vector<Flag> search_flags() {
       {"validate", Kind::kNames, "A:B|REC,…", "", "rows to validate on, 1-based and inclusive, or other recordings"},
       {"steps", Kind::kIntegerOrWord, "K", "1", "for validation: steps ahead, or inf for free simulation", {"inf"}},
   };
+  for (std::size_t k = 1; k < flags.size(); ++k) flags[k].with = "search";
+  return flags;
 }
 
 // The search that they ask for. `whole` are the recordings before --range was taken, from which --validate takes its
@@ -180,9 +182,12 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
     return Error{"--kernel chooses the coefficients itself: leave --focus " + arguments.text("focus") + " out"};
   }
-  for (const std::string& input : recipe.inputs) {
-    if (std::find(recipe.outputs.begin(), recipe.outputs.end(), input) == recipe.outputs.end()) continue;
-    return Error{"'" + input + "' is named in --inputs and in --outputs; it is one of them"};
+  for (const std::string& name : recipe.inputs) {
+    if (std::count(recipe.inputs.begin(), recipe.inputs.end(), name) > 1) {
+      return Error{"--inputs names '" + name + "' twice"};
+    }
+    if (std::count(recipe.outputs.begin(), recipe.outputs.end(), name) == 0) continue;
+    return Error{"'" + name + "' is named in --inputs and in --outputs; it is one of them"};
   }
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
@@ -285,7 +290,9 @@ std::vector<Flag> arx_flags() {
            "as the data say; with --na 0 --nb 60 --nk 0 a step response without a choice of orders",
            {"none", "tc"}},
           {"radius", Kind::kNumber, "R", "0.999",
-           "poles of an unstable estimate are drawn in to this spectral radius, between 0 and 1"},
+           "poles of an unstable estimate are drawn in to this spectral radius, between 0 and 1, or farther where the "
+           "rows "
+           "learned from are simulated better so"},
           {"keep-unstable", Kind::kSwitch, "", "",
            "leave an unstable estimate as it is, to compare; it cannot be played"},
       });

@@ -134,6 +134,10 @@ Result<PagePart> judged(const Model& model, const std::string& recording, const 
 }
 
 Result<void> run_report(const Arguments& arguments, Terminal& terminal) {
+  const fs::path output = arguments.text("output");
+  if (output.extension() != ".html" && output.extension() != ".htm") {
+    return Error{"--output " + output.string() + ": a report is a page, expected a name that ends in .html"};
+  }
   const auto model = read_model(arguments.positional());
   if (!model) return model.error();
   auto facts = model_report(*model);
@@ -147,7 +151,6 @@ Result<void> run_report(const Arguments& arguments, Terminal& terminal) {
     if (!part) return part.error();
     parts.push_back(std::move(*part));
   }
-  const fs::path output = arguments.text("output");
   const auto page = report_page(fs::path(arguments.positional()).filename().string(), parts);
   if (!page) return page.error();
   if (auto ok = write_file(output, *page); !ok) return ok.error();

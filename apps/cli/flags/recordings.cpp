@@ -68,6 +68,7 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   options.outputs.insert(options.outputs.end(), motion->begin(), motion->end());
   options.columns = arguments.names("columns");
   if (arguments.has("dt")) {
+    if (arguments.has("rate")) return Error{"--rate and --dt both say how fast samples are taken: leave one out"};
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
     options.rate_hz = 1 / seconds;

@@ -100,8 +100,8 @@ PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
   if (figures.inputs() == 0) sheet.plots.push_back(pole_plot("Poles", poles, nullptr));
   for (std::size_t i = 0; i < figures.outputs(); ++i) {
     for (std::size_t k = 0; k < figures.inputs(); ++k) {
-      const ReportSeries* zeros = figures.find("zeros", i, k);
-      sheet.plots.push_back(pole_plot(zeros ? zeros->label : "Poles", poles, zeros));
+      const ReportSeries *zeros = figures.find("zeros", i, k), *own = figures.find("poles", i, k);
+      sheet.plots.push_back(pole_plot(zeros ? zeros->label : "Poles", own ? *own : poles, zeros));
     }
   }
   double reach = 1.1;  // of all panels, so that they can be compared

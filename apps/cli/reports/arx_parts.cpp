@@ -60,7 +60,7 @@ ReportList list_of(const OrderMatrix& orders) {
 }  // namespace
 
 std::vector<Flag> arx_part_flags() {
-  return {
+  std::vector<Flag> flags{
       {"partial", Kind::kOutput, "P", "",
        "write a part of a fit instead of a model: the products of these rows, a small file however many they are"},
       {"part", Kind::kText, "K/N", "1/1", "with --partial: take the K-th of N equal shares of every recording's rows"},
@@ -68,6 +68,9 @@ std::vector<Flag> arx_part_flags() {
        "what is named are parts written with --partial, in any order; they say what the channels and orders are"},
       {"expect", Kind::kInteger, "N", "", "with --merge: how many parts there must be, so that none is forgotten"},
   };
+  flags[1].with = "partial";
+  flags[3].with = "merge";
+  return flags;
 }
 
 // A recording, what is held out of it, and the room that reading keeps: up to 46 bytes a sample (measured), beside

@@ -380,15 +380,31 @@ class Guide(unittest.TestCase):
             finally:
                 os.chdir(here)
 
-    def test_pandas_frames_are_learned_from(self):
-        if not importlib.util.find_spec("pandas"):
-            self.skipTest("no pandas; script/bootstrap --verify brings it")
+    def test_frames_and_datasets_are_as_good_as_arrays(self):
+        if not importlib.util.find_spec("pandas") or not importlib.util.find_spec("xarray"):
+            self.skipTest("no pandas or xarray; script/bootstrap --verify brings them")
         import pandas
+        import xarray
 
         of = made_system()
         frame = pandas.DataFrame({"u": of["u"], "y": of["y"]})
-        fit = wisp.learn(wisp.Recording(10, frame[["y"]], frame[["u"]]), recipe)
-        self.assertEqual(bytes(fit.model), bytes(wisp.learn(of, recipe).model))
+        dataset = xarray.Dataset({"u": ("t", of["u"]), "y": ("t", of["y"])})
+        fit = wisp.learn(of, recipe)
+        played = wisp.simulate(fit.model, u=of["u"], noise=0)
+        for columns in (frame, dataset):
+            recording = wisp.Recording(10, columns[["y"]], columns[["u"]])
+            self.assertEqual(bytes(fit.model), bytes(wisp.learn(recording, recipe).model))
+            prepared = wisp.prepare(recording, wisp.Preparation(detrend=True, lowpass_hz=4))
+            self.assertLess(abs(prepared["y"].mean()), 0.01 * np.std(of["y"]))
+            np.testing.assert_array_equal(wisp.simulate(fit.model, u=columns["u"], noise=0), played)
+
+    def test_advice_names_what_spoils_a_model(self):
+        of = made_system()
+        y = np.array(of["y"])
+        y[100:110] = -999
+        said = wisp.advise(wisp.Recording(10, {"y": y}, {"u": of["u"]})).to_dict()
+        self.assertIn("stands for a missing sample", said["remarks"][0]["cause"])
+        self.assertEqual(wisp.advise(of).to_dict()["remarks"], [])
 
     def test_mypy_finds_the_stubs_and_agrees_with_its_programs(self):
         if not shutil.which("mypy"):

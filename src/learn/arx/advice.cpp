@@ -206,7 +206,10 @@ void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
     for (std::size_t t = 1; t < all.size(); ++t) moves += all[t] != all[t - 1];
     if (all.size() < 40 || moves == 0 || moves >= kFewMoves) continue;
     out.push_back({RemarkKind::kExcitation, name,
-                   "input " + quoted(name) + " moves only " + (moves == 1 ? "once" : std::to_string(moves) + " times") +
+                   "input " + quoted(name) + " moves only " +
+                       (moves == 1   ? "once"
+                        : moves == 2 ? "twice"
+                                     : std::to_string(moves) + " times") +
                        ": that shows one response, not how sure it is",
                    "record with an input that moves often, at uneven intervals"});
   }
@@ -312,7 +315,8 @@ void look_for_wandering(const Subject& subject, std::vector<Remark>& out) {
           {RemarkKind::kDrift, output,
            quoted(output) + " drifts by " + number_text(drift, 3) +
                " from the first row to the last, and no input does",
-           "take the straight line off, add a channel that tells what drifts, or learn from a stretch with --range"});
+           "--prepare detrend takes the straight line off; or add a channel that tells what drifts, or learn from a "
+           "stretch with --range"});
     }
   }
 }

@@ -127,10 +127,9 @@ Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoic
       left -= *read;
       const auto signals = signals_of_model(fit.model, {&window, 1}, channels);
       if (!signals) return signals.error();
-      FreeRunTally errors(tally);
       const FreeRunStart start{InitialState::kMeasured, fit.model.orders.history()};
       free_run(fit.model, *signals, 0, start, [&](std::size_t first, std::size_t rows, const double* values) {
-        errors.add(*signals, 0, first, rows, values);
+        tally.add_simulated(*signals, 0, first, rows, values);
       });
     }
   }

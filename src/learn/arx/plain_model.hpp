@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "learn/arx/fit/triangular_factor.hpp"
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/model.hpp"

@@ -4,7 +4,7 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
-#include "learn/arx/report/arx_description.hpp"
+#include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/markov/markov_fit.hpp"
 #include "learn/markov/markov_rows.hpp"

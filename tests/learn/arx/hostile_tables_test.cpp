@@ -143,6 +143,8 @@ TEST_F(HostileTables, AJitteredClockIsResampledWithItsError) {
   const auto fit = learned({recording}, {.na = 1, .nb = 1});
   ASSERT_TRUE(fit);
   EXPECT_THAT(fit->report.warnings, Contains(HasSubstr("the clock is uneven by")));
+  EXPECT_FALSE(fit->report.verdict->usable);
+  EXPECT_THAT(fit->report.verdict->reason, HasSubstr("input 'Heater (%)' moves only twice"));
 }
 
 TEST_F(HostileTables, DatesSayTheRate) {

@@ -123,6 +123,29 @@ TEST(LearnArx, AnUnstableModelThatIsKeptIsReturnedAndItsVerdictSaysThatItCannotB
   EXPECT_LT(number_of(learned(recording, recipe).report, "stable.radius"), 1);
 }
 
+TEST(LearnArx, PolesOfOtherOutputsThatZerosCancelAreNotDrawn) {
+  ArxRecipe recipe{.inputs = {"u1"}, .outputs = {"y1", "y2"}, .na = 2, .nb = 1, .coupling = Coupling::kDiagonal};
+  recipe.responses = true;
+  const Fit fit = learned(record_system(made_system(), 2000, 1), recipe);
+  EXPECT_EQ(series_of(fit.report, "poles")->x.size(), 4u);
+  for (const char* output : {"0", "1"}) {
+    EXPECT_EQ(series_of(fit.report, std::string("poles.") + output + ".0")->x.size(), 2u);
+    EXPECT_TRUE(series_of(fit.report, std::string("zeros.") + output + ".0")->x.empty());
+  }
+}
+
+TEST(LearnArx, WhetherResidualsAreWhiteIsSaidByTheirProbability) {
+  ArxRecipe recipe = recipe_of_made();
+  const auto said = [&](unsigned seed) {
+    return learned(record_system(made_system(), 2000, seed), recipe).report.find("whiteness_p")->meaning;
+  };
+  int white = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) white += said(seed) == "as white noise would be";
+  EXPECT_GE(white, 1);
+  recipe.na = 0;
+  EXPECT_EQ(said(1), "below 0.05: the model leaves something to learn");
+}
+
 TEST(LearnArx, ResponsesAreSeriesWithBandsAroundThem) {
   ArxRecipe recipe = recipe_of_made();
   recipe.responses = true;

@@ -47,13 +47,13 @@ Result<void> check_rows(const RowPlan& plan, const ArxDesign& design) {
   if (plan.rows == 0) {
     return Error{"no row can be predicted: the first sample is " + std::to_string(plan.first_sample) +
                  " (the longest lag), and no episode has that many rows and one more without "
-                 "gaps; use lower orders or delays, or a longer recording"};
+                 "gaps; use lower orders or delays (na, nb, nk), or a longer recording"};
   }
   std::size_t most = 0;
   for (const SharedRows& rows : design.groups) most = std::max(most, rows.columns.size());
   if (plan.rows <= most) {
     return Error{std::to_string(most) + " coefficients an output cannot be learned from " + std::to_string(plan.rows) +
-                 " rows; use lower orders or a longer recording"};
+                 " rows; use lower orders (na, nb) or a longer recording"};
   }
   return {};
 }

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_solve.hpp"
-#include "learn/arx/fit/residual_pass.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 
@@ -20,6 +19,9 @@ namespace wisp {
 
 /// Nine digits in standard errors: condition² · 2.2e-16 = 1e-9.
 inline constexpr double kMaxConditionForGram = 2e3;
+
+/// Coefficients of every group of rows: regressors × rows, in scaled units, without A's sign.
+using GroupThetas = std::vector<Eigen::MatrixXd>;
 
 struct ArxEstimate {
   std::vector<SharedSolution> groups;  ///< as the design's, in scaled units

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
@@ -50,7 +50,7 @@ struct ArxStability {
   bool changed = false;    ///< whether the estimate had to be changed
   double estimated = 0;    ///< radius of the unconstrained estimate
   double loss_factor = 1;  ///< geometric mean over outputs of one-step loss with the change / loss without
-  double moved = 0;        ///< largest change of a coefficient, in its standard errors
+  double moved = 0;        ///< largest change of a coefficient that stability alone needs, in its standard errors
 };
 
 /// How good the fit is, and what happened. Figures are those of the model as returned.

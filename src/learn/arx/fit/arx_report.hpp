@@ -1,7 +1,11 @@
 #pragma once
 // From an estimate in scaled units to a model in the data's units and a summary of how good it is.
+//
+// Source: L. Ljung, System Identification (2nd ed.), section 16.4; C. Hurvich and C.-L. Tsai, Biometrika 76 (1989), for
+// the correction of AIC to small samples.
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +27,19 @@ struct FitFacts {
   std::size_t episodes_used = 0;
   std::size_t episodes_skipped = 0;
   std::size_t rows_left_out = 0;
+  double drawn_in = 1;  ///< share of the largest stable radius to which unstable poles are scaled
 };
+
+struct Criteria {
+  double fpe = 0;        ///< det Λ (1 + d/n)/(1 − d/n), d = coefficients / outputs
+  double fpe_total = 0;  ///< the same with d = coefficients
+  double aic = 0;        ///< n ln det Λ + 2 coefficients
+  double aicc = 0;       ///< aic + 2 c (c + 1)/(n − c − 1), c = coefficients; infinite where n <= c + 1
+  double bic = 0;        ///< n ln det Λ + c ln n
+};
+
+/// Of residuals with covariance Λ (ny × ny, row-major) over n rows.
+Criteria criteria_of(std::span<const double> covariance, int outputs, double rows, double coefficients);
 
 /// Of a channel's scale, which is 0 where the channel is constant.
 inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }

@@ -1,19 +1,18 @@
 #include "learn/arx/fit/arx_stability.hpp"
 
-#include <utility>
+#include <algorithm>
 
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
-namespace {
-
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// The largest radius of the poles of outputs that feed each other: of their companion matrix's eigenvalues.
-double radius_of(const ArxModel& model, const std::vector<int>& outputs) {
-  const Index count = std::ssize(outputs), states = count * model.orders.history();
+Eigen::MatrixXd companion_of(const ArxModel& model, const std::vector<int>& outputs) {
+  int order = 0;
+  for (int value : model.orders.na.values()) order = std::max(order, value);
+  const Index count = std::ssize(outputs), states = count * order;
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(states, states);
   for (Index r = 0; r < count; ++r) {
     for (Index c = 0; c < count; ++c) {
@@ -22,8 +21,10 @@ double radius_of(const ArxModel& model, const std::vector<int>& outputs) {
     }
   }
   for (Index r = count; r < states; ++r) companion(r, r - count) = 1;
-  return states > 0 ? eigenvalues(companion).cwiseAbs().maxCoeff() : 0;
+  return companion;
 }
+
+namespace {
 
 // Scales one output's A, and lets B and the constant follow to where they are best for it.
 void scale_row(const Eigen::MatrixXd& inverse, double factor, int output, ArxModel& model) {
@@ -48,11 +49,12 @@ void scale_row(const Eigen::MatrixXd& inverse, double factor, int output, ArxMod
 
 }  // namespace
 
-void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius) {
+void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius, double share) {
   for (const std::vector<int>& outputs : arx::coupled_outputs(model.orders.na)) {
-    const double radius = radius_of(model, outputs);
+    const Eigen::MatrixXd companion = companion_of(model, outputs);
+    const double radius = companion.size() > 0 ? eigenvalues(companion).cwiseAbs().maxCoeff() : 0;
     if (radius <= max_radius) continue;
-    for (int output : outputs) scale_row(inverse[output], max_radius / radius, output, model);
+    for (int output : outputs) scale_row(inverse[output], share * max_radius / radius, output, model);
   }
 }
 

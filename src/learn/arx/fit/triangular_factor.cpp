@@ -9,7 +9,7 @@
 #include "learn/arx/fit/arx_report.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
-#include "learn/arx/rows/arx_triangle.hpp"
+#include "learn/arx/rows/lag_gram.hpp"
 
 namespace wisp {
 namespace {

@@ -18,7 +18,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_design.hpp"
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/rows/seen_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/record/csv.hpp"

@@ -24,7 +24,6 @@ constexpr double kKept = 60;
 }  // namespace
 
 void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary) {
-  std::string failing;
   for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
     const double one_step = summary.fit_percent[i];
     const double free_run = summary.free_run_fit_percent[i];
@@ -32,11 +31,6 @@ void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summa
     summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
                                ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") +
                                percent(free_run) + "; judge this model by simulation, and try other orders or delays");
-    failing += (failing.empty() ? "'" : ", '") + outputs[i] + "'";
-  }
-  if (!failing.empty() && summary.stable.changed) {
-    summary.warnings.push_back(
-        "poles that were drawn in to the edge of stability may simulate better farther in (a smaller radius)");
   }
 }
 
@@ -52,7 +46,7 @@ void judge_fit(const FitFacts& facts, ArxSummary& summary) {
     warnings.push_back(
         "the estimate was unstable (spectral radius " + number_text(summary.stable.estimated, 4) +
         ") and was made stable (" + number_text(summary.stable.radius, 4) + "); the squared one-step error grew by " +
-        number_text(100 * (summary.stable.loss_factor - 1), 2) + " %, no coefficient moved by more than " +
+        number_text(100 * (summary.stable.loss_factor - 1), 2) + " %; stability alone moves no coefficient by more than " +
         number_text(summary.stable.moved, 2) + " standard errors");
   }
   warn_of_free_run(facts.names, summary);

@@ -7,7 +7,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/free_run.hpp"
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"

@@ -85,7 +85,6 @@ class Tallies {
     StepErrors errors(model, signals, most);
     for (const RowRun& run : plan_rows(signals, layout_of_model(model), first_sample).runs) {
       errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) { add(run, k, first, block); });
-      add_outputs(run, most);
     }
   }
 
@@ -96,21 +95,12 @@ class Tallies {
     if (at_[k] < 0) return;
     const std::size_t start = run.begin + static_cast<std::size_t>(k) - 1;
     const auto skip = static_cast<Eigen::Index>(start > first ? start - first : 0);
-    if (skip < block.rows()) tallies_[at_[k]].add_errors(block.bottomRows(block.rows() - skip));
-  }
-
-  // The outputs' own sums differ between numbers of steps in the first rows of a run only.
-  void add_outputs(const RowRun& run, int most) {
+    if (skip >= block.rows()) return;
+    const Eigen::Index rows = block.rows() - skip;
+    tallies_[at_[k]].add_errors(block.bottomRows(rows));
     for (int i = 0; i < signals_.outputs; ++i) {
-      Tally whole(signals_.outputs);
-      const auto samples = signals_.samples[run.recording][i];
-      const Eigen::Map<const Eigen::ArrayXd> rows(samples.data() + run.begin,
-                                                  static_cast<Eigen::Index>(run.end - run.begin));
-      whole.add_output(i, (rows - signals_.offset[i]).matrix());
-      for (int k = 1; k <= most && run.begin + k <= run.end; ++k) {
-        if (at_[k] >= 0) tallies_[at_[k]].add_output_of(whole, i);
-        whole.take_output(i, samples[run.begin + k - 1] - signals_.offset[i]);
-      }
+      const double* measured = signals_.samples[run.recording][i].data() + first + skip;
+      tallies_[at_[k]].add_output(i, (Eigen::Map<const Eigen::ArrayXd>(measured, rows) - signals_.offset[i]).matrix());
     }
   }
 
@@ -176,8 +166,10 @@ Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const S
     const Tally tally =
         steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample}) : tallies[steps];
     if (tally.rows() == 0) {
-      return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
-                   std::to_string(model.orders.history()) + " samples"};
+      const std::string ahead = steps > 1 ? std::to_string(steps) + " steps ahead" : "";
+      return Error{"no row can be predicted" + (ahead.empty() ? "" : " " + ahead) +
+                   ": no stretch without gaps is longer than the model's history of " +
+                   std::to_string(model.orders.history()) + " samples" + (ahead.empty() ? "" : " and those steps")};
     }
     out.push_back(tally.figures(steps));
   }

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"

@@ -28,28 +28,13 @@ void Tally::add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors) {
     square_[i] += errors.col(static_cast<Eigen::Index>(i)).squaredNorm();
   }
   for (std::size_t g = 0; g < norm_.size(); ++g) {
-    const auto first = static_cast<Eigen::Index>(g) * group_;
-    if (group_ == 1) {
-      norm_[g] += errors.col(first).lpNorm<1>();
-    } else {
-      norm_[g] += errors.middleCols(first, group_).rowwise().norm().sum();
-    }
+    norm_[g] += errors.middleCols(static_cast<Eigen::Index>(g) * group_, group_).rowwise().norm().sum();
   }
 }
 
 void Tally::add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations) {
   y_[i] += deviations.sum();
   y_square_[i] += deviations.squaredNorm();
-}
-
-void Tally::take_output(int i, double deviation) {
-  y_[i] -= deviation;
-  y_square_[i] -= deviation * deviation;
-}
-
-void Tally::add_output_of(const Tally& other, int i) {
-  y_[i] += other.y_[i];
-  y_square_[i] += other.y_square_[i];
 }
 
 PredictionFigures Tally::figures(int steps) const {
@@ -66,29 +51,26 @@ PredictionFigures Tally::figures(int steps) const {
   return out;
 }
 
-FreeRunTally::FreeRunTally(Tally& tally) : tally_(tally) {}
-
-void FreeRunTally::add(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
-                       const double* values) {
+void Tally::add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
+                          const double* values) {
   const auto count = static_cast<Eigen::Index>(rows);
   const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
-  measured_.resize(count, signals.outputs);
+  Eigen::MatrixXd measured(count, signals.outputs);
   for (int i = 0; i < signals.outputs; ++i) {
     const double* samples = signals.samples[recording][i].data() + first;
-    measured_.col(i) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
+    measured.col(i) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
   }
-  errors_ = measured_ - simulated.transpose();
-  const Eigen::Index whole = drop_missing(count, measured_, errors_);
-  tally_.add_errors(errors_.topRows(whole));
-  for (int i = 0; i < signals.outputs; ++i) tally_.add_output(i, measured_.col(i).head(whole));
+  Eigen::MatrixXd errors = measured - simulated.transpose();
+  const Eigen::Index whole = drop_missing(count, measured, errors);
+  add_errors(errors.topRows(whole));
+  for (int i = 0; i < signals.outputs; ++i) add_output(i, measured.col(i).head(whole));
 }
 
 Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start) {
   Tally tally(signals.outputs);
-  FreeRunTally errors(tally);
   for (std::size_t r = 0; r < signals.samples.size(); ++r) {
     free_run(model, signals, r, start, [&](std::size_t first, std::size_t rows, const double* values) {
-      errors.add(signals, r, first, rows, values);
+      tally.add_simulated(signals, r, first, rows, values);
     });
   }
   return tally;

@@ -26,11 +26,10 @@ class Tally {
   /// Adds measured deviations of output i.
   void add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations);
 
-  /// Takes one away again.
-  void take_output(int i, double deviation);
-
-  /// Adds what another tally knows of output i's deviations.
-  void add_output_of(const Tally& other, int i);
+  /// Adds the errors of simulated rows [first, first + rows) of a recording: `values` are the simulated deviations, row
+  /// after row. Rows where an output was not measured do not count.
+  void add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
+                     const double* values);
 
   PredictionFigures figures(int steps) const;
 
@@ -41,22 +40,6 @@ class Tally {
   std::vector<double> y_;
   std::vector<double> y_square_;
   std::vector<double> norm_;
-};
-
-/// Takes the errors of simulated rows into a tally.
-class FreeRunTally {
- public:
-  /// Precondition: `tally` outlives this.
-  explicit FreeRunTally(Tally& tally);
-
-  /// Rows [first, first + rows) of a recording: `values` are the simulated deviations, row after row. Rows where an
-  /// output was not measured do not count.
-  void add(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows, const double* values);
-
- private:
-  Tally& tally_;
-  Eigen::MatrixXd measured_;
-  Eigen::MatrixXd errors_;
 };
 
 /// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"

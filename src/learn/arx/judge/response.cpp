@@ -5,8 +5,10 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "learn/arx/fit/arx_errors.hpp"
+#include "learn/arx/fit/arx_stability.hpp"
 #include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
@@ -198,18 +200,10 @@ VectorXcd frequency_slopes(const ArxModel& model, int output, int input, Complex
 }  // namespace
 
 std::vector<std::complex<double>> poles(const ArxModel& model) {
-  const int ny = model.orders.outputs();
-  int order = 0;
-  for (int value : model.orders.na.values()) order = std::max(order, value);
-  if (order == 0) return {};
-  MatrixXd companion = MatrixXd::Zero(static_cast<Index>(ny) * order, static_cast<Index>(ny) * order);
-  for (int i = 0; i < ny; ++i) {
-    for (int j = 0; j < ny; ++j) {
-      const auto a = model.a(i, j);
-      for (std::size_t l = 0; l < a.size(); ++l) companion(i, static_cast<Index>(l) * ny + j) = -a[l];
-    }
-  }
-  for (Index r = ny; r < companion.rows(); ++r) companion(r, r - ny) = 1;
+  std::vector<int> outputs(std::size_t(model.orders.outputs()));
+  std::iota(outputs.begin(), outputs.end(), 0);
+  const MatrixXd companion = companion_of(model, outputs);
+  if (companion.size() == 0) return {};
   auto all = sorted(eigenvalues(companion));
   all.resize(std::min<std::size_t>(all.size(), static_cast<std::size_t>(degree_of_a(model))));
   return all;

@@ -83,8 +83,21 @@ Curve phase_curve(const FrequencyResponse& response) {
   return curve;
 }
 
-void add_places(const std::string& id, const std::string& label, const std::vector<std::complex<double>>& places,
-                ReportSection& section) {
+using Places = std::vector<std::complex<double>>;
+
+// Without the poles and zeros that cancel each other: of outputs that do not feed this one.
+std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) {
+  constexpr double kSame = 1e-6;
+  Places left;
+  for (const auto& zero : zeros) {
+    const auto same =
+        std::find_if(poles.begin(), poles.end(), [&](const auto& pole) { return std::abs(pole - zero) < kSame; });
+    same == poles.end() ? left.push_back(zero) : void(poles.erase(same));
+  }
+  return {std::move(poles), std::move(left)};
+}
+
+void add_places(const std::string& id, const std::string& label, const Places& places, ReportSection& section) {
   ReportSeries& series = section.series.emplace_back();
   series = {id, label, "real part", "imaginary part", {}, {}};
   for (const auto& place : places) {
@@ -135,7 +148,9 @@ class Pair {
     const std::string& output = of_.channels.outputs[output_];
     const std::string label = output + " from " + of_.channels.inputs[input_];
     const std::string place = "." + std::to_string(output_) + "." + std::to_string(input_);
-    add_places("zeros" + place, label, zeros(of_.model, output_, input_), section);
+    const auto [left_poles, left_zeros] = without_cancelling(poles(of_.model), zeros(of_.model, output_, input_));
+    add_places("poles" + place, label, left_poles, section);
+    add_places("zeros" + place, label, left_zeros, section);
     plot_curve("step" + place, label, {"time, s", output}, seconds(), step_curve(step_), section);
     plot_curve("amplitude" + place, label, {"frequency, Hz", "amplitude"}, hertz(), amplitude_curve(frequency_),
                section);

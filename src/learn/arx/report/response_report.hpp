@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/model/arx.hpp"
 
@@ -20,7 +20,8 @@ struct Responding {
 /// The series `poles`: x the real part, y the imaginary one.
 void add_poles(const ArxModel& model, Report& report);
 
-/// Beside the poles, series, I an output and K an input: `zeros.I.K` like them, `step.I.K` over seconds,
+/// Beside the poles, series, I an output and K an input: `poles.I.K` and `zeros.I.K` like them, without those that
+/// cancel each other; `step.I.K` over seconds,
 /// `amplitude.I.K` and `phase.I.K` (degrees) over Hz; with a covariance the ends of their 95 % bands, the same id with
 /// `.low` and `.high` after it. Where `listed`, also the lists of `responses`: `seconds` and `step` [output][input]
 /// {`value`, `sd`}; `hz` and `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`, `phase_sd`}, phases in

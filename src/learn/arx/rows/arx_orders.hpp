@@ -1,12 +1,21 @@
 #pragma once
-// Order matrices from a few numbers: which channels appear in which output's equation.
+// Which channels are inputs and outputs, and order matrices from a few numbers: which appear in which output's
+// equation.
 
+#include <string>
 #include <vector>
 
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {
+
+/// Channels by name, in the model's order. Roles in the recording do not matter: an output of one system may be another
+/// one's input.
+struct ChannelChoice {
+  std::vector<std::string> inputs;   ///< may be empty: a model without input
+  std::vector<std::string> outputs;  ///< at least one
+};
 
 /// The same orders in all entries that the coupling leaves.
 struct UniformOrders {

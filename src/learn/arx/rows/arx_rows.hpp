@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "learn/numeric/lag_layout.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"

@@ -1,5 +1,7 @@
 #pragma once
-// The Gram matrix of lagged channels, from few long products.
+// A regression on lagged channels reduced to a square: its Gram matrix, from few long products, or a triangle R with
+// RᵀR the Gram matrix, found without forming it (G. Golub & C. Van Loan, Matrix Computations (4th ed.), section 5.2;
+// rows are taken in block by block: A. Björck, Numerical Methods for Least Squares Problems, section 6.2).
 //
 // Neighbouring rows of a regression on lags share nearly all numbers: the product of channel c at lag l with channel c′
 // at lag l′ differs from that at lags l−1, l′−1 only at the two ends of the rows. So only products with a channel's
@@ -23,5 +25,11 @@ using ChannelPairs = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 /// of channels that are not wanted are not meaningful.
 Eigen::MatrixXd lag_gram(const Signals& signals, const RowPlan& plan, const LagLayout& layout,
                          const ChannelPairs& wanted);
+
+/// Reduces [triangle; rows of `matrix`] to `triangle`. `matrix` is used up.
+void reduce_rows(Eigen::MatrixXd& triangle, const Eigen::MatrixXd& rows);
+
+/// The upper triangle of all columns of the layout over all rows of the plan, in scaled units.
+Eigen::MatrixXd triangle_by_qr(const Signals& signals, const RowPlan& plan, const LagLayout& layout);
 
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "learn/arx/fit/arx_check.hpp"
-#include "learn/arx/fit/arx_criteria.hpp"
+#include "learn/arx/fit/arx_report.hpp"
 #include "learn/arx/judge/prediction_tally.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"

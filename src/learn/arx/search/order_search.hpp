@@ -13,7 +13,6 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
-#include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "learn/arx/fit/arx_solve.hpp"
-#include "learn/arx/rows/arx_triangle.hpp"
 #include "learn/arx/rows/lag_gram.hpp"
 
 namespace wisp {

@@ -8,7 +8,6 @@
 
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
-#include "learn/arx/rows/arx_triangle.hpp"
 
 namespace wisp::lag_gram_test {
 namespace {
