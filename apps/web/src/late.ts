@@ -66,7 +66,8 @@ export function furnish(app: App): Parts {
     gif: () => saveGif(app.stage.canvas, blownOut(app)),
     tune: () => tune.toggle(),
   });
-  byId('tune-play', HTMLButtonElement).addEventListener('click', () => tune.toggle());
+  const play = byId('tune-play', HTMLButtonElement);
+  play.addEventListener('click', () => play.setAttribute('aria-pressed', String(tune.toggle())));
   byId('back', HTMLButtonElement).addEventListener('click', () => void app.sendBack());
   fillHelp(app.help, app);
   if (app.player.playing !== null) drawer.fill(app.player.playing, app.settings);

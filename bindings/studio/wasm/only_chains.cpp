@@ -5,6 +5,7 @@
 #include "learn/flame/learn_outline.hpp"
 #include "learns.hpp"
 #include "wisp/learn/arx_recipe.hpp"
+#include "wisp/learn/prepare.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp {
@@ -22,6 +23,9 @@ Result<Report> validate_arx(const Model&, const Recording&, const ValidationOpti
 Result<ValidatedOutline> validate_outline(const Model&, const Recording&, const ValidationOptions&, const Progress&) {
   return Error{};
 }
+Result<Recording> prepare(const Recording&, const Preparation&) { return Error{}; }
+Result<std::vector<Recording>> prepare_all(std::span<const Recording>, const Preparation&) { return Error{}; }
+std::string text_of(const Preparation&) { return {}; }
 
 namespace chain {
 
