@@ -3,18 +3,17 @@
 
 namespace wisp::wind {
 
-constexpr int kLikenessUnits = 6;
+constexpr int kLikenessUnits = 5;
 /// Of low, high, voicing, tone, peaked; a row for each unit.
 constexpr float kLikenessFirst[kLikenessUnits][5] = {
-    {0.000000F, 0.000000F, -0.000000F, 0.000169F, -0.000000F},
-    {0.526704F, -0.029883F, -2.434559F, 12.972559F, -0.527831F},
-    {-0.010480F, 0.004234F, -3.141943F, 1.395416F, -0.960524F},
-    {-0.070966F, -0.114691F, -0.474659F, -7.059048F, 0.058312F},
-    {0.037807F, 0.254106F, -8.796834F, 3.927049F, 0.130996F},
-    {-0.323649F, -0.136919F, 11.410008F, 3.794534F, 0.001552F},
+    {0.487801F, -0.159278F, -5.453624F, 7.824901F, -0.559469F},
+    {-0.274101F, -0.222147F, -0.714341F, -0.050801F, -0.567844F},
+    {0.155284F, -0.125983F, -2.178853F, -7.373199F, -0.424851F},
+    {0.167036F, 0.296847F, -5.057342F, 8.268309F, -0.014762F},
+    {-0.190512F, -0.078132F, 11.405547F, 5.908255F, -0.575604F},
 };
-constexpr float kLikenessBias[kLikenessUnits] = {-0.517713F, 0.781091F, 3.032093F, 1.226983F, 9.834062F, -11.551318F};
-constexpr float kLikenessSecond[kLikenessUnits] = {0.000174F, -1.827700F, 0.423501F, 2.130193F, -1.955909F, -2.127848F};
-constexpr float kLikenessOffset = 0.979023F;
+constexpr float kLikenessBias[kLikenessUnits] = {1.725264F, -5.473508F, 4.027220F, 7.698165F, -9.797668F};
+constexpr float kLikenessSecond[kLikenessUnits] = {-2.296162F, 3.572025F, 2.210056F, -2.789184F, -2.328787F};
+constexpr float kLikenessOffset = 0.547070F;
 
 }  // namespace wisp::wind

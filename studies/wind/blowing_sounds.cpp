@@ -187,8 +187,8 @@ std::vector<KnownSound> speech() {
   std::vector<KnownSound> all;
   if (std::system("espeak-ng --version >/dev/null 2>&1") != 0) return all;
   const auto file = std::filesystem::temp_directory_path() / "wisp-verify-blowing-voice.wav";
-  for (const char* voice :
-       {"en-us", "en-us+f2", "en-gb+m4", "de+m2", "fr+f3", "en-us+klatt2", "en-us+croak", "it+m3"}) {
+  for (const char* voice : {"en-us", "en-us+f2", "en-gb+m4", "de+m2", "fr+f3", "en-us+klatt2", "en-us+croak", "it+m3",
+                            "en-gb+whisper", "it+whisper"}) {
     const std::string command = std::string("espeak-ng -v ") + voice + " -w '" + file.string() +
                                 "' 'Papa bought a big blue balloon for Bobby, but the puppy popped it. Who has seen "
                                 "the wind? Pfeffer, bitte. One, two, three, four, five.'";
@@ -219,6 +219,49 @@ Samples without_lows(const Samples& sound, double frequency_hz) {
     out.push_back(static_cast<float>(gain * (now - 2 * d1 + d2)));
     d2 = d1;
     d1 = now;
+  }
+  return out;
+}
+
+namespace {
+
+/// A Butterworth low-pass of two poles.
+Samples without_highs(const Samples& sound, double frequency_hz) {
+  const double w = kTurn * frequency_hz / kSoundRate;
+  const double alpha = std::sin(w) / std::numbers::sqrt2;
+  const double gain = (1 - std::cos(w)) / 2 / (1 + alpha);
+  const double a1 = -2 * std::cos(w) / (1 + alpha);
+  const double a2 = (1 - alpha) / (1 + alpha);
+  double d1 = 0;
+  double d2 = 0;
+  Samples out;
+  out.reserve(sound.size());
+  for (const float x : sound) {
+    const double now = static_cast<double>(x) - a1 * d1 - a2 * d2;
+    out.push_back(static_cast<float>(gain * (now + 2 * d1 + d2)));
+    d2 = d1;
+    d1 = now;
+  }
+  return out;
+}
+
+}  // namespace
+
+Samples banded(const Samples& sound, double low_hz, double high_hz) {
+  const Samples risen = without_lows(without_lows(sound, low_hz), low_hz);
+  return without_highs(without_highs(risen, high_hz), high_hz);
+}
+
+Samples made_blow(std::uint64_t seed) {
+  sounds::Chance chance(seed + 70);
+  Samples out(at(0.7 + 0.6 * chance.uniform()));
+  sounds::Resonance swing(8, 0.7, kSoundRate);
+  const double rise = 0.03 + 0.12 * chance.uniform();
+  const double seconds = static_cast<double>(out.size()) / kSoundRate;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double t = static_cast<double>(i) / kSoundRate;
+    const double ends = std::min(1.0, t / rise) * std::min(1.0, (seconds - t) / 0.15);
+    out[i] = static_cast<float>(ends * std::max(0.3, 1 + 8 * swing.next(chance.normal())) * chance.normal());
   }
   return out;
 }

@@ -42,6 +42,12 @@ std::vector<KnownSound> steady_sounds();
 /// The sound without what is below a frequency (second order); 0: as it is.
 sounds::Samples without_lows(const sounds::Samples& sound, double frequency_hz);
 
+/// What a microphone passes of it that has this band alone (fourth order at either end).
+sounds::Samples banded(const sounds::Samples& sound, double low_hz, double high_hz);
+
+/// Noise with the course of a hard blow.
+sounds::Samples made_blow(std::uint64_t seed);
+
 /// Scales so that the seconds in which it sounds (above a tenth of its 95th percentile) have this RMS; within ±1.
 sounds::Samples at_rms(sounds::Samples sound, double rms);
 

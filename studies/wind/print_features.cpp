@@ -28,6 +28,24 @@ void print(const KnownSound& one, int blowing, double rms, double lows) {
 
 void print_features() {
   std::printf("kind,from,blowing,rms,lows,hop,low,high,voicing,tone,peaked,loudness,likeness\n");
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const double low = 500 + 100 * static_cast<double>(seed % 7);
+    const double high = 2200 + 300 * static_cast<double>(seed % 5);
+    print({"hushed", "made " + std::to_string(seed), banded(made_blow(seed), low, high)}, 1, 0.2, 0);
+  }
+  // Brighter than most wind: falling by 6 dB an octave.
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    KnownSound one{"bright", "made " + std::to_string(seed), made_blow(seed + 30)};
+    const double share = 1 - std::exp(-2 * std::numbers::pi * (300 + 50 * static_cast<double>(seed % 9)) / kSoundRate);
+    double low = 0;
+    for (float& x : one.samples) x = static_cast<float>(low += share * (static_cast<double>(x) - low));
+    print(one, 1, 0.2, 0);
+  }
+  for (KnownSound one : blows()) {
+    one.kind = "hushed";
+    one.samples = banded(one.samples, 800, 3200);
+    print(one, 1, 0.2, 0);
+  }
   for (const double lows : {0.0, 80.0, 120.0, 200.0}) {
     for (const KnownSound& one : breaths()) print(one, 1, 0.03, lows);
     for (KnownSound one : blows()) {

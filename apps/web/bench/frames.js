@@ -1,6 +1,5 @@
 // What a frame costs us: milliseconds of our own work (models, poses, what is handed to the graphics card) with one
-// candle, a cake and a few hundred leaves; tasks that hold the page up for more than 50 ms;
-// the time to the first picture.
+// candle, a cake and a few hundred leaves; the time to the first picture.
 //
 //     npm run bench --workspace apps/web [-- SECONDS]      each scene so long; default 6
 //
@@ -19,12 +18,8 @@ const scenes = [
 
 if (chromiumPath === undefined) throw new Error('there is no Chromium here');
 
-function watchLongTasks() {
+function drawNoLeaves() {
   for (const call of ['drawElementsInstanced', 'drawArraysInstanced']) WebGL2RenderingContext.prototype[call] = () => {};
-  window.longTasks = [];
-  new PerformanceObserver((list) => {
-    for (const entry of list.getEntries()) window.longTasks.push({ start: entry.startTime, duration: entry.duration });
-  }).observe({ entryTypes: ['longtask'] });
 }
 
 function quantile(values, share) {
@@ -33,26 +28,18 @@ function quantile(values, share) {
 }
 
 const opened = await openBrowser();
-console.log('scene            first picture ms   update ms: median  95 %   draw ms: median  95 %   tasks > 50 ms  frames');
+console.log('scene            first picture ms   update ms: median  95 %   draw ms: median  95 %   frames');
 for (const [name, hash, many] of scenes) {
-  const page = await opened.page(`${hash}&seed=1&detail=0.02`, { before: watchLongTasks });
+  const page = await opened.page(`${hash}&seed=1&detail=0.02`, { before: drawNoLeaves });
   await until(page, `${name} complete`, (count) => (window.wisp.leaves?.count ?? window.wisp.burning?.of) >= count, many, 300_000);
-  const from = await page.evaluate(() => ({ frames: window.wisp.frames, time: performance.now() }));
+  const from = await page.evaluate(() => window.wisp.frames);
   await page.waitForTimeout(1000 * seconds);
-  const { costs, frames, first, tasks } = await page.evaluate(
-    (began) => ({
-      costs: window.wisp.costs(),
-      frames: window.wisp.frames,
-      first: window.wisp.firstPicture,
-      tasks: window.longTasks.filter(({ start }) => start > began.time).length,
-    }),
-    from,
-  );
-  const counted = costs.slice(-Math.min(costs.length, frames - from.frames));
+  const { costs, frames, first } = await page.evaluate(() => ({ costs: window.wisp.costs(), frames: window.wisp.frames, first: window.wisp.firstPicture }));
+  const counted = costs.slice(-Math.min(costs.length, frames - from));
   const figure = (part, share) => quantile(counted.map((cost) => cost[part]), share).toFixed(2).padStart(6);
   console.log(
     `${name.padEnd(16)} ${first.toFixed(0).padStart(16)} ${figure('update', 0.5).padStart(19)} ${figure('update', 0.95)}` +
-      ` ${figure('draw', 0.5).padStart(16)} ${figure('draw', 0.95)} ${String(tasks).padStart(15)} ${String(frames - from.frames).padStart(7)}`,
+      ` ${figure('draw', 0.5).padStart(16)} ${figure('draw', 0.95)} ${String(frames - from).padStart(7)}`,
   );
   await page.close();
 }

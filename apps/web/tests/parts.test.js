@@ -34,3 +34,20 @@ describe('a piece that is lost on its way', { skip }, () => {
     assert.ok(seen.size >= 2, [...seen].join());
   });
 });
+
+describe('the start', { skip }, () => {
+  it('has no task that takes the processor for more than 50 ms', async () => {
+    const opened = await openBrowser();
+    const page = await opened.browser.newPage({ viewport: { width: 390, height: 844 } });
+    await opened.browser.startTracing(page, { categories: ['toplevel', 'devtools.timeline', 'v8'] });
+    await page.goto(`${opened.address}#scene=candle&candles=7&detail=0.1`);
+    await until(page, 'all is here', () => window.wisp?.firstPicture > 0 && document.querySelector('[data-scene=yours]') !== null);
+    await page.waitForTimeout(1000);
+    const events = JSON.parse((await opened.browser.stopTracing()).toString()).traceEvents;
+    await opened.close();
+    // Threads that run the page's scripts. Time of the processor, so that what else runs on the machine does not count.
+    const own = new Set(events.filter(({ name, args }) => name === 'FunctionCall' && args.data?.url?.startsWith(opened.address)).map(({ pid, tid }) => `${pid} ${tid}`));
+    const tasks = events.filter(({ name, pid, tid, tdur }) => tdur > 0 && /RunTask$/.test(name) && own.has(`${pid} ${tid}`)).map(({ tdur }) => tdur / 1000);
+    assert.ok(tasks.length > 50 && Math.max(...tasks) <= 50, `${tasks.length} tasks, up to ${Math.max(...tasks)} ms`);
+  });
+});

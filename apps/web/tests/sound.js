@@ -55,10 +55,10 @@ function madeBreath(seconds) {
   });
 }
 
-/** A blow at a microphone that takes its rumble away: a hiss from 0.8 to 3.2 kHz. */
-export function hiss(seconds, level) {
+/** A blow of which a microphone passes one band alone: without its rumble, a hiss from 0.8 to 3.2 kHz. */
+export function hiss(seconds, level, band = [800, 3200]) {
   const next = noise(31);
-  const [low, high] = [800, 3200].map((hertz) => 1 - Math.exp((-2 * Math.PI * hertz) / rate));
+  const [low, high] = band.map((hertz) => 1 - Math.exp((-2 * Math.PI * hertz) / rate));
   const state = new Float64Array(8);
   const passed = (value) => {
     for (let k = 0; k < 4; ++k) value -= state[k] += low * (value - state[k]);

@@ -194,9 +194,18 @@ describe('a microphone that takes the rumble of breath away', { skip }, () => {
   const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
   after(() => rmSync(folder, { recursive: true }));
 
-  it('is tuned by who blows at it, and a blow puts the candle out from then on', async () => {
+  it('hears a hard blow all the same', async () => {
+    const { opened, page, at, between } = await hearing(folder, [room(4), hiss(1, 0.2), room(20)], {});
+    await page.click('#blow');
+    await until(page, 'it is out', () => window.wisp.burning.lit === 0);
+    assert.ok((await between(0, 3.5)).every(({ lit }) => lit === 1), 'not before it was blown at');
+    await opened.close();
+  });
+
+  it('and hisses like a tap is tuned by who blows at it, and a blow puts the candle out from then on', async () => {
     // Soft and hard at the times of the two steps; then quiet, then hard blows.
-    const pieces = [room(7), hiss(6, 0.03), room(0.3), hiss(2.2, 0.2), room(4), ...Array.from({ length: 6 }, () => [hiss(1, 0.2), room(2)]).flat(), room(5)];
+    const tap = (seconds, level) => hiss(seconds, level, [20, 20_000]);
+    const pieces = [room(7), tap(6, 0.03), room(0.3), tap(2.2, 0.2), room(4), ...Array.from({ length: 6 }, () => [tap(1, 0.2), room(2)]).flat(), room(5)];
     const { opened, page, at, between } = await hearing(folder, pieces, phone);
     await page.click('#blow');
     await until(page, 'it listens', () => window.wisp.hearing === 'listening');
