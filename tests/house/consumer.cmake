@@ -96,6 +96,20 @@ if(NOT plain MATCHES "^checksum" OR NOT output STREQUAL plain)
   message(FATAL_ERROR "a host's own flags change what a model does:\n-O0:    ${plain}-Ofast: ${output}")
 endif()
 
+# README's program with every shipped model in the place of its own: it plays, or ends with a sentence, and never otherwise.
+file(GLOB shipped ${SOURCE}/apps/web/public/models/*.wisp ${SOURCE}/apps/web/tests/models/*.wisp ${SOURCE}/tests/model/golden/*.wisp)
+foreach(model_of_any IN LISTS shipped)
+  file(COPY_FILE ${model_of_any} ${SCRATCH}/flame.wisp)
+  execute_process(COMMAND ${SCRATCH}/host/readme WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result ERROR_VARIABLE sentence OUTPUT_QUIET)
+  if(NOT result STREQUAL "0" AND NOT sentence MATCHES "^wisp: a polyline was asked of a bank whose model is no outline")
+    message(FATAL_ERROR "README's program with ${model_of_any}: ${result}, ${sentence}")
+  endif()
+  list(APPEND ended ${result})
+endforeach()
+if(NOT "0" IN_LIST ended OR NOT ended MATCHES "[^0;]")
+  message(FATAL_ERROR "of the shipped models some are outlines and some are not, and README's program ended with ${ended}")
+endif()
+
 # The subproject is built with fast mathematics all over, what is installed without.
 set(checksum ${BUILD}/house/checksum_installed.txt)
 if(HOW STREQUAL "installed")

@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import { test } from 'node:test';
 import { Worker } from 'node:worker_threads';
 
@@ -382,6 +382,43 @@ test('views follow when the memory grows', async () => {
   assert.deepEqual(small.outputsView(), before);
   small.step();
   assert.notDeepEqual(small.outputsView(), before);
+});
+
+test('every call of every shipped model takes its own number of values, and says so of another', () => {
+  const root = new URL('../../../', import.meta.url);
+  let models = 0, refused = 0;
+  for (const folder of ['apps/web/public/models/', 'apps/web/tests/models/', 'tests/model/golden/', 'tests/c/models/']) {
+    for (const name of readdirSync(new URL(folder, root)).filter((each) => each.endsWith('.wisp'))) {
+      const model = wisp.model(readFileSync(new URL(folder + name, root))), bank = model.bank({ capacity: 3 });
+      const inputs = model.inputs.length, outputs = model.outputs.length;
+      model.free();
+      const first = bank.spawn();
+      bank.spawn();
+      const one = (size) => size === inputs;
+      const doors = [
+        [(values) => bank.setInputs(values), (size) => size >= 2 * inputs], // a row for each slot at least
+        [(values) => bank.setCommonInputs(values), one],
+        [(values) => bank.setInstanceInputs(first, values), one],
+      ];
+      for (const [call, right] of doors) {
+        for (const size of [0, 1, inputs, inputs + 1, 2 * inputs, 2 * inputs + 1, 1000]) {
+          const values = new Float32Array(size);
+          if (right(size)) call(values);
+          else assert.throws(() => call(values), WispError, `${name} ${size}`);
+          refused += !right(size);
+        }
+      }
+      bank.step();
+      assert.equal(bank.outputsView().length, 2 * outputs);
+      assert.equal(bank.instanceOutputs(first).length, outputs);
+      if (bank.polylinePoints === 0) assert.throws(() => bank.polyline(first), WispError, name);
+      else assert.ok(bank.polyline(first).every(Number.isFinite), name);
+      assert.ok(bank.outputsView().every(Number.isFinite), name);
+      bank.free();
+      ++models;
+    }
+  }
+  assert.ok(models > 10 && refused > 100, `${models} models, ${refused} refused`);
 });
 
 test('a bank for which there is no memory is told so, and the module goes on', async () => {

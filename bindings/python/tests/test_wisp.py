@@ -226,6 +226,17 @@ class EveryModel(unittest.TestCase):
                     bank.spawn()
                 bank.set_inputs(np.zeros((3, len(model.inputs))))
                 bank.set_inputs(np.zeros(len(model.inputs)), third)
+                width = len(model.inputs)
+                for shape in ((width + 1,), (3 * width + 1,), (2, width + 1), (3, width + 1), (width + 4, 3)):
+                    with self.assertRaises(ValueError, msg=shape):
+                        bank.set_inputs(np.zeros(shape))
+                    with self.assertRaises(ValueError, msg=shape):
+                        bank.set_inputs(np.zeros(shape), third)
+                    with self.assertRaises(ValueError, msg=shape):
+                        bank.play(4, np.zeros((4, *shape)))
+                for shape in ((2, len(model.outputs)), (3, len(model.outputs) + 1), (3 * len(model.outputs),)):
+                    with self.assertRaises(ValueError, msg=shape):
+                        bank.outputs(np.zeros(shape, np.float32))
                 self.assertEqual(bank.play(4).shape, (4, 3, len(model.outputs)))
                 np.testing.assert_array_equal(bank.outputs()[2], bank.outputs(instance=third))
                 saved = bank.save()

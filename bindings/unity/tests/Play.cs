@@ -173,6 +173,24 @@ internal static class Play
         }
     }
 
+    // Numbers of another count than the stated one are an exception, whatever the model.
+    private static void WrongSizes(Model model, Bank bank, string path)
+    {
+        ulong first = bank.At(0);
+        bool outline = model.View == View.Outline;
+        foreach (int size in new[] { 0, 1, model.Inputs, model.Inputs + 1, model.Outputs - 1, model.Outputs, 3 * model.Inputs, 3 * model.Outputs, 63, 64, 192, 1000 })
+        {
+            var values = new float[size];
+            Expect(Fine(() => bank.SetCommonInputs(values)) == (size == model.Inputs), path + ": common inputs, " + size);
+            Expect(Fine(() => bank.SetInputs(first, values)) == (size == model.Inputs), path + ": inputs of one, " + size);
+            Expect(Fine(() => bank.SetInputs(values)) == (size >= 3 * model.Inputs), path + ": inputs, " + size);
+            Expect(Fine(() => bank.Outputs(first, values)) == (size == model.Outputs), path + ": outputs of one, " + size);
+            Expect(Fine(() => bank.Outputs(values)) == (size >= 3 * model.Outputs), path + ": outputs, " + size);
+            Expect(Fine(() => bank.Polyline(first, values)) == (outline && size == 64), path + ": an outline, " + size);
+            Expect(Fine(() => bank.Polylines(values)) == (outline && size >= 3 * 64), path + ": outlines, " + size);
+        }
+    }
+
     // Every shipped model: what a component does with it, then save, many steps and what only some have.
     private static void Any(string path)
     {
@@ -188,6 +206,7 @@ internal static class Play
             Expect(outputs[3 * model.Outputs] == 0, path + ": a row of capacity that is empty");
             if (model.View == View.Outline) bank.Polylines(new float[4 * 64]);
             if (Fine(() => model.InTheRound().Dispose())) Round(model, path);
+            WrongSizes(model, bank, path);
             byte[] saved = bank.Save();
             bank.Step(3, null, again);
             float last = again[again.Length - 1];
