@@ -46,6 +46,7 @@ set(wisp_precompiling "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;--param=ggc-min
 # and one for another machine, is left as it is.
 function(wisp_precompiled target)
   if(NOT PROJECT_IS_TOP_LEVEL OR CMAKE_CROSSCOMPILING)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=400000>)
     return()
   endif()
   # GCC 12 forgets that what it has read beforehand is the system's, and wrongly finds fault with the moves of its own
