@@ -9,6 +9,7 @@
 
 #include "capture/capture_clip.hpp"
 #include "capture/clip/clip_ear.hpp"
+#include "capture/clip/views/view_join.hpp"
 #include "record/number_text.hpp"
 #include "record/verdict.hpp"
 #include "wisp/capture/media/sound.hpp"
@@ -157,6 +158,28 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   auto wind = ear->finish(frames.value_or(static_cast<std::size_t>(std::max(0.0, seconds * rate_hz + 1e-6))));
   if (!wind) return unusable(wind.error());
   return wind;
+}
+
+Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
+                               ClipCapture options, const Progress& progress) {
+  if (auto ok = check_azimuths(azimuths, std::vector<std::string>(films.begin(), films.end())); !ok) return ok.error();
+  if (options.frames) return Error{"frames are of one film, and of several the time that all have is taken"};
+  std::vector<FilmedView> views;
+  for (std::size_t k = 0; k < films.size(); ++k) {
+    auto film = capture(films[k], options, progress);
+    if (!film) return film.error();
+    if (!options.curve) options.curve = curve_of(film->recording);
+    FilmedView view{azimuths[k], std::move(film->recording), {}, 0};
+    const auto reader = VideoReader::open(films[k], {.rate_hz = options.rate_hz, .frames = {}});
+    if (reader && !reader->info().images) {
+      const auto heard = hear_wind(films[k], view.recording.rate_hz);
+      if (!heard) return heard.error();
+      view.heard_from = -reader->info().begin;
+      for (const WindFrame& frame : heard->frames) view.loudness.push_back(static_cast<double>(frame.rms));
+    }
+    views.push_back(std::move(view));
+  }
+  return join_views(views);
 }
 
 Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz, WindMeasure measure) {

@@ -106,6 +106,33 @@ TEST_F(Guide, EverySentenceOfNotUsableHasItsRow) {
   }
 }
 
+// The commands of docs/guide/two-phones.md. The rig's candle is flat: seen alike from 0° and from 90° it leans half way
+// between the two cameras' right sides, towards 45°.
+TEST_F(Guide, TwoPhonesFilmAFlameInTheRound) {
+  ASSERT_EQ(wisp("simulate candle --seconds 14 --seed 3 -o " + at("front.mp4")).status, 0);
+  ASSERT_EQ(wisp("simulate candle --seconds 14 --seed 3 --chance 4 -o " + at("side.mp4")).status, 0);
+  const auto commands = commands_of(file_text(WISP_SOURCE_DIR "/docs/guide/two-phones.md"));
+  ASSERT_EQ(commands.size(), 4u);
+  for (const std::string& command : commands) {
+    const std::string line = "cd " + folder_.string() + " && " WISP_PROGRAM " " + command + " >said 2>&1 </dev/null";
+    EXPECT_EQ(std::system(line.c_str()), 0) << command << "\n" << file_text(at("said"));
+    if (command.starts_with("capture")) {
+      EXPECT_TRUE(file_text(at("said")).starts_with("usable")) << file_text(at("said"));
+    }
+  }
+  const Said joined =
+      wisp("capture flame " + at("front.mp4") + " " + at("side.mp4") + " --angles 0,90 --json -o " + at("again.csv"));
+  ASSERT_EQ(joined.status, 0) << joined.err;
+  EXPECT_LT(joined.json()["heights_differ"], 3.0);
+  EXPECT_NEAR(joined.json()["views"][1]["begins"], 0, 0.02);
+  for (const auto& blow : joined.json()["blows"]) EXPECT_NEAR(blow["azimuth"], 45, 8) << blow;
+  EXPECT_LT(joined.json()["answers_differ"], 20.0);
+  EXPECT_EQ(wisp("info " + at("candle.wisp") + " --json").json()["view"]["in_the_round"], "symmetry");
+  const Said alone = wisp("capture flame " + at("front.mp4") + " --angles 0,90 -o " + at("no.csv"));
+  EXPECT_NE(alone.status, 0);
+  EXPECT_THAT(alone.err, testing::HasSubstr("expected at least two films"));
+}
+
 // The README's own table: the kernel's filter is known, a pole at exp(−5/60).
 TEST_F(Guide, AComputersLoadHasItsKernelsTimeConstant) {
   const std::string table = WISP_SOURCE_DIR "/examples/load.csv";

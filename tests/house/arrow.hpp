@@ -52,7 +52,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"capture/clip",
        {{"base", "model", "sound", "record", "capture/vision"},
         {},
-        {"capture/clip/clip_ear.hpp", "capture/clip/frame_grid.hpp"}}},
+        {"capture/clip/clip_ear.hpp", "capture/clip/frame_grid.hpp", "capture/clip/views/view_join.hpp"}}},
       {"capture/media", {{"base", "model", "sound", "record", "capture/vision", "capture/clip"}, ffmpeg}},
       {"capture", {{"base", "model", "sound", "record", "capture/vision", "capture/clip", "capture/media"}, {}}},
       {"simulate", {{"base", "model", "record"}, {}}},

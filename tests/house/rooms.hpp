@@ -46,7 +46,7 @@ inline const std::vector<Rooms>& rooms() {
         {"arx/report", 6},
         {"arx", 6}}},
       {"run", {{"lanes", 0}, {"state", 1}, {"arx", 2}, {"chain", 2}, {"bank", 3}, {"", 4}}},
-      {"capture", {{"vision", 0}, {"clip", 1}, {"clip/fall", 2}, {"media", 3}, {"", 4}}},
+      {"capture", {{"vision", 0}, {"clip", 1}, {"clip/fall", 2}, {"clip/views", 2}, {"media", 3}, {"", 4}}},
   };
   return table;
 }

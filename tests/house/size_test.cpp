@@ -20,9 +20,9 @@ using ::testing::IsEmpty;
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
 constexpr int kPublicHeaders = 58;
-constexpr int kLinesTogether = 75'256;
+constexpr int kLinesTogether = 75'856;
 constexpr int kLinesOfLearn = 22'202;
-constexpr int kFlagsTogether = 86;
+constexpr int kFlagsTogether = 87;
 constexpr std::size_t kFlagsOfACommand = 20;
 // Commands that have more flags than they should.
 const std::map<std::string, std::size_t> kTooManyFlags{{"wisp learn arx", 28},

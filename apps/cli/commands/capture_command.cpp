@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <numeric>
 #include <span>
@@ -71,12 +72,25 @@ Result<void> run_many(const ClipCapture& options, const Arguments& arguments, Te
   return {};
 }
 
+// One film, or with --angles several of one flame.
+Result<Captured> captured(const ClipCapture& options, const Arguments& arguments, Terminal& terminal) {
+  if (!arguments.has("angles")) return capture(arguments.positional(), options, terminal.progress());
+  std::vector<double> angles;
+  for (const std::string& word : arguments.names("angles")) {
+    char* end = nullptr;
+    angles.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0' || word.empty()) return Error{"--angles: found \"" + word + "\", expected degrees, such as 0,90"};
+  }
+  const std::vector<std::filesystem::path> films(arguments.positionals().begin(), arguments.positionals().end());
+  return capture_views(films, angles, options, terminal.progress());
+}
+
 Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto options = capture_options(arguments);
   if (!options) return options.error();
-  if (goes_to_folder(arguments)) return run_many(*options, arguments, terminal);
-  const auto clip = capture(arguments.positional(), *options, terminal.progress());
+  if (!arguments.has("angles") && goes_to_folder(arguments)) return run_many(*options, arguments, terminal);
+  const auto clip = captured(*options, arguments, terminal);
   if (!clip) return clip.error();
   const std::string& path = arguments.text("output");
   if (auto ok = write_csv(path, clip->recording); !ok) return ok;
@@ -217,12 +231,18 @@ Command capture_outline_command() {
 }
 
 Command capture_flame_command() {
-  return capturing(
+  Command command = capturing(
       "capture flame", "1", "Finds the outline of a flame in a clip: `capture outline` with a flame's settings.",
       {{"wisp capture flame candle.mp4 -o candle.csv", "The outline of a candle's flame, eight control points"},
        {"wisp capture flame candle.mp4 --points 16 --frames 1:300 -o candle.csv",
         "Finer, and only the first 300 frames"},
-       {"wisp capture flame one.mp4 two.mp4 -o recordings", "Several clips: recordings/one.csv, recordings/two.csv"}});
+       {"wisp capture flame one.mp4 two.mp4 -o recordings", "Several clips: recordings/one.csv, recordings/two.csv"},
+       {"wisp capture flame front.mp4 side.mp4 --angles 0,90 -o candle.csv",
+        "One flame, filmed by two level cameras a quarter turn apart"}});
+  command.flags.push_back({"angles", Kind::kNames, "DEG,DEG", "",
+                           "the films are of one flame, by level cameras so many degrees round it, anticlockwise from "
+                           "above: one body is written"});
+  return command;
 }
 
 Command capture_brightness_command() {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
@@ -15,6 +16,12 @@ namespace wisp {
 /// Errors, naming the file: missing or not a clip, `points` or `frames` out of range, fewer than 10 frames with an
 /// outline, sound that cannot be decoded.
 Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress = {});
+
+/// Captures a flame from films of several level cameras at these azimuths, in degrees anticlockwise from above, joined
+/// in time by their sounds or the flame's height: its body, and its outline from beside each blow. Errors: as capture()
+/// of each; fewer than two films, not one angle each, one that another film has, other rates, no time in common.
+Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
+                               ClipCapture options, const Progress& progress = {});
 
 /// Captures how bright a clip is: the mean light of `options.region` (or of the whole picture) in every frame, linear
 /// in the light that fell on the camera, as the output `brightness` of mean 1. Other options than `frames` and

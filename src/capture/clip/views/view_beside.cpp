@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/statistics.hpp"
+#include "capture/clip/views/view_join.hpp"
+#include "record/loudness.hpp"
+#include "wisp/model/shape_components.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kCalm = 0.05;                              // of wind 1: less is no blow
+constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // shorter pauses are of one blow; a flame follows its wind
+
+struct Blow {
+  std::size_t begin = 0, end = 0;  // rows
+  double x = 1, z = 0;             // its direction, of length 1
+  double alike = 0, answer = 0;    // the share of the lean that is that way; the lean for each 1 of wind, pixels
+};
+
+std::vector<Blow> blows_of(const std::vector<double>& wind, double rate_hz) {
+  std::vector<Blow> out;
+  for (std::size_t row = 0; row < wind.size(); ++row) {
+    if (!(wind[row] > kCalm)) continue;
+    if (out.empty() || static_cast<double>(row - out.back().end) > kPauseSeconds * rate_hz) out.push_back({row, row});
+    out.back().end = row + 1;
+  }
+  return out;
+}
+
+// Displacements from the median of calm rows, or of all where it is hardly ever calm.
+std::vector<double> displaced(std::vector<double> place, const std::vector<double>& wind) {
+  std::vector<double> calm, any;
+  for (std::size_t row = 0; row < place.size(); ++row) {
+    if (std::isnan(place[row])) continue;
+    any.push_back(place[row]);
+    if (!(wind[row] > kCalm)) calm.push_back(place[row]);
+  }
+  const double rest = median(calm.size() > 10 ? std::move(calm) : std::move(any));
+  for (double& value : place) value -= rest;
+  return place;
+}
+
+// Towards the mean displacement, weighted by the wind that made it.
+void direct(const std::vector<double>& wind, const std::vector<double>& x, const std::vector<double>& z,
+            std::size_t lag, Blow& blow) {
+  double sum_x = 0, sum_z = 0, all = 0, square = 0;
+  for (std::size_t row = blow.begin; row < blow.end && row + lag < x.size(); ++row) {
+    const double dx = wind[row] * x[row + lag], dz = wind[row] * z[row + lag];
+    if (std::isnan(dx + dz)) continue;
+    sum_x += dx, sum_z += dz, all += std::hypot(dx, dz), square += wind[row] * wind[row];
+  }
+  const double length = std::hypot(sum_x, sum_z);
+  if (length > 0)
+    blow.x = sum_x / length, blow.z = sum_z / length, blow.alike = length / all, blow.answer = length / square;
+}
+
+std::vector<double> heard_along(const Recording* film, double first_row, std::size_t rows) {
+  std::vector<double> wind(rows, 0.0);
+  if (!film) return wind;
+  const auto& heard = film->channels[channels_with_role(*film, Role::kInput).front()].samples;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto nearest = static_cast<std::size_t>(std::max(0.0, std::round(first_row + static_cast<double>(row))));
+    wind[row] = heard[std::min(nearest, heard.size() - 1)];
+  }
+  return wind;
+}
+
+ReportSection wind_section(const std::vector<Blow>& blows, double rate_hz) {
+  ReportTable table{"blows",
+                    "Blows",
+                    {{"begin", "begin", "s"},
+                     {"seconds", "for", "s"},
+                     {"azimuth", "towards", "°"},
+                     {"alike", "of the lean that way"},
+                     {"answer", "lean for each 1 of wind", "px"}},
+                    {}};
+  std::vector<double> answers;
+  for (const Blow& blow : blows) {
+    answers.push_back(blow.answer);
+    table.rows.push_back({static_cast<double>(blow.begin) / rate_hz,
+                          static_cast<double>(blow.end - blow.begin) / rate_hz,
+                          std::atan2(-blow.z, blow.x) * 180 / std::numbers::pi, blow.alike, blow.answer});
+  }
+  return {"Wind",
+          {{"blows.count", blows.size(), "blows", ""},
+           {"answers_differ",
+            100 * deviation(answers) / std::max(1e-9, mean(answers)),
+            "blows are answered alike within",
+            "%",
+            {},
+            "a flame that is the same from all sides: 20 and less"}},
+          {std::move(table)}};
+}
+
+}  // namespace
+
+ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings) {
+  const std::size_t rows = rings.rows(), ring_parts = rings.channels.size(), points = ring_parts / 3;
+  const std::vector<double> wind = heard_along(film, first_row, rows);
+  std::vector<std::vector<double>> parts;  // x, y, z, r, tx, tz of each ring; level ones less what they are at rest
+  for (std::size_t k = 0; k < ring_parts; ++k) {
+    const auto& samples = rings.channels[k].samples;
+    parts.push_back(k % 6 == 1 || k % 6 == 3 ? samples : displaced(samples, wind));
+  }
+  std::vector<Blow> blows = blows_of(wind, rings.rate_hz);
+  const auto lag = static_cast<std::size_t>(kLagSeconds * rings.rate_hz);
+  for (Blow& blow : blows) direct(wind, parts[ring_parts - 6], parts[ring_parts - 4], lag, blow);
+  Channel wind_x{"wind.x", "", Role::kMotion, wind}, wind_z{"wind.z", "", Role::kMotion, wind};
+  std::vector<Channel> outline;
+  for (std::size_t k = 0; k < 2 * points; ++k)
+    outline.push_back(
+        {"p" + std::to_string(k / 2) + (k % 2 == 0 ? ".x" : ".y"), "px", Role::kOutput, std::vector<double>(rows)});
+  rings.episode_ids.assign(rows, 0);
+  for (std::size_t row = 0, at = 0; row < rows; ++row) {
+    while (at + 1 < blows.size() && row >= blows[at + 1].begin) ++at;
+    const Blow now = blows.empty() ? Blow{} : blows[at];
+    std::vector<double> even, odd;
+    for (std::size_t k = 0; k < ring_parts; k += 6) {
+      even.insert(even.end(), {parts[k + 3][row], parts[k + 1][row]});
+      for (const std::size_t level : {k, k + 4}) {
+        const std::size_t across = level == k ? k + 2 : k + 5;
+        odd.push_back(parts[level][row] * now.x + parts[across][row] * now.z);
+      }
+    }
+    even.insert(even.end(), odd.begin(), odd.end());
+    const std::vector<double> control = control_points(even);
+    for (std::size_t k = 0; k < control.size(); ++k) outline[k].samples[row] = k % 2 == 0 ? control[k] : -control[k];
+    wind_x.samples[row] *= now.x, wind_z.samples[row] *= now.z;
+    rings.episode_ids[row] = static_cast<std::int64_t>(at);
+  }
+  if (film) {
+    Channel along = film->channels[channels_with_role(*film, Role::kInput).front()];
+    along.samples = wind;
+    if (const auto loud = one_rms(*film, along.name); loud && *loud) set_one_rms(rings, along.name, **loud);
+    outline.insert(outline.begin(), std::move(along));
+  }
+  outline.insert(outline.end(), {std::move(wind_x), std::move(wind_z)});
+  rings.channels.insert(rings.channels.begin(), outline.begin(), outline.end());
+  return wind_section(blows, rings.rate_hz);
+}
+
+}  // namespace wisp
