@@ -26,8 +26,6 @@ const states = {
   dark: ['#scene=candle', async (page) => { await blowOut(page); await pass(page, 4); }],
   match: ['#scene=candle', async (page) => { await blowOut(page); await pass(page, 1); await page.keyboard.press('l'); await pass(page, 0.7); }],
   cake: ['#scene=candle&candles=12', (page) => pass(page, 2)],
-  three: ['#scene=candle&candles=3', (page) => pass(page, 2)],
-  seven: ['#scene=candle&candles=7', (page) => pass(page, 2)],
   wish: ['#scene=candle&candles=12', async (page) => { await blowOut(page); await pass(page, 1.5); }],
   after: ['#scene=candle&candles=12', async (page) => { await blowOut(page); await pass(page, 3.5); }],
   leaves: ['#scene=leaves', (page) => pass(page, 1.5)],

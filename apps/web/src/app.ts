@@ -419,7 +419,7 @@ export class App {
   }
 
   private makeProbe(): Probe {
-    const { costs, breath, wisp } = this;
+    const { costs, breath } = this;
     const hearing = (): string => this.parts?.ear.state ?? 'off';
     return {
       frames: 0,
@@ -437,9 +437,6 @@ export class App {
         return hearing();
       },
       sound: breath.path,
-      get memory() {
-        return wisp.memoryBytes;
-      },
     };
   }
 }

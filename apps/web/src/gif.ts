@@ -1,6 +1,6 @@
 // A few seconds of a canvas as a GIF: what every chat and forum shows, in 256 colours, for ever.
 
-import { applyPalette, GIFEncoder, quantize } from 'gifenc';
+import { applyPalette, GIFEncoder, quantize, type Palette } from 'gifenc';
 
 /** Between pictures. Viewers count in hundredths of a second. */
 const STEP_MS = 50;
@@ -9,8 +9,6 @@ const LONGEST = 480;
 /** Light falls off so slowly around a flame that 256 colours show as rings: neighbours are rounded differently. */
 const DITHER = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
 const DITHER_LEVELS = 10;
-
-type Palette = ReturnType<typeof quantize>;
 
 /** Pictures of the canvas, each taken in the frame that drew it: afterwards it is gone. */
 function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData[]> {

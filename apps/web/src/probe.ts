@@ -29,8 +29,6 @@ export interface Probe {
   azimuth: number;
   hearing: string;
   sound: SoundPath;
-  /** bytes of the library's memory */
-  memory: number;
 }
 
 declare global {

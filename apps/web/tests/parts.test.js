@@ -9,7 +9,8 @@ describe('a piece that is lost on its way', { skip }, () => {
   before(async () => (opened = await openBrowser()));
   after(() => opened?.close());
 
-  const lost = async (page) => {
+  it('is asked for again: help, leaves and the studio open', async () => {
+    const page = await opened.page('#scene=candle&detail=0.1');
     const seen = new Set();
     await page.route(/assets\/.*\.js$/, (route) => {
       const url = route.request().url();
@@ -17,12 +18,6 @@ describe('a piece that is lost on its way', { skip }, () => {
       seen.add(url);
       return route.abort();
     });
-    return seen;
-  };
-
-  it('is asked for again: help, leaves and the studio open', async () => {
-    const page = await opened.page('#scene=candle&detail=0.1');
-    const seen = await lost(page);
     await page.focus('#stage');
     await page.keyboard.press('2');
     await until(page, 'leaves', () => document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true' && window.wisp.frames > 2);

@@ -37,6 +37,19 @@ describe('on a phone', { skip }, () => {
     await until(page, 'it burns again', allLit);
   });
 
+  it('hands the link on with a picture of this flame', async () => {
+    await page.evaluate(() => {
+      navigator.canShare = () => true;
+      navigator.share = async ({ url, files: [{ type, size }] }) => (window.shared = { url, type, size });
+    });
+    await openCard(page);
+    await page.click('[data-file=send]');
+    await until(page, 'it is handed on', () => window.shared !== undefined);
+    const { url, type, size } = await page.evaluate(() => window.shared);
+    assert.ok(url.includes('seed=3') && type === 'image/png' && size > 5000, `${url} with ${size} bytes of ${type}`);
+    await page.keyboard.press('Escape');
+  });
+
   it('a finger that rests stirs nothing', async () => {
     await until(page, 'the air is still', () => Math.abs(window.wisp.wind) < 0.02);
     await touch('touchStart', { x: 40, y: 300 });

@@ -16,13 +16,12 @@ import { Invitation } from './pictures/invitation.js';
 import { lookPanel, partOfSeen } from './panels/look.js';
 import { Engine } from './engine.js';
 import { linesOfFalls } from './falls.js';
-import { madeFiles } from './making.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { MAX_OF_FILE, Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
-import type { Format, Moving } from './panels/taking.js';
+import { nameInC, type Format, type Moving } from './panels/taking.js';
 import { saveFile } from '../saving.js';
 import { emptied, newSession, sessionName, shownIn, thingOf, withTake, type Looked, type Session, type Take } from './session.js';
 import { LEARNING, LOOKING, STEP_WORDS, STEPS, type Step } from './steps.js';
@@ -50,6 +49,13 @@ const KEPT_BACK = 0.25;
 
 /** Order of the point systems whose model fits in a link: some 6 kB. */
 const LINK_ORDER = 4;
+
+/** Seconds of a loop that is saved for other tools, and how many at once. */
+const LOOPED: Readonly<Record<Thing, { loop: number; instances: number }>> = {
+  flame: { loop: 4, instances: 1 },
+  fall: { loop: 6, instances: 20 },
+  table: { loop: 4, instances: 1 },
+};
 
 /** Bytes of a table: text, its numbers and what is learned from them stand beside each other in memory. */
 const MAX_TABLE_BYTES = 100e6;
@@ -499,8 +505,10 @@ export class Room {
 
   /** Makes files for other tools and saves them. */
   private async make(format: Format, model: Uint8Array): Promise<string> {
-    const files = await madeFiles(await this.engine.open(), format, model, sessionName(this.session), thingOf(this.session));
-    for (const file of files) saveFile(new Blob([file.bytes.slice()]), file.name);
+    const studio = await this.engine.open();
+    const name = sessionName(this.session);
+    const settings = format === 'c' ? { name: nameInC(name) } : { name, ...LOOPED[thingOf(this.session)] };
+    for (const file of await studio.export(model, { format, ...settings })) saveFile(new Blob([file.bytes.slice()]), file.name);
     return 'Saved';
   }
 

@@ -136,11 +136,14 @@ vec4 cakeSurface(Hit hit) {
   vec3 way = hit.at - vec3(0, uEye, uView.w);
   vec2 from = hit.at.xz - vec2(uCake.z, 0);
   vec2 flat_ = normalize(way.xz);
-  float reach = -dot(from, flat_) - sqrt(max(0.0, uCake.x * uCake.x - dot(from, from) + pow(dot(from, flat_), 2.0)));
+  float passed = uCake.x * uCake.x - dot(from, from) + pow(dot(from, flat_), 2.0);
+  float reach = -dot(from, flat_) - sqrt(max(0.0, passed));
   float height = 0.06 - reach * way.y / length(way.xz);
-  if (reach > 0.0 && dot(from, from) - pow(dot(from, flat_), 2.0) < uCake.x * uCake.x) {
+  if (reach > 0.0 && passed > 0.0) {
     vec2 mirrored = before(from + reach * flat_);
-    plate = mix(plate, 0.38 * cakeSide(vec3(mirrored.x, height, mirrored.y)).rgb, 0.52 * smoothstep(0.36, 0.30, rim));
+    // The glaze is not quite even: edges are soft in it, and what is farther is fainter.
+    float clear = smoothstep(0.36, 0.30, rim) * smoothstep(0.0, 0.30 * uCake.x * uCake.x, passed) * (1.0 - 0.7 * smoothstep(0.08, 0.40, height));
+    plate = mix(plate, 0.38 * cakeSide(vec3(mirrored.x, height, mirrored.y)).rgb, 0.52 * clear);
   }
   // Where it stands on the plate it is dark.
   plate *= 0.45 + 0.55 * smoothstep(0.0, 0.07, rim);
