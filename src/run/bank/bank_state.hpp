@@ -84,7 +84,7 @@ struct Bank::State {
   void show_last(int block);
   void show_shape(int block, LevelView from, float* points) const;
   void show_life(int block, std::size_t count, float* values) const;
-  void see_round(int block) const;
+  void see_round(int block, bool lines_too = true) const;
   void set_noise(float scale);
   void set_ground(float height);  // where it is a chain
   void read_outputs(int slot, float* values) const;

@@ -136,12 +136,13 @@ void write_lane(const Bank::State& s, int lane, float* out) {
 }  // namespace
 
 // The outlines of a block as they are seen from the front and from the side.
-void Bank::State::see_round(int block) const {
+void Bank::State::see_round(int block, bool lines_too) const {
   for (int side : {0, 1}) {
     float* points = round_points.data() + static_cast<std::size_t>(side) * visible * kBodyLanes;
     float* lines = round_lines.data() + static_cast<std::size_t>(2 * side * polyline.points) * kBodyLanes;
     show_shape(block, side == 0 ? LevelView{1, 0} : LevelView{0, 1}, points);
     if (extinction.present) show_life(block, visible, points);
+    if (!lines_too) continue;
     polyline_of(
         block, [&](int number, const float* lanes) { std::copy_n(lanes, kBodyLanes, lines + number * kBodyLanes); },
         points);

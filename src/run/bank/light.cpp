@@ -33,7 +33,7 @@ Polygon polygon_of(const float* points, std::size_t numbers) {
 
 FlameLight Bank::State::light_of(int slot) const {
   const int block = slot / kLanes, lane = slot % kLanes;
-  if (shape.across > 0) see_round(block);
+  if (shape.across > 0) see_round(block, false);
   const Polygon seen = polygon_of((shape.across > 0 ? round_points.data() : shown_of(block)) + lane, visible);
   FlameLight light{{seen.x, seen.y, 0}, rest_area > 0 ? seen.area / rest_area : 0};
   if (shape.across > 0) light.position[2] = polygon_of(round_points.data() + visible * kLanes + lane, visible).x;
