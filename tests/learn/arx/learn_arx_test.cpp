@@ -141,7 +141,7 @@ TEST(LearnArx, WhetherResidualsAreWhiteIsSaidByTheirProbability) {
   };
   int white = 0;
   for (unsigned seed = 1; seed <= 5; ++seed) white += said(seed) == "as white noise would be";
-  EXPECT_GE(white, 1);
+  EXPECT_GE(white, 3);  // each of two outputs' p is below 0.05 in one recording of twenty
   recipe.na = 0;
   EXPECT_EQ(said(1), "below 0.05: the model leaves something to learn");
 }

@@ -82,6 +82,33 @@ Whiteness whiteness_of(const VectorXd& auto_covariance, double rows, double take
   return test;
 }
 
+double variance_of(const Signals& signals, int channel) {
+  double rows = 0, sum = 0, square = 0;
+  for (const auto& recording : signals.samples) {
+    for (double sample : recording[channel]) {
+      const double deviation = sample - signals.offset[channel];
+      if (!std::isnan(deviation)) ++rows, sum += deviation, square += deviation * deviation;
+    }
+  }
+  return rows > 0 ? square / rows - sum / rows * (sum / rows) : 0;
+}
+
+// Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of
+// that output's variance which the residual drives. All of it without inputs, and little where an input moves the
+// output.
+double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
+  constexpr int kSteps = 400;
+  const auto response = noise_response(model, kSteps);
+  double taken = 0;
+  for (int j = 0; j < signals.outputs; ++j) {
+    double driven = 0;
+    for (const MatrixXd& step : response) driven += step(j, output) * step(j, output) * residual_variance;
+    const double variance = variance_of(signals, j);
+    if (variance > 0) taken += model.orders.na(output, j) * std::min(1.0, driven / variance);
+  }
+  return taken;
+}
+
 // Covariance of mean products of residual and input over lags: Σ_k R_ε(k) R_u(k + distance) / n.
 VectorXd product_covariance(const VectorXd& residual, const VectorXd& input, Index distances, double rows) {
   VectorXd out = VectorXd::Zero(distances);
@@ -153,7 +180,7 @@ Result<ResidualTests> test_residuals(const ArxModel& model, std::span<const Reco
   for (int i = 0; i < signals->outputs; ++i) {
     const auto residual = [i](const Stretch& stretch) { return stretch.residual.col(i); };
     const VectorXd own = products(stretches, rows, 0, options.lags, residual, residual);
-    const double taken = options.learned_from_it ? model.orders.na(i, i) : 0;
+    const double taken = options.learned_from_it ? taken_by_fit(model, *signals, i, own[0]) : 0;
     tests.whiteness.push_back(whiteness_of(own, rows, taken));
     auto& row = tests.independence.emplace_back();
     for (int k = 0; k < signals->inputs; ++k) {
