@@ -1,4 +1,4 @@
-#include "record/csv_lines.hpp"
+#include "record/csv_state.hpp"
 
 #include <algorithm>
 #include <cstring>

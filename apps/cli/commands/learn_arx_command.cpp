@@ -60,13 +60,6 @@ Result<ArxSearch> parse_grid(const Arguments& arguments) {
   return search;
 }
 
-OrderCriterion criterion_of(const std::string& word) {
-  if (word == "aic") return OrderCriterion::kAic;
-  if (word == "aicc") return OrderCriterion::kAicc;
-  if (word == "bic") return OrderCriterion::kBic;
-  return word == "validation" ? OrderCriterion::kValidation : OrderCriterion::kFpe;
-}
-
 // --search, --by, --validate, --steps.
 std::vector<Flag> search_flags() {
   std::vector<Flag> flags{
@@ -91,7 +84,7 @@ std::vector<Flag> search_flags() {
 Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments& arguments) {
   auto search = parse_grid(arguments);
   if (!search) return search;
-  search->by = criterion_of(arguments.text("by"));
+  search->by = choice_of<OrderCriterion>(arguments, "by", {"fpe", "aic", "aicc", "bic", "validation"});
   search->steps = arguments.text("steps") == "inf" ? kFreeRun : arguments.integer("steps");
   if (arguments.text("steps") == "0") return Error{"--steps: found \"0\", expected a number from 1, or inf"};
   if (search->by == OrderCriterion::kValidation && !arguments.has("validate")) {
@@ -117,16 +110,6 @@ Flag focus_flag() {
       "simulation, the better of that and 15 or 30 lags under a kernel in free runs of held-out rows; auto, the latter "
       "only where it is surely better",
       {"prediction", "simulation", "auto"}};
-}
-
-ArxFocus focus_of(const Arguments& arguments) {
-  if (arguments.text("focus") == "auto") return ArxFocus::kAuto;
-  return arguments.text("focus") == "simulation" ? ArxFocus::kSimulation : ArxFocus::kPrediction;
-}
-
-ArxOffset offset_of(const Arguments& arguments) {
-  if (arguments.text("offset") == "none") return ArxOffset::kNone;
-  return arguments.text("offset") == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
 }
 
 Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
@@ -163,11 +146,11 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   ArxRecipe recipe{.inputs = arguments.names("inputs"),
                    .outputs = arguments.names("outputs"),
                    .preparation = {},
-                   .offset = offset_of(arguments),
-                   .kernel = arguments.text("kernel") == "tc" ? ArxKernel::kTc : ArxKernel::kNone,
+                   .offset = choice_of<ArxOffset>(arguments, "offset", {"mean", "none", "estimate"}),
+                   .kernel = choice_of<ArxKernel>(arguments, "kernel", {"none", "tc"}),
                    .radius = arguments.number("radius"),
                    .keep_unstable = arguments.on("keep-unstable"),
-                   .focus = focus_of(arguments),
+                   .focus = choice_of<ArxFocus>(arguments, "focus", {"prediction", "simulation", "auto"}),
                    .responses = arguments.has("figures")};
   recipe.name = model_name(arguments);
   if (!(recipe.radius > 0 && recipe.radius < 1)) {
@@ -176,8 +159,10 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   const auto preparation = preparation_of(arguments);
   if (!preparation) return preparation.error();
   recipe.preparation = *preparation;
-  if (arguments.has("prepare") && (arguments.has("partial") || arguments.on("merge"))) {
-    return Error{"--prepare needs the recordings in one place: learn without --partial and --merge"};
+  const bool simulation = recipe.focus == ArxFocus::kSimulation;
+  if ((arguments.has("partial") || arguments.on("merge")) && (arguments.has("prepare") || simulation)) {
+    return Error{std::string(simulation ? "--focus simulation" : "--prepare") +
+                 " needs the recordings in one place: learn without --partial and --merge"};
   }
   if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
     return Error{"--kernel chooses the coefficients itself: leave --focus " + arguments.text("focus") + " out"};
@@ -191,9 +176,6 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   }
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
-  }
-  if (recipe.focus == ArxFocus::kSimulation && (arguments.has("partial") || arguments.on("merge"))) {
-    return Error{"--focus simulation needs the recordings in one place: learn without --partial and --merge"};
   }
   if (arguments.on("merge")) return recipe;
   if (arguments.has("search")) {

@@ -77,9 +77,7 @@ Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& 
 }
 
 Coupling coupling_of(const Arguments& arguments) {
-  const std::string& word = arguments.text("coupling");
-  if (word == "diagonal") return Coupling::kDiagonal;
-  return word == "band" ? Coupling::kBand : Coupling::kFull;
+  return choice_of<Coupling>(arguments, "coupling", {"full", "diagonal", "band"});
 }
 
 }  // namespace wisp::cli

@@ -200,18 +200,16 @@ void look_for_redundancy(const Subject& subject, std::vector<Remark>& out) {
 
 void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
   constexpr std::size_t kFewMoves = 4;
+  constexpr const char* kTimes[kFewMoves] = {"", "once", "twice", "three times"};
   for (const std::string& name : subject.inputs) {
     const Samples all = present(subject.all_of(name));
     std::size_t moves = 0;
     for (std::size_t t = 1; t < all.size(); ++t) moves += all[t] != all[t - 1];
     if (all.size() < 40 || moves == 0 || moves >= kFewMoves) continue;
-    out.push_back({RemarkKind::kExcitation, name,
-                   "input " + quoted(name) + " moves only " +
-                       (moves == 1   ? "once"
-                        : moves == 2 ? "twice"
-                                     : std::to_string(moves) + " times") +
-                       ": that shows one response, not how sure it is",
-                   "record with an input that moves often, at uneven intervals"});
+    out.push_back(
+        {RemarkKind::kExcitation, name,
+         "input " + quoted(name) + " moves only " + kTimes[moves] + ": that shows one response, not how sure it is",
+         "record with an input that moves often, at uneven intervals"});
   }
 }
 

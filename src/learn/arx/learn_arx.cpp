@@ -123,9 +123,6 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
   return out;
 }
 
-}  // namespace arx
-
-namespace arx {
 namespace {
 
 // Recordings as they are learned from: about their own levels.

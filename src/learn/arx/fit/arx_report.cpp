@@ -103,21 +103,23 @@ void to_units(const FitFacts& facts, const ArxDesign& design, ArxModel& model) {
   model.input_mean.assign(facts.offset.begin() + facts.outputs, facts.offset.end());
 }
 
-// Standard errors from the unconstrained estimate: s² (XᵀX)⁻¹ with s² = Σr²/(n − d).
+// Standard error of an output's coefficient by the unconstrained estimate, scaled: s² (XᵀX)⁻¹ with s² = Σr²/(n − d).
+double scaled_error(const FitFacts& facts, const ArxEstimate& estimate, std::size_t group, int output, std::size_t p) {
+  const auto index = static_cast<Eigen::Index>(p);
+  const double freedom = static_cast<double>(facts.rows) - estimate.effective[group];
+  return std::sqrt(estimate.residual_gram(output, output) / freedom * estimate.groups[group].inverse(index, index));
+}
+
 void write_std_errors(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate, ArxModel& model) {
   model.std_error.resize(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     const SharedRows& rows = design.groups[g];
-    const double freedom = static_cast<double>(facts.rows) - estimate.effective[g];
     for (int output : rows.outputs) {
-      const double variance = estimate.residual_gram(output, output) / freedom;
       const double own = inverse_or_zero(facts.scale[output]);
       for (std::size_t p = 0; p < rows.columns.size(); ++p) {
         const LaggedChannel column = design.layout[rows.columns[p]];
         if (column.channel == kConstantChannel) continue;
-        const auto index = static_cast<Eigen::Index>(p);
-        model.std_error[output].push_back(std::sqrt(variance * estimate.groups[g].inverse(index, index)) * own *
-                                          scale_of(facts, column));
+        model.std_error[output].push_back(scaled_error(facts, estimate, g, output, p) * own * scale_of(facts, column));
       }
     }
   }
@@ -267,12 +269,9 @@ double largest_move(const FitFacts& facts, const ArxDesign& design, const ArxEst
                     const ArxModel& after) {
   double largest = 0;
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
-    const double freedom = static_cast<double>(facts.rows) - estimate.effective[g];
     for (int output : design.groups[g].outputs) {
-      const double variance = estimate.residual_gram(output, output) / freedom;
       for (std::size_t p = 0; p < before.theta[output].size(); ++p) {
-        const auto index = static_cast<Eigen::Index>(p);
-        const double sd = std::sqrt(variance * estimate.groups[g].inverse(index, index));
+        const double sd = scaled_error(facts, estimate, g, output, p);
         if (sd > 0) largest = std::max(largest, std::abs(after.theta[output][p] - before.theta[output][p]) / sd);
       }
     }

@@ -166,10 +166,9 @@ Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const S
     const Tally tally =
         steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample}) : tallies[steps];
     if (tally.rows() == 0) {
-      const std::string ahead = steps > 1 ? std::to_string(steps) + " steps ahead" : "";
-      return Error{"no row can be predicted" + (ahead.empty() ? "" : " " + ahead) +
-                   ": no stretch without gaps is longer than the model's history of " +
-                   std::to_string(model.orders.history()) + " samples" + (ahead.empty() ? "" : " and those steps")};
+      return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
+                   std::to_string(model.orders.history()) + " samples" +
+                   (steps > 1 ? " and " + std::to_string(steps) + " steps" : "")};
     }
     out.push_back(tally.figures(steps));
   }
