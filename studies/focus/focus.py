@@ -37,7 +37,7 @@ def fits(wisp, folder, table, rows, unseen, focus, coupling, flags):
         found.append([one["fit_percent"]["inf"] for one in told["channels"]])
     ways = {}
     for one in fit.get("focus", {}).get("outputs", []):
-        for name in one["outputs"].split(", "):
+        for name in [n for n in names if n[0] == "y"] if one["outputs"] == "all" else one["outputs"].split(", "):
             ways[name] = one["chosen"]
     return found, ways, seconds
 
