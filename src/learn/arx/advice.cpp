@@ -403,10 +403,10 @@ Report advise(const Recording& recording) {
   }
   Report report;
   ReportSection& section = report.add("Recording");
-  const auto rows = static_cast<double>(recording.rows());
   arx::add(section, "rate_hz", recording.rate_hz, "rate", "Hz",
            recording.rate_note.text.empty() ? "as the file or the flags say" : recording.rate_note.text);
-  arx::add(section, "rows", recording.rows(), "rows", "", number_text(rows / recording.rate_hz, 5) + " s");
+  arx::add(section, "rows", recording.rows(), "rows", "",
+           number_text(double(recording.rows()) / recording.rate_hz, 5) + " s");
   arx::add(section, "episodes", episodes(recording).size(), "episodes");
   section.tables.push_back(channel_table(recording, !inputs.empty()));
   ReportTable table{"remarks",

@@ -21,10 +21,7 @@ namespace wisp {
 namespace arx {
 namespace {
 
-std::string word_of(ArxOffset offset) {
-  if (offset == ArxOffset::kNone) return "none";
-  return offset == ArxOffset::kEstimate ? "estimate" : "mean";
-}
+constexpr const char* kOffsets[] = {"mean", "none", "estimate"};  // as ArxOffset has them
 
 std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const OrderMatrix& na = fit.model.orders.na;
@@ -33,7 +30,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
   const auto& levels = fit.model.constant;  // the focus may have estimated them
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
-  notes.push_back({"offset", word_of(level ? ArxOffset::kEstimate : recipe.offset)});
+  notes.push_back({"offset", kOffsets[std::size_t(level ? ArxOffset::kEstimate : recipe.offset)]});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
   if (fit.summary.stable.changed) notes.push_back({"radius", number_text(recipe.radius, 6)});
   return notes;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/arx/fit/arx_errors.hpp"
 #include "learn/arx/judge/prediction.hpp"
 
@@ -19,21 +20,15 @@ struct Series {
 };
 
 // Its standard deviation; 0 where all that moves is rounding. No unit is too small to be squared.
-double deviation_of(const std::vector<double>& measured) {
-  double sum = 0, rows = 0, most = 0, square = 0;
-  for (double y : measured) {
-    if (!std::isnan(y)) sum += y, ++rows;
-  }
-  const double mean = sum / std::max(rows, 1.0);
-  for (double y : measured) {
-    if (!std::isnan(y)) most = std::max(most, std::abs(y - mean));
-  }
+double deviation_of(std::vector<double> measured) {
   constexpr double kStill = 1e-9;  // of its size
-  if (!(most > kStill * std::abs(mean))) return 0;
-  for (double y : measured) {
-    if (!std::isnan(y)) square += (y - mean) / most * ((y - mean) / most);
-  }
-  return most * std::sqrt(square / rows);
+  std::erase_if(measured, [](double y) { return std::isnan(y); });
+  const double level = mean(measured);
+  double most = 0;
+  for (double y : measured) most = std::max(most, std::abs(y - level));
+  if (!(most > kStill * std::abs(level))) return 0;
+  for (double& y : measured) y = (y - level) / most;
+  return most * deviation(measured);
 }
 
 // Mean squared error of one output in every part.
@@ -93,10 +88,8 @@ std::vector<double> held_out_fits(std::span<const Recording> recordings, const C
       size[i] += share > 0 ? square / (share * share) : 0;
     }
   }
-  std::vector<double> fits;
-  for (std::size_t i = 0; i < error.size(); ++i)
-    fits.push_back(size[i] > 0 ? 100 * (1 - std::sqrt(error[i] / size[i])) : 0);
-  return fits;
+  for (std::size_t i = 0; i < error.size(); ++i) error[i] = size[i] > 0 ? 100 * (1 - std::sqrt(error[i] / size[i])) : 0;
+  return error;
 }
 
 std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/statistics.hpp"
 #include "learn/arx/fit/arx_errors.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/numeric/constants.hpp"
@@ -83,14 +84,13 @@ Whiteness whiteness_of(const VectorXd& auto_covariance, double rows, double take
 }
 
 double variance_of(const Signals& signals, int channel) {
-  double rows = 0, sum = 0, square = 0;
+  std::vector<double> present;
   for (const auto& recording : signals.samples) {
     for (double sample : recording[channel]) {
-      const double deviation = sample - signals.offset[channel];
-      if (!std::isnan(deviation)) ++rows, sum += deviation, square += deviation * deviation;
+      if (!std::isnan(sample)) present.push_back(sample);
     }
   }
-  return rows > 0 ? square / rows - sum / rows * (sum / rows) : 0;
+  return std::pow(deviation(present), 2);
 }
 
 // Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of
@@ -98,13 +98,12 @@ double variance_of(const Signals& signals, int channel) {
 // output.
 double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
   constexpr int kSteps = 400;
-  const auto response = noise_response(model, kSteps);
+  VectorXd driven = VectorXd::Zero(signals.outputs);
+  for (const MatrixXd& step : noise_response(model, kSteps)) driven += residual_variance * step.col(output).cwiseAbs2();
   double taken = 0;
   for (int j = 0; j < signals.outputs; ++j) {
-    double driven = 0;
-    for (const MatrixXd& step : response) driven += step(j, output) * step(j, output) * residual_variance;
     const double variance = variance_of(signals, j);
-    if (variance > 0) taken += model.orders.na(output, j) * std::min(1.0, driven / variance);
+    if (variance > 0) taken += model.orders.na(output, j) * std::min(1.0, driven[j] / variance);
   }
   return taken;
 }
