@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "wisp/learn/recipe_fields.hpp"
+
 namespace wisp::cli {
 
 int Arguments::integer(std::string_view flag) const { return std::atoi(text(flag).c_str()); }
@@ -73,6 +75,13 @@ std::string help_of(const Flag& flag) {
   // Some flags list their words in `value`.
   if (words.empty() || flag.value == signs || flag.kind != Kind::kChoice) return flag.help;
   return flag.help + " (one of " + words + ")";
+}
+
+Flag ranged(Flag flag, double lowest, double highest) {
+  flag.lowest = lowest;
+  flag.highest = highest;
+  flag.help += "; " + range_text(lowest, highest);
+  return flag;
 }
 
 const std::vector<Flag>& common_flags() {

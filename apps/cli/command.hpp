@@ -2,6 +2,7 @@
 // A command of the program: an entry of the table from which parser, help and docs/reference/cli.md are made.
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -41,7 +42,12 @@ struct Flag {
   /// Further files of an output: extensions that replace its own or, for a folder, names in it.
   std::vector<std::string> brings{};
   std::string with{};  ///< the flag without which this one does nothing
+  /// What its number may be, both included.
+  double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
 };
+
+/// A flag whose number is in a range, which its help says.
+Flag ranged(Flag flag, double lowest, double highest);
 
 /// The flag's help, with the words that it accepts.
 std::string help_of(const Flag& flag);

@@ -13,6 +13,7 @@
 #include "outputs.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/learn/recipe_fields.hpp"
 #include "wrong_words.hpp"
 
 namespace wisp::cli {
@@ -40,8 +41,8 @@ std::string words_of(const Flag& flag) {
   return all;
 }
 
-// Returns what is wrong with a flag's value; empty if nothing.
-std::string complaint(const Flag& flag, const std::string& text) {
+// Returns what is wrong with the kind of a flag's value; empty if nothing.
+std::string complaint_of_kind(const Flag& flag, const std::string& text) {
   const std::string found = "found \"" + text + "\", expected ";
   switch (flag.kind) {
     case Kind::kSwitch:
@@ -64,6 +65,16 @@ std::string complaint(const Flag& flag, const std::string& text) {
       return is_sample_range(text) ? std::string() : found + "a range A:B of samples with 1 <= A <= B, such as 1:300";
   }
   return {};
+}
+
+// Returns what is wrong with a flag's value; empty if nothing.
+std::string complaint(const Flag& flag, const std::string& text) {
+  const bool numeric = flag.kind == Kind::kInteger || flag.kind == Kind::kNumber || flag.kind == Kind::kIntegerOrWord;
+  std::string wrong = complaint_of_kind(flag, text);
+  if (!wrong.empty() || !numeric || is_word(flag, text)) return wrong;
+  const double value = std::strtod(text.c_str(), nullptr);
+  if (value >= flag.lowest && value <= flag.highest) return {};
+  return "found \"" + text + "\", expected " + range_text(flag.lowest, flag.highest);
 }
 
 bool is_command(const std::string& words) {

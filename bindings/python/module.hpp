@@ -99,7 +99,7 @@ T from_keywords(const py::kwargs& fields) {
     } catch (py::error_already_set& error) {
       if (!error.matches(PyExc_TypeError)) throw;
       throw py::type_error(type + "." + field + " does not take " + py::repr(value).template cast<std::string>() +
-                           ": " + doc_of(type, field));
+                           ": " + py::str(py::type::of<T>().attr(name).attr("__doc__")).template cast<std::string>());
     }
   }
   return made;
@@ -127,11 +127,6 @@ class Options : public py::class_<T, Bases...> {
   template <class Member>
   Options& def_readwrite(const char* field, Member member) {
     Class::def_readwrite(field, member, doc_of(name_, field));
-    return *this;
-  }
-  template <class Get, class Set>
-  Options& def_property(const char* field, Get get, Set set) {
-    Class::def_property(field, get, set, doc_of(name_, field));
     return *this;
   }
 

@@ -1,5 +1,9 @@
 // Recipes, learn and validate.
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
 #include "module.hpp"
 #include "wisp/learn.hpp"
 #include "wisp/learn/advice.hpp"
@@ -8,33 +12,65 @@
 namespace wisp::python {
 namespace {
 
-void bind_words(py::module_& module) {
-  py::enum_<ArxOffset>(module, "ArxOffset")
-      .value("MEAN", ArxOffset::kMean)
-      .value("NONE", ArxOffset::kNone)
-      .value("ESTIMATE", ArxOffset::kEstimate);
-  py::enum_<ArxFocus>(module, "ArxFocus")
-      .value("PREDICTION", ArxFocus::kPrediction)
-      .value("SIMULATION", ArxFocus::kSimulation)
-      .value("AUTO", ArxFocus::kAuto);
-  py::enum_<ArxKernel>(module, "ArxKernel").value("NONE", ArxKernel::kNone).value("TC", ArxKernel::kTc);
-  py::enum_<Coupling>(module, "Coupling")
-      .value("FULL", Coupling::kFull)
-      .value("DIAGONAL", Coupling::kDiagonal)
-      .value("BAND", Coupling::kBand);
-  py::enum_<OrderCriterion>(module, "OrderCriterion")
-      .value("FPE", OrderCriterion::kFpe)
-      .value("AIC", OrderCriterion::kAic)
-      .value("AICC", OrderCriterion::kAicc)
-      .value("BIC", OrderCriterion::kBic)
-      .value("VALIDATION", OrderCriterion::kValidation);
-  py::enum_<InitialState>(module, "InitialState")
-      .value("MEASURED", InitialState::kMeasured)
-      .value("ZERO", InitialState::kZero)
-      .value("ESTIMATED", InitialState::kEstimated);
+// Enumerations have the words of flags, in capitals.
+template <class Enumeration>
+void bind_words(py::module_& module, const char* name) {
+  py::enum_<Enumeration> words(module, name);
+  for (const std::string_view word : kWordsOf<Enumeration>) {
+    std::string capitals(word);
+    std::transform(capitals.begin(), capitals.end(), capitals.begin(), [](unsigned char c) { return std::toupper(c); });
+    words.value(capitals.c_str(), *value_of<Enumeration>(word));
+  }
 }
 
-void bind_arx(py::module_& module) {
+// A field as a property, by its type: orders are plain numbers here, events and realisations the words of flags.
+template <class Class, class Recipe, class Value>
+void bind_field(Class& to, const RecipeField<Recipe, Value>& field, const char* help) {
+  const auto member = field.member;
+  if constexpr (std::is_same_v<Value, EventSpec>) {
+    to.def_property(
+        field.name, [member](const Recipe& r) { return word_of(r.*member); },
+        [member](Recipe& r, const std::string& word) { r.*member = unwrapped(parse_event(word)); }, help);
+  } else if constexpr (std::is_same_v<Value, Realisation>) {
+    to.def_property(
+        field.name, [member](const Recipe& r) { return std::string(word_of(r.*member)); },
+        [member](Recipe& r, const std::string& word) {
+          const auto value = value_of<Realisation>(word);
+          if (!value)
+            throw Failure("the realisation is \"" + word + "\", expected segments, spline, linear, ode or chain");
+          r.*member = *value;
+        },
+        help);
+  } else if constexpr (std::is_same_v<Value, OrderChoice>) {
+    to.def_property(
+        field.name, [member](const Recipe& r) { return r.*member; },
+        [member](Recipe& r, int order) { r.*member = order; }, help);
+  } else if constexpr (std::is_same_v<Value, std::optional<OrderChoice>>) {
+    to.def_property(
+        field.name, [member](const Recipe& r) { return r.*member; },
+        [member](Recipe& r, std::optional<int> order) {
+          r.*member = order ? std::optional<OrderChoice>(*order) : std::nullopt;
+        },
+        help);
+  } else {
+    to.def_readwrite(field.name, member, help);
+  }
+}
+
+// A recipe: its fields, with the help and the ranges of the table.
+template <class Recipe>
+void bind_recipe(py::module_& module, const char* name) {
+  Options<Recipe> made(module, name);
+  for_each_field(Recipe{}, [&](const auto& field) {
+    std::string help = field.help;
+    const FieldTraits& traits = field.traits;
+    if (std::isfinite(traits.highest)) help += "; " + range_text(traits.lowest, traits.highest);
+    bind_field(static_cast<py::class_<Recipe>&>(made), field, help.c_str());
+  });
+}
+
+// What recipes hold beside numbers, words and names.
+void bind_parts(py::module_& module) {
   py::class_<OrderRange>(module, "OrderRange")
       .def(py::init([](int first, int last) {
              return OrderRange{first, last};
@@ -42,6 +78,10 @@ void bind_arx(py::module_& module) {
            py::arg("first"), py::arg("last"))
       .def_readwrite("first", &OrderRange::first)
       .def_readwrite("last", &OrderRange::last);
+  options<ExtinctionRecipe>(module, "ExtinctionRecipe")
+      .def_readwrite("source", &ExtinctionRecipe::source)
+      .def_readwrite("level", &ExtinctionRecipe::level)
+      .def_readwrite("seconds", &ExtinctionRecipe::seconds);
   options<Preparation>(module, "Preparation")
       .def_readwrite("detrend", &Preparation::detrend)
       .def_readwrite("highpass_hz", &Preparation::highpass_hz)
@@ -61,74 +101,6 @@ void bind_arx(py::module_& module) {
       .def_readwrite("by", &ArxSearch::by)
       .def_readwrite("steps", &ArxSearch::steps)
       .def_readwrite("validation", &ArxSearch::validation);
-  options<ArxRecipe>(module, "ArxRecipe")
-      .def_readwrite("name", &ArxRecipe::name)
-      .def_readwrite("inputs", &ArxRecipe::inputs)
-      .def_readwrite("outputs", &ArxRecipe::outputs)
-      .def_property(
-          "na", [](const ArxRecipe& r) { return r.na; }, [](ArxRecipe& r, int order) { r.na = order; })
-      .def_property(
-          "nb", [](const ArxRecipe& r) { return r.nb; }, [](ArxRecipe& r, int order) { r.nb = order; })
-      .def_property(
-          "nk", [](const ArxRecipe& r) { return r.nk; },
-          [](ArxRecipe& r, std::optional<int> delay) {
-            r.nk.reset();
-            if (delay) r.nk = *delay;
-          })
-      .def_readwrite("coupling", &ArxRecipe::coupling)
-      .def_readwrite("offset", &ArxRecipe::offset)
-      .def_readwrite("preparation", &ArxRecipe::preparation)
-      .def_readwrite("kernel", &ArxRecipe::kernel)
-      .def_readwrite("radius", &ArxRecipe::radius)
-      .def_readwrite("keep_unstable", &ArxRecipe::keep_unstable)
-      .def_readwrite("search", &ArxRecipe::search)
-      .def_readwrite("focus", &ArxRecipe::focus)
-      .def_readwrite("responses", &ArxRecipe::responses);
-  options<SwitchedRecipe>(module, "SwitchedRecipe")
-      .def_readwrite("name", &SwitchedRecipe::name)
-      .def_readwrite("inputs", &SwitchedRecipe::inputs)
-      .def_readwrite("outputs", &SwitchedRecipe::outputs)
-      .def_readwrite("modes", &SwitchedRecipe::modes)
-      .def_readwrite("seed", &SwitchedRecipe::seed);
-  options<FlickerRecipe>(module, "FlickerRecipe")
-      .def_readwrite("name", &FlickerRecipe::name)
-      .def_readwrite("output", &FlickerRecipe::output)
-      .def_readwrite("rate_hz", &FlickerRecipe::rate_hz)
-      .def_readwrite("modes", &FlickerRecipe::modes)
-      .def_readwrite("order", &FlickerRecipe::order)
-      .def_readwrite("seed", &FlickerRecipe::seed);
-}
-
-void bind_outlines(py::module_& module) {
-  options<OutlineRecipe>(module, "OutlineRecipe")
-      .def_readwrite("paper", &OutlineRecipe::paper)
-      .def_readwrite("align", &OutlineRecipe::align)
-      .def_readwrite("inputs", &OutlineRecipe::inputs)
-      .def_readwrite("holdout", &OutlineRecipe::holdout)
-      .def_readwrite("seed", &OutlineRecipe::seed)
-      .def_readwrite("name", &OutlineRecipe::name);
-  options<FlameRecipe, OutlineRecipe>(module, "FlameRecipe");
-}
-
-void bind_chains(py::module_& module) {
-  options<ChainRecipe>(module, "ChainRecipe")
-      .def_readwrite("name", &ChainRecipe::name)
-      .def_property(
-          "event", [](const ChainRecipe& r) { return word_of(r.event); },
-          [](ChainRecipe& r, const std::string& word) { r.event = unwrapped(parse_event(word)); })
-      .def_property(
-          "realisation", [](const ChainRecipe& r) { return std::string(word_of(r.realisation)); },
-          [](ChainRecipe& r, const std::string& word) { r.realisation = unwrapped(parse_realisation(word)); })
-      .def_readwrite("modes", &ChainRecipe::modes)
-      .def_readwrite("history", &ChainRecipe::history)
-      .def_readwrite("best_of", &ChainRecipe::best_of)
-      .def_readwrite("min_seconds", &ChainRecipe::min_seconds)
-      .def_readwrite("max_bytes", &ChainRecipe::max_bytes)
-      .def_readwrite("holdout", &ChainRecipe::holdout)
-      .def_readwrite("half_width", &ChainRecipe::half_width)
-      .def_readwrite("half_length", &ChainRecipe::half_length)
-      .def_readwrite("seed", &ChainRecipe::seed);
-  options<LeafRecipe, ChainRecipe>(module, "LeafRecipe");
 }
 
 Fit learned(const std::vector<Recording>& recordings, const Recipe& recipe, py::object progress) {
@@ -138,10 +110,21 @@ Fit learned(const std::vector<Recording>& recordings, const Recipe& recipe, py::
 }  // namespace
 
 void bind_recipes(py::module_& module) {
-  bind_words(module);
-  bind_arx(module);
-  bind_outlines(module);
-  bind_chains(module);
+  bind_words<ArxOffset>(module, "ArxOffset");
+  bind_words<ArxFocus>(module, "ArxFocus");
+  bind_words<ArxKernel>(module, "ArxKernel");
+  bind_words<Coupling>(module, "Coupling");
+  bind_words<OrderCriterion>(module, "OrderCriterion");
+  bind_words<InitialState>(module, "InitialState");
+  bind_words<ExtinctionSource>(module, "ExtinctionSource");
+  bind_parts(module);
+  bind_recipe<ArxRecipe>(module, "ArxRecipe");
+  bind_recipe<SwitchedRecipe>(module, "SwitchedRecipe");
+  bind_recipe<FlickerRecipe>(module, "FlickerRecipe");
+  bind_recipe<OutlineRecipe>(module, "OutlineRecipe");
+  options<FlameRecipe, OutlineRecipe>(module, "FlameRecipe");
+  bind_recipe<ChainRecipe>(module, "ChainRecipe");
+  options<LeafRecipe, ChainRecipe>(module, "LeafRecipe");
   py::class_<Fit>(module, "Fit").def_readonly("model", &Fit::model).def_readonly("report", &Fit::report);
   // The one recording first: it has rows, and would pass for a list.
   module.def(

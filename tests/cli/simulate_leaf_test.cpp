@@ -154,8 +154,8 @@ TEST_F(SimulateLeaf, WhatCannotBeSimulatedIsExplained) {
     EXPECT_EQ(said.status, status) << arguments;
     EXPECT_THAT(said.err, HasSubstr(words));
   };
-  refused("--drops 0", "--drops is 0, expected 1 to 100000", 2);
-  refused("--seconds -2", "--seconds is -2, expected 0.1 to 3600", 2);
+  refused("--drops 0", "--drops: found \"0\", expected 1 to 100000", 2);
+  refused("--seconds -2", "--seconds: found \"-2\", expected 0.1 to 3600", 2);
   refused("--rate 0", "--rate", 2);
   refused("--wind hurricane", "--wind", 2);
   refused("--drops 100000 --seconds 3600", "too many", 1);

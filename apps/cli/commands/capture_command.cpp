@@ -11,7 +11,6 @@
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
-#include "flags/flag_ranges.hpp"
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/record/csv.hpp"
@@ -164,8 +163,6 @@ Result<void> run_brightness(const Arguments& arguments, Terminal& terminal) {
 }
 
 Result<void> run_wind(const Arguments& arguments, Terminal& terminal) {
-  const FlagRange rate{"rate", 1, 1000};
-  if (auto ok = check_ranges(arguments, {&rate, 1}); !ok) return ok;
   const auto options = capture_options(arguments);
   if (!options) return options.error();
   const auto recording = capture_wind(arguments.positional(), options->rate_hz, options->wind);
@@ -185,10 +182,6 @@ Result<void> run_wind(const Arguments& arguments, Terminal& terminal) {
 }
 
 Result<void> run_fall(const Arguments& arguments, Terminal& terminal) {
-  const FlagRange height{"height", 0.01, 100};
-  if (arguments.has("height")) {
-    if (auto ok = check_ranges(arguments, {&height, 1}); !ok) return ok;
-  }
   const auto clip = capture_options(arguments);
   if (!clip) return clip.error();
   const FallOptions options{.height_metres = arguments.has("height") ? arguments.number("height") : 0,
@@ -265,7 +258,7 @@ Command capture_brightness_command() {
 
 Command capture_wind_command() {
   std::vector<Flag> flags = {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
-                             {"rate", Kind::kNumber, "HZ", "60", "rows a second, 1 to 1000"}};
+                             ranged({"rate", Kind::kNumber, "HZ", "60", "rows a second"}, 1, 1000)};
   for (Flag& flag : capture_flags("0")) {
     if (flag.name == "wind-measure") flags.push_back(std::move(flag));
   }
@@ -282,8 +275,9 @@ Command capture_fall_command() {
           "Tracks something light that is dropped before a plain wall, and writes its falls, an episode each.",
           {{"CLIP", "a video file, or a folder of numbered images"}},
           {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
-           {"height", Kind::kNumber, "METRES", "",
-            "how much of the wall the picture's height shows; without it, 1 m is taken"},
+           ranged({"height", Kind::kNumber, "METRES", "",
+                   "how much of the wall the picture's height shows; without it, 1 m is taken"},
+                  0.01, 100),
            {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
            {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
            {"rate", Kind::kNumber, "HZ", "",

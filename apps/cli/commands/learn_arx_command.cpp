@@ -7,6 +7,7 @@
 
 #include "commands/commands.hpp"
 #include "flags/order_flags.hpp"
+#include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/arx_figures.hpp"
 #include "reports/arx_parts.hpp"
@@ -84,7 +85,7 @@ std::vector<Flag> search_flags() {
 Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments& arguments) {
   auto search = parse_grid(arguments);
   if (!search) return search;
-  search->by = choice_of<OrderCriterion>(arguments, "by", {"fpe", "aic", "aicc", "bic", "validation"});
+  search->by = *value_of<OrderCriterion>(arguments.text("by"));
   search->steps = arguments.text("steps") == "inf" ? kFreeRun : arguments.integer("steps");
   if (arguments.text("steps") == "0") return Error{"--steps: found \"0\", expected a number from 1, or inf"};
   if (search->by == OrderCriterion::kValidation && !arguments.has("validate")) {
@@ -100,18 +101,6 @@ Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments
   return search;
 }
 
-Flag focus_flag() {
-  return {
-      "focus",
-      Kind::kChoice,
-      "F",
-      "prediction",
-      "what the coefficients are best at: prediction, the next sample (least squares at the given orders); "
-      "simulation, the better of that and 15 or 30 lags under a kernel in free runs of held-out rows; auto, the latter "
-      "only where it is surely better",
-      {"prediction", "simulation", "auto"}};
-}
-
 Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   auto na = order_choice(arguments, "na"), nb = order_choice(arguments, "nb");
   if (!na) return na.error();
@@ -123,7 +112,6 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   recipe.na = std::move(*na);
   recipe.nb = std::move(*nb);
   recipe.nk.reset();
-  recipe.coupling = coupling_of(arguments);
   const std::string& text = arguments.text("nk");
   if (text == "auto") return {};
   if (text.starts_with("auto")) {
@@ -143,19 +131,10 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
 
 // What the flags say but for the search, which needs the recordings.
 Result<ArxRecipe> recipe_of(const Arguments& arguments) {
-  ArxRecipe recipe{.inputs = arguments.names("inputs"),
-                   .outputs = arguments.names("outputs"),
-                   .preparation = {},
-                   .offset = choice_of<ArxOffset>(arguments, "offset", {"mean", "none", "estimate"}),
-                   .kernel = choice_of<ArxKernel>(arguments, "kernel", {"none", "tc"}),
-                   .radius = arguments.number("radius"),
-                   .keep_unstable = arguments.on("keep-unstable"),
-                   .focus = choice_of<ArxFocus>(arguments, "focus", {"prediction", "simulation", "auto"}),
-                   .responses = arguments.has("figures")};
+  ArxRecipe recipe;
+  if (auto ok = read_recipe(arguments, recipe); !ok) return ok.error();
   recipe.name = model_name(arguments);
-  if (!(recipe.radius > 0 && recipe.radius < 1)) {
-    return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
-  }
+  recipe.responses = arguments.has("figures");
   const auto preparation = preparation_of(arguments);
   if (!preparation) return preparation.error();
   recipe.preparation = *preparation;
@@ -178,10 +157,7 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
   }
   if (arguments.on("merge")) return recipe;
-  if (arguments.has("search")) {
-    recipe.coupling = coupling_of(arguments);
-    return recipe;
-  }
+  if (arguments.has("search")) return recipe;
   if (auto ok = take_orders(arguments, recipe); !ok) return ok.error();
   if (!recipe.nk && arguments.has("partial")) {
     return Error{
@@ -244,48 +220,26 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
 }
 
 std::vector<Flag> arx_flags() {
-  std::vector<Flag> all = {
-      output_flag({"partial"}),
-      {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
-      {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true, {"merge"}},
-  };
-  for (Flag& flag :
-       order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"}))
-    all.push_back(std::move(flag));
-  all.insert(
-      all.end(),
-      {
-          {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
-          prepare_flag(),
-          {"offset",
-           Kind::kChoice,
-           "O",
-           "mean",
-           "the operating point: mean removes means, none, estimate adds a constant term",
-           {"mean", "none", "estimate"}},
-          focus_flag(),
-          {"kernel",
-           Kind::kChoice,
-           "K",
-           "none",
-           "a prior on the coefficients: tc, every channel's die down over its lags and neighbours are alike, as fast "
-           "as the data say; with --na 0 --nb 60 --nk 0 a step response without a choice of orders",
-           {"none", "tc"}},
-          {"radius", Kind::kNumber, "R", "0.999",
-           "poles of an unstable estimate are drawn in to this spectral radius, between 0 and 1, or farther where the "
-           "rows "
-           "learned from are simulated better so"},
-          {"keep-unstable", Kind::kSwitch, "", "",
-           "leave an unstable estimate as it is, to compare; it cannot be played"},
-      });
-  all.push_back(
+  std::vector<Flag> all = {output_flag({"partial"})};
+  auto of_recipe = recipe_flags(ArxRecipe{});
+  flag_named(of_recipe, "outputs").required = true;
+  flag_named(of_recipe, "outputs").unless = {"merge"};
+  const std::vector<Flag> of_rows = {
+      {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
+      prepare_flag(),
       {"figures", Kind::kOutput, "DIR", "",
        "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there; --json "
-       "has their numbers as responses"});
-  all.push_back(
+       "has their numbers as responses"},
       {"memory", Kind::kInteger, "MIB", "1024",
        "where learning would take more than this, recordings are read a stretch at a time, which takes 40 (not "
-       "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"});
+       "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"},
+  };
+  for (const auto& more :
+       {of_recipe,
+        order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"}),
+        of_rows}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
   for (auto* more : {&search_flags, &arx_part_flags, &recording_flags}) {
     for (Flag& flag : (*more)()) all.push_back(std::move(flag));
   }

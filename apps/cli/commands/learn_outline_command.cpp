@@ -1,26 +1,48 @@
 // `wisp learn outline` and its preset `wisp learn flame`: a model of an outline, from clips or recordings.
 
 #include <chrono>
-#include <filesystem>
+#include <cstdlib>
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
-#include "flags/outline_flags.hpp"
+#include "flags/recipe_flags.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"
+#include "wisp/model/extinction.hpp"
 
 namespace wisp::cli {
 namespace {
 
+Result<ExtinctionRecipe> extinction_recipe(const Arguments& arguments) {
+  const std::string& text = arguments.text("blow-out");
+  if (text == "off") return ExtinctionRecipe{};
+  if (text == "auto") return ExtinctionRecipe{ExtinctionSource::kAuto};
+  ExtinctionRecipe recipe{ExtinctionSource::kGiven};
+  char* end = nullptr;
+  recipe.level = std::strtod(text.c_str(), &end);
+  const bool comma = end != text.c_str() && *end == ',';
+  const char* second = comma ? end + 1 : end;
+  if (comma) recipe.seconds = std::strtod(second, &end);
+  if (!comma || end == second || *end != 0) {
+    return Error{"--blow-out: found \"" + text + "\", expected auto, off, or LEVEL,SECONDS such as 1.5,0.3"};
+  }
+  const auto fits = check(Extinction{.level = recipe.level, .seconds = recipe.seconds}, 1);
+  if (!fits) return Error{"--blow-out: " + fits.error().message};
+  return recipe;
+}
+
 Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const std::string path = model_path(arguments);
-  const auto recipe = outline_recipe(arguments, model_name(arguments));
-  if (!recipe) return recipe.error();
+  const auto extinction = extinction_recipe(arguments);
+  if (!extinction) return extinction.error();
+  OutlineRecipe recipe{.extinction = *extinction};
+  if (auto ok = read_recipe(arguments, recipe); !ok) return ok;
+  recipe.name = model_name(arguments);
   const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
-  const auto fit = wisp::learn(*recordings, *recipe, terminal.progress());
+  const auto fit = wisp::learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
   return hand_over(*fit, path, start, terminal);
 }
@@ -32,8 +54,14 @@ struct Preset {
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
-  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction)};
-  for (const std::vector<Flag>& more : {outline_flags(), capture_flags(preset.flame)}) {
+  std::vector<Flag> flags = {
+      output_flag(),
+      {"blow-out", Kind::kText, "auto|off|LEVEL,SECONDS", preset.extinction,
+       "what wind puts it out: learned where the recordings have it and else twice the strong wind of training "
+       "(auto), nothing (off), or any wind of LEVEL (1: the 95th percentile of training) for SECONDS"},
+      {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
+  };
+  for (const std::vector<Flag>& more : {recipe_flags(OutlineRecipe{}), capture_flags(preset.flame)}) {
     flags.insert(flags.end(), more.begin(), more.end());
   }
   return {

@@ -278,10 +278,7 @@ Result<Play> prepare(const Arguments& arguments) {
   play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
   if (play.frames == 0)
     return Error{"--frames is 0 or not given: give at least 1, or --input with a recording that says how many"};
-  const int instances = arguments.integer("instances");
-  if (instances < 1 || instances > 10000)
-    return Error{"--instances is " + arguments.text("instances") + ", expected 1 to 10000"};
-  if (auto ok = check_size(play, instances); !ok) return ok.error();
+  if (auto ok = check_size(play, arguments.integer("instances")); !ok) return ok.error();
   return play;
 }
 
@@ -353,7 +350,7 @@ std::vector<Flag> all_flags() {
       {"wind-direction", Kind::kNumber, "DEG", "0",
        "in the round: the wind blows to the right of a camera at that azimuth"},
       {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
-      {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
+      ranged({"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"}, 1, 10000),
       {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
   };
   for (Flag& flag : chain_walk_flags()) all.push_back(std::move(flag));

@@ -8,7 +8,6 @@
 
 #include "commands/commands.hpp"
 #include "films/leaf_film.hpp"
-#include "flags/flag_ranges.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/chain_recipe.hpp"
@@ -20,15 +19,6 @@ namespace {
 
 constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
 constexpr double kMaxJitter = 0.01;      // of a step of a wind's time
-
-Result<void> check_leaf_flags(const Arguments& arguments) {
-  static constexpr FlagRange kRanges[] = {
-      {"drops", 1, 100000},
-      {"seconds", 0.1, 3600},
-      {"rate", 1, 10000},
-  };
-  return check_ranges(arguments, kRanges);
-}
 
 // A wind's column of time, where there is one, must go on evenly: rows are taken at the recording's rate.
 Result<void> check_time(const Recording& recording) {
@@ -139,7 +129,6 @@ Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairs
 
 Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  if (auto good = check_leaf_flags(arguments); !good) return good;
   const auto found = options_from(arguments, terminal);
   if (!found) return found.error();
   const LeafPairsOptions& options = *found;
@@ -182,9 +171,9 @@ Command simulate_leaf_command() {
       {},
       {
           {"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
-          {"drops", Kind::kInteger, "N", "200", "falls; with --pairs, gusts"},
-          {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
-          {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
+          ranged({"drops", Kind::kInteger, "N", "200", "falls; with --pairs, gusts"}, 1, 100000),
+          ranged({"seconds", Kind::kNumber, "S", "20", "recorded of each"}, 0.1, 3600),
+          ranged({"rate", Kind::kNumber, "HZ", "60", "rows a second"}, 1, 10000),
           {"wind", Kind::kText, "W", "calm",
            "calm, gusts from all sides, or a recording FILE.csv of wind.x, wind.y, wind.z, or of a single input that "
            "blows along x, m/s"},

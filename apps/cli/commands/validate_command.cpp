@@ -11,7 +11,7 @@
 #include "films/validation_pictures.hpp"
 #include "flags/capture_flags.hpp"
 #include "flags/motion_flags.hpp"
-#include "flags/outline_flags.hpp"
+#include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "flags/steps_flag.hpp"
 #include "reports/arx_validation.hpp"
@@ -19,6 +19,7 @@
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/draw/plot.hpp"
+#include "wisp/learn/outline_recipe.hpp"
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
@@ -271,6 +272,7 @@ Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 Command validate_command() {
+  std::vector<Flag> of_outlines = recipe_flags(OutlineRecipe{});
   std::vector<Flag> flags = {
       {"range", Kind::kSamples, "A:B", "", "rows to judge on, 1-based and inclusive"},
       {"steps", Kind::kNames, "K,…", "1,5,15,inf", "steps ahead; inf is free simulation from the input alone"},
@@ -283,7 +285,7 @@ Command validate_command() {
       {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
       {"own-gain", Kind::kSwitch, "", "",
        "input 1 is this recording's own 95th percentile: another microphone, another gain"},
-      align_flag(),
+      flag_named(of_outlines, "align"),
       {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns that are the model's inputs, in its order, where they have other names"},

@@ -2,7 +2,6 @@
 
 #include <charconv>
 
-#include "flags/flag_ranges.hpp"
 #include "flags/recordings.hpp"
 
 namespace wisp::cli {
@@ -34,7 +33,7 @@ WindMeasure wind_measure(const Arguments& arguments) {
 
 std::vector<Flag> capture_flags(const std::string& flame) {
   return {
-      {"points", Kind::kInteger, "N", "8", "control points of the outline, 4 to 64"},
+      ranged({"points", Kind::kInteger, "N", "8", "control points of the outline"}, 4, 64),
       {"channel",
        Kind::kChoice,
        "C",
@@ -45,7 +44,8 @@ std::vector<Flag> capture_flags(const std::string& flame) {
       {"dark", Kind::kSwitch, "", "", "the thing is dark on a light ground"},
       {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
       {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
-      {"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images; overrides a video's own"},
+      ranged({"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images; overrides a video's own"}, 0.01,
+             1e5),
       {"wind-measure",
        Kind::kChoice,
        "M",
@@ -56,13 +56,9 @@ std::vector<Flag> capture_flags(const std::string& flame) {
 }
 
 Result<ClipCapture> capture_options(const Arguments& arguments) {
-  const FlagRange points{"points", 4, 64};
   ClipCapture options;
   // What measures light only has none of these.
-  if (arguments.has("points")) {
-    if (auto ok = check_ranges(arguments, {&points, 1}); !ok) return ok.error();
-    options.points = arguments.integer("points");
-  }
+  if (arguments.has("points")) options.points = arguments.integer("points");
   if (arguments.has("channel")) options.channel = channel_from_name(arguments.text("channel"));
   options.dark = arguments.on("dark");
   if (arguments.has("flame")) options.flame = arguments.integer("flame");
@@ -75,11 +71,7 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
     const SampleRange frames = arguments.samples("frames");
     options.frames = FrameRange{static_cast<std::int64_t>(frames.first), static_cast<std::int64_t>(frames.last)};
   }
-  const FlagRange rate{"rate", 0.01, 1e5};
-  if (arguments.has("rate")) {
-    if (auto ok = check_ranges(arguments, {&rate, 1}); !ok) return ok.error();
-    options.rate_hz = arguments.number("rate");
-  }
+  if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
   if (arguments.has("wind-measure")) options.wind = wind_measure(arguments);
   return options;
 }

@@ -36,12 +36,6 @@ std::vector<Flag> order_flags(const OrderHelp& help) {
       {"nb", Kind::kText, "N", help.fallback,
        "order of B: a number, or a matrix with a row an output and a column an input"},
       {"nk", Kind::kText, "N", "1", "delay in samples, likewise" + std::string(help.delay)},
-      {"coupling",
-       Kind::kChoice,
-       "C",
-       "full",
-       "which outputs appear in an output's equation",
-       {"full", "diagonal", "band"}},
   };
 }
 
@@ -74,10 +68,6 @@ Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& 
     }
   }
   return OrderChoice(std::move(matrix));
-}
-
-Coupling coupling_of(const Arguments& arguments) {
-  return choice_of<Coupling>(arguments, "coupling", {"full", "diagonal", "band"});
 }
 
 }  // namespace wisp::cli

@@ -1,8 +1,5 @@
 #pragma once
-// --na, --nb, --nk and --coupling as recipes have them.
-
-#include <algorithm>
-#include <initializer_list>
+// --na, --nb and --nk as recipes have them.
 
 #include "command.hpp"
 #include "wisp/learn/arx_recipe.hpp"
@@ -23,14 +20,5 @@ std::vector<Flag> order_flags(const OrderHelp& help);
 /// row for each of --outputs and a column for each of --outputs (--na) or --inputs.
 /// Errors: text that cannot be understood or has not that shape, with what was found and expected.
 Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& flag);
-
-/// What a flag's word stands for, `words` being in the enumeration's order.
-template <class Choice>
-Choice choice_of(const Arguments& arguments, const char* flag, std::initializer_list<std::string_view> words) {
-  return static_cast<Choice>(std::find(words.begin(), words.end(), arguments.text(flag)) - words.begin());
-}
-
-/// --coupling.
-Coupling coupling_of(const Arguments& arguments);
 
 }  // namespace wisp::cli

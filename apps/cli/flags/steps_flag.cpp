@@ -31,9 +31,6 @@ Flag initial_flag() {
           {"measured", "zero", "estimated"}};
 }
 
-InitialState initial_of(const Arguments& arguments) {
-  if (arguments.text("initial") == "zero") return InitialState::kZero;
-  return arguments.text("initial") == "estimated" ? InitialState::kEstimated : InitialState::kMeasured;
-}
+InitialState initial_of(const Arguments& arguments) { return *value_of<InitialState>(arguments.text("initial")); }
 
 }  // namespace wisp::cli

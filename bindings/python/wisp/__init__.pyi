@@ -109,6 +109,7 @@ class ArxRecipe:
     na: int
     nb: int
     nk: Optional[int]
+    max_delay: Optional[int]
     coupling: Coupling
     offset: ArxOffset
     preparation: Preparation
@@ -124,6 +125,10 @@ class SwitchedRecipe:
     name: str
     inputs: list[str]
     outputs: list[str]
+    na: int
+    nb: int
+    nk: int
+    coupling: Coupling
     modes: Optional[int]
     seed: int
 
@@ -136,12 +141,25 @@ class FlickerRecipe:
     order: int
     seed: int
 
+class ExtinctionSource(Enum):
+    NONE = ...
+    AUTO = ...
+    GIVEN = ...
+
+class ExtinctionRecipe:
+    def __init__(self, **fields: Any) -> None: ...
+    source: ExtinctionSource
+    level: float
+    seconds: float
+
 class OutlineRecipe:
     def __init__(self, **fields: Any) -> None: ...
     paper: int
     align: bool
     inputs: Optional[list[str]]
     holdout: float
+    pixels_per_unit: float
+    extinction: ExtinctionRecipe
     seed: int
     name: str
 
@@ -151,11 +169,15 @@ class ChainRecipe:
     def __init__(self, **fields: Any) -> None: ...
     name: str
     event: str
-    realisation: str
+    heading_free: bool
     modes: int
     history: int
+    realisation: str
     best_of: int
+    blend: float
     min_seconds: float
+    debounce: float
+    smooth_rows: int
     max_bytes: int
     holdout: float
     half_width: float

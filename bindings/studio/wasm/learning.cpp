@@ -33,42 +33,37 @@ Progress progress() {
   return [](std::string_view stage, double share) { return studio_progress(stage.data(), stage.size(), share) != 0; };
 }
 
+// What the settings say of a recipe's fields, by their names; anything may be missing.
 template <class SomeRecipe>
-SomeRecipe named(const json& from, SomeRecipe recipe) {
-  recipe.name = from.value("name", recipe.name);
-  recipe.seed = from.value("seed", recipe.seed);
-  return recipe;
-}
-
-template <class SomeRecipe>
-SomeRecipe outline_recipe(const json& from, SomeRecipe defaults) {
-  SomeRecipe recipe = named(from, std::move(defaults));
-  if (const auto order = whole(from, "paper")) recipe.paper = *order;
-  return recipe;
-}
-
-template <class SomeRecipe>
-SomeRecipe chain_recipe(const json& from, SomeRecipe defaults) {
-  SomeRecipe recipe = named(from, std::move(defaults));
-  if (const auto rows = whole(from, "smooth")) recipe.smooth_rows = *rows;
+SomeRecipe with_settings(const json& from, SomeRecipe recipe) {
+  for_each_field(recipe, [&](const auto& field) {
+    auto& value = recipe.*(field.member);
+    using Value = std::remove_reference_t<decltype(value)>;
+    const auto found = from.find(field.name);
+    if (found == from.end()) return;
+    if constexpr (std::is_same_v<Value, std::string>) {
+      if (found->is_string()) value = found->template get<std::string>();
+    } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+      value = names(from, field.name);
+    } else if constexpr (std::is_same_v<Value, OrderChoice> || std::is_same_v<Value, std::optional<OrderChoice>>) {
+      if (found->is_number()) value = found->template get<int>();
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      if (found->is_number() || found->is_boolean()) value = found->template get<Value>();
+    }
+  });
   return recipe;
 }
 
 Recipe recipe_of(const json& from) {
   const std::string kind = from.value("kind", "flame");
-  if (kind == "arx") {
-    ArxRecipe recipe{.inputs = names(from, "inputs"), .outputs = names(from, "outputs"), .responses = true};
-    recipe.name = from.value("name", "table");
-    if (const auto order = whole(from, "order"); order && *order > 0) recipe.na = recipe.nb = *order;
-    if (const auto nb = whole(from, "nb")) recipe.nb = *nb;
-    recipe.nk.reset();
-    if (const auto nk = whole(from, "nk")) recipe.nk = *nk;
-    return recipe;
-  }
-  if (kind == "chain") return chain_recipe(from, ChainRecipe{});
-  if (kind == "leaf") return chain_recipe(from, LeafRecipe{});
-  if (kind == "outline") return outline_recipe(from, OutlineRecipe{});
-  return outline_recipe(from, FlameRecipe{});
+  if (kind == "chain") return with_settings(from, ChainRecipe{});
+  if (kind == "leaf") return with_settings(from, LeafRecipe{});
+  if (kind == "outline") return with_settings(from, OutlineRecipe{});
+  if (kind != "arx") return with_settings(from, FlameRecipe{});
+  ArxRecipe defaults{.name = "table", .responses = true};
+  defaults.nk.reset();
+  if (const auto order = whole(from, "order"); order && *order > 0) defaults.na = defaults.nb = *order;
+  return with_settings(from, std::move(defaults));
 }
 
 Result<Recording> read_recording(const char* bytes, std::size_t size, const json& settings) {

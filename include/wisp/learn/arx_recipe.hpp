@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
+#include "wisp/learn/recipe_fields.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/model/training.hpp"
 #include "wisp/record/recording.hpp"
@@ -23,12 +25,18 @@ enum class ArxOffset {
   kEstimate,  ///< as kMean, and a constant term is estimated with the other coefficients
 };
 
+template <>
+inline constexpr std::array<std::string_view, 3> kWordsOf<ArxOffset>{"mean", "none", "estimate"};
+
 /// Which outputs appear in an output's regression. Inputs appear in every one.
 enum class Coupling {
   kFull,      ///< all of them
   kDiagonal,  ///< those of its own group
   kBand,      ///< those of its own group and of its neighbours along the chain of groups
 };
+
+template <>
+inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "diagonal", "band"};
 
 /// What coefficients are best at.
 enum class ArxFocus {
@@ -37,11 +45,17 @@ enum class ArxFocus {
   kAuto,        ///< least squares, or 15 lags under a kernel where that simulates held-out rows surely better
 };
 
+template <>
+inline constexpr std::array<std::string_view, 3> kWordsOf<ArxFocus>{"prediction", "simulation", "auto"};
+
 /// What is known of the coefficients before any data.
 enum class ArxKernel {
   kNone,
   kTc,  ///< each channel's die down over its lags and neighbours are alike (tuned, correlated); how fast, the data say
 };
+
+template <>
+inline constexpr std::array<std::string_view, 2> kWordsOf<ArxKernel>{"none", "tc"};
 
 /// In the place of a number of steps: infinitely many, from the input alone (free simulation).
 inline constexpr int kFreeRun = 0;
@@ -52,6 +66,9 @@ enum class InitialState {
   kZero,       ///< from the operating point: every output was at its mean
   kEstimated,  ///< from the past outputs that make the simulation fit best, by least squares
 };
+
+template <>
+inline constexpr std::array<std::string_view, 3> kWordsOf<InitialState>{"measured", "zero", "estimated"};
 
 /// One order or delay for all pairs of channels, or a matrix: outputs × outputs for na, outputs × inputs for nb and nk.
 /// 0 to 4096.
@@ -72,6 +89,9 @@ enum class OrderCriterion {
   kValidation,  ///< mean squared error on the validation recordings
 };
 
+template <>
+inline constexpr std::array<std::string_view, 5> kWordsOf<OrderCriterion>{"fpe", "aic", "aicc", "bic", "validation"};
+
 /// A grid of orders and delays, the same for all pairs of channels, of which the best is taken.
 struct ArxSearch {
   OrderRange na{1, 10};  ///< ten lags are what identification people try first; a candidate costs next to nothing
@@ -82,24 +102,24 @@ struct ArxSearch {
   std::vector<Recording> validation{};  ///< for kValidation, which needs them; others are judged on them too
 };
 
-/// One ARX model: y(t) + A₁ y(t−1) + … = B₁ u(t−nk) + … + e(t).
+/// One ARX model: y(t) + A₁ y(t−1) + … = B₁ u(t−nk) + … + e(t). What each field means: fields_of() below.
 struct ArxRecipe {
-  std::string name{};                  ///< of the model
-  std::vector<std::string> inputs{};   ///< channels; none: a model of the outputs alone
-  std::vector<std::string> outputs{};  ///< channels, at least one
-  Preparation preparation{};           ///< of every recording, and of those that the model is judged on later
-  OrderChoice na = 4;                  ///< lags of outputs; 4 is two damped resonances an output, the paper's choice
-  OrderChoice nb = 4;                  ///< lags of inputs
-  std::optional<OrderChoice> nk = 1;   ///< delays in samples; unset: every input's delay to every output is found
-  std::optional<int> max_delay{};      ///< longest delay that is tried then, 0 to 4096; unset: as the data say, to 640
+  std::string name{};
+  std::vector<std::string> inputs{};
+  std::vector<std::string> outputs{};
+  Preparation preparation{};
+  OrderChoice na = 4;  ///< 4 is two damped resonances an output, the paper's choice
+  OrderChoice nb = 4;
+  std::optional<OrderChoice> nk = 1;
+  std::optional<int> max_delay{};
   Coupling coupling = Coupling::kFull;
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
-  ArxKernel kernel = ArxKernel::kNone;  ///< kTc with na 0 and many lags of the inputs: a step response without orders
-  double radius = 0.999;  ///< in (0, 1): an unstable estimate is brought within it; a smaller one may simulate better
-  bool keep_unstable = false;              ///< leave an unstable estimate as it is, to compare: it cannot be played
-  std::optional<ArxSearch> search{};       ///< in the place of na, nb and nk
+  ArxKernel kernel = ArxKernel::kNone;
+  double radius = 0.999;
+  bool keep_unstable = false;
+  std::optional<ArxSearch> search{};
   ArxFocus focus = ArxFocus::kPrediction;  ///< of parts and tables beyond memory always so
-  bool responses = false;  ///< report step and frequency responses with 95 % bands, which cost d_total² memory
+  bool responses = false;
 };
 
 /// Several ARX modes of the same orders, each with a constant of its own, and a Markov chain that switches them. The
@@ -112,20 +132,82 @@ struct SwitchedRecipe {
   OrderChoice nb = 2;
   OrderChoice nk = 1;
   Coupling coupling = Coupling::kFull;
-  std::optional<int> modes{};  ///< 1 to 64; unset: as many, up to 6, as predict held-out rows surely better
-  std::uint64_t seed = 1;      ///< of the starts that are tried
+  std::optional<int> modes{};
+  std::uint64_t seed = 1;
 };
 
 /// The light of a flame, as a lamp can play it: ARX modes from calm to restless that a Markov chain switches. Modes are
 /// stretches of about half a second that vary as much; how strong their shocks are is matched by playing.
 struct FlickerRecipe {
   std::string name{};
-  std::string output{};    ///< the channel; empty: "brightness", or the only output
-  double rate_hz = 50;     ///< 10 to 1000: what the model steps at; faster recordings are averaged down to the nearest
-                           ///< whole part of their rate
-  int modes = 3;           ///< 2 to 8
-  int order = 4;           ///< lags, 1 to 8: two damped resonances
-  std::uint64_t seed = 1;  ///< of the play that shocks are matched by
+  std::string output{};
+  double rate_hz = 50;
+  int modes = 3;
+  int order = 4;  ///< two damped resonances
+  std::uint64_t seed = 1;
 };
+
+constexpr auto fields_of(const ArxRecipe&) {
+  using R = ArxRecipe;
+  return std::tuple(
+      field("name", &R::name, "of the model"),
+      field("inputs", &R::inputs, "channels that are inputs; none: a model of the outputs alone", {"inputs", "A,B"}),
+      field("outputs", &R::outputs, "channels that are outputs", {"outputs", "C,D"}),
+      field("preparation", &R::preparation, "of every recording, and of those that the model is judged on later"),
+      field("na", &R::na, "order of A: lags of outputs; a number, or a matrix, outputs by outputs"),
+      field("nb", &R::nb, "order of B: lags of inputs; a number, or a matrix, outputs by inputs"),
+      field("nk", &R::nk, "delays in samples; none given: every input's delay to every output is found"),
+      field("max_delay", &R::max_delay,
+            "longest delay that is tried then, 0 to 4096; none given: as the data say, up to 640"),
+      field("coupling", &R::coupling, "which outputs appear in an output's equation", {"coupling", "C"}),
+      field("offset", &R::offset, "the operating point: mean removes means, none, estimate adds a constant term",
+            {"offset", "O"}),
+      field("kernel", &R::kernel,
+            "a prior on the coefficients: tc, every channel's die down over its lags and neighbours are alike, as fast "
+            "as the data say; with --na 0 --nb 60 --nk 0 a step response without a choice of orders",
+            {"kernel", "K"}),
+      field("radius", &R::radius,
+            "poles of an unstable estimate are drawn in to this spectral radius, or farther where the rows learned "
+            "from are simulated better so",
+            {"radius", "R", 0.001, 0.999999}),
+      field("keep_unstable", &R::keep_unstable, "leave an unstable estimate as it is, to compare; it cannot be played",
+            {"keep-unstable"}),
+      field("search", &R::search, "a grid of orders and delays in the place of na, nb and nk"),
+      field("focus", &R::focus,
+            "what the coefficients are best at: prediction, the next sample (least squares at the given orders); "
+            "simulation, the better of that and 15 or 30 lags under a kernel in free runs of held-out rows; auto, the "
+            "latter only where it is surely better",
+            {"focus", "F"}),
+      field(
+          "responses", &R::responses,
+          "report step and frequency responses with 95 % bands, which cost memory by the square of the coefficients"));
+}
+
+constexpr auto fields_of(const SwitchedRecipe&) {
+  using R = SwitchedRecipe;
+  return std::tuple(
+      field("name", &R::name, "of the model"),
+      field("inputs", &R::inputs, "channels that are inputs; none: a model of the outputs alone", {"inputs", "A,B"}),
+      field("outputs", &R::outputs, "channels that are outputs", {"outputs", "C,D"}),
+      field("na", &R::na, "order of A in every mode: lags of outputs"),
+      field("nb", &R::nb, "order of B in every mode: lags of inputs"), field("nk", &R::nk, "delay in samples"),
+      field("coupling", &R::coupling, "which outputs appear in an output's equation", {"coupling", "C"}),
+      field("modes", &R::modes, "how many, or auto: as many, up to 6, as predict held-out rows surely better",
+            {"modes", "K", 1, 64, "auto"}),
+      field("seed", &R::seed, "of the starts that are tried", {"seed", "N"}));
+}
+
+constexpr auto fields_of(const FlickerRecipe&) {
+  using R = FlickerRecipe;
+  return std::tuple(
+      field("name", &R::name, "of the model"),
+      field("output", &R::output, "the channel of light; default: brightness, or the only output", {"channel", "NAME"}),
+      field("rate_hz", &R::rate_hz,
+            "what the model steps at; faster recordings are averaged down to the nearest whole part of their rate",
+            {nullptr, "", 10, 1000}),
+      field("modes", &R::modes, "degrees of restlessness", {"modes", "K", 2, 8}),
+      field("order", &R::order, "lags in every mode", {"order", "N", 1, 8}),
+      field("seed", &R::seed, "of the play that shocks are matched by", {"seed", "N"}));
+}
 
 }  // namespace wisp

@@ -6,13 +6,18 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "wisp/base/result.hpp"
+#include "wisp/learn/recipe_fields.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
 
 enum class EventKind { kZero, kMinimum, kMaximum };
+
+template <>
+inline constexpr std::array<std::string_view, 3> kWordsOf<EventKind>{"zero", "min", "max"};
 
 /// The event at which motion is cut: a zero or an extremum of a signal.
 struct EventSpec {
@@ -34,37 +39,31 @@ enum class Realisation {
   kSpline,    ///< splines that vary as the recorded ones do
 };
 
-/// `segments`, `linear`, `ode`, `chain` or `spline`.
-/// Errors: another word.
-Result<Realisation> parse_realisation(std::string_view text);
+template <>
+inline constexpr std::array<std::string_view, 5> kWordsOf<Realisation>{"segments", "linear", "ode", "chain", "spline"};
 
-/// The words that the parsers read.
+/// As parse_event() reads it.
 std::string word_of(const EventSpec& event);
-std::string_view word_of(Realisation realisation);
 
 /// How a chain is learned from recordings of something that moves: outputs pos.x, pos.y, pos.z in metres, z up, and,
 /// where known, q.w, q.x, q.y, q.z. Two recordings that share the attribute `pair`, one of them calm, teach its
-/// response to gusts.
+/// response to gusts. What each field means: fields_of() below.
 struct ChainRecipe {
-  std::string name = "chain";  ///< of the model
+  std::string name = "chain";
   EventSpec event{EventKind::kMinimum, "horizontal_speed"};
-  bool heading_free = true;  ///< vectors are seen along a segment's own direction over ground; otherwise the world's
-  int modes = 0;    ///< 1 … 64: kinds of segment, one of the next kind follows, as in the paper. 0: none where
-                    ///< orientation is known, else 6
-  int history = 1;  ///< modes that the next one depends on, 1 or 2
+  bool heading_free = true;
+  int modes = 0;
+  int history = 1;
   Realisation realisation = Realisation::kSegments;
-  int best_of = 4;  ///< 0 … 256, where orientation is known: best-joining successors kept for each segment and mode; 0:
-                    ///< any segment of the mode follows (the paper's), as without orientation
-  double blend = 0.15;  ///< seconds on either side that a join may be spread over, 0 … 0.5; 0: joins stay as they are
-  double min_seconds = 0.04;  ///< ≥ 0, shortest segment: events nearer to the one before are left out
-  double debounce = 0.1;  ///< ≥ 0: how far, in standard deviations of the signal, it must go beyond a zero on both
-                          ///< sides, or away from an extremum, before that counts
-  int smooth_rows = 0;    ///< odd: rows that velocities are taken over, where positions are noisy; 0: none
-  std::size_t max_bytes = 4'000'000;  ///< > 0, of stored segments; what is over it is left out, in strata by dive,
-                                      ///< speed and turn. A leaf for the web has 900'000
-  double holdout = 0.2;    ///< 0 … 0.9: share of the stretches, the last ones, kept from learning and judged on
-  double half_width = 0;   ///< metres of the body along its first axis, for who draws it; 0: as the first recording's
-  double half_length = 0;  ///< attribute leaf_length_width_density says. And along its second
+  int best_of = 4;
+  double blend = 0.15;
+  double min_seconds = 0.04;
+  double debounce = 0.1;
+  int smooth_rows = 0;
+  std::size_t max_bytes = 4'000'000;  ///< a leaf for the web has 900'000
+  double holdout = 0.2;
+  double half_width = 0;
+  double half_length = 0;
   std::uint64_t seed = 1;
 };
 
@@ -76,6 +75,50 @@ struct LeafRecipe : ChainRecipe {
     event = {EventKind::kZero, "forward_speed"};
   }
 };
+
+constexpr auto fields_of(const ChainRecipe&) {
+  using R = ChainRecipe;
+  return std::tuple(
+      field("name", &R::name, "of the model"),
+      field("event", &R::event,
+            "where motion is cut: zero:, min: or max: of a channel, or of speed, horizontal_speed, forward_speed",
+            {"event", "SPEC"}),
+      field("heading_free", &R::heading_free,
+            "whether directions are the world's, or a segment's own, so that the chain does not learn which way was "
+            "north",
+            {.flag = "frame", .sign = "world|heading", .words = {"world", "heading"}}),
+      field("modes", &R::modes,
+            "kinds of segment, one of the next of which follows; auto: none, or 6 where there is no orientation",
+            {"modes", "K|auto", 1, 64, "auto"}),
+      field("history", &R::history, "how many kinds back the next one depends on", {"history", "H", 1, 2}),
+      field("realisation", &R::realisation,
+            "what segments are: recorded ones; splines that vary as those of their kind do; made by a linear system "
+            "with noise, or by a differential equation (ode), of each kind; or halves, each kind a chain of its own",
+            {"realisation", "HOW"}),
+      field("best_of", &R::best_of,
+            "where orientation is known a segment is followed by one of its N best-joining ones; 0: by any, of the "
+            "next kind",
+            {"best-of", "N", 0, 256}),
+      field("blend", &R::blend, "most seconds on either side that a join is spread over; 0: joins stay as they are",
+            {"blend", "S", 0, 0.5}),
+      field("min_seconds", &R::min_seconds, "seconds; events nearer to the one before do not count",
+            {"shortest", "S", 0, 60}),
+      field("debounce", &R::debounce, "standard deviations that the signal must move beyond an event on both sides",
+            {"debounce", "D", 0, 100}),
+      field("smooth_rows", &R::smooth_rows, "rows that velocities are taken over, where positions are noisy",
+            {"smooth", "ROWS", 0, 10001}),
+      field("max_bytes", &R::max_bytes,
+            "of stored segments; of what is more, evenly by dive, speed and turn, some are left out",
+            {"max-bytes", "N", 1, 1e9}),
+      field("holdout", &R::holdout, "share of the stretches, the last ones, kept for judging",
+            {"holdout", "SHARE", 0, 0.9}),
+      field("half_width", &R::half_width,
+            "metres of the body along its first axis, for who draws it; 0: as the first recording's attribute "
+            "leaf_length_width_density says",
+            {nullptr, "", 0}),
+      field("half_length", &R::half_length, "and along its second axis", {nullptr, "", 0}),
+      field("seed", &R::seed, "of all chance", {"seed", "N"}));
+}
 
 /// Names of a column of seconds, where a recording has one: it must go on evenly.
 inline constexpr std::array<const char*, 3> kTimeColumns = {"t", "t_s", "time"};

@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
+
+#include "wisp/learn/recipe_fields.hpp"
 
 namespace wisp {
 
@@ -19,6 +22,9 @@ enum class ExtinctionSource {
   kGiven,  ///< `level` and `seconds`
 };
 
+template <>
+inline constexpr std::array<std::string_view, 3> kWordsOf<ExtinctionSource>{"none", "auto", "given"};
+
 /// The rule of what extinguishes a flame (wisp/model/extinction.hpp). It is of the first input.
 struct ExtinctionRecipe {
   ExtinctionSource source = ExtinctionSource::kNone;
@@ -26,22 +32,38 @@ struct ExtinctionRecipe {
   double seconds = 0;  ///< for kGiven: for which it must last; in the range of Extinction::seconds
 };
 
-/// How to learn an outline.
+/// How to learn an outline. What each field means: fields_of() below.
 struct OutlineRecipe {
-  int paper = 0;      ///< 0: symmetric and antisymmetric components of the shape, resampled residuals; 1 to 64: the
-                      ///< paper's systems, one a control point, of that order (its own is 4), Gaussian noise
-  bool align = true;  ///< move inputs that come after the motion that they cause
-  std::optional<std::vector<std::string>> inputs{};  ///< names; unset: all of the recordings; empty: none, flicker only
-  double holdout = 0.3;  ///< 0 to 0.9: the last part of each recording is kept for judging, and then learned from too
-  double pixels_per_unit = 0;  ///< 0: each recording's own mean calm height is 1
+  int paper = 0;
+  bool align = true;
+  std::optional<std::vector<std::string>> inputs{};
+  double holdout = 0.3;
+  double pixels_per_unit = 0;
   ExtinctionRecipe extinction{};
-  std::uint64_t seed = 1;        ///< of the trial runs
-  std::string name = "outline";  ///< of the model
+  std::uint64_t seed = 1;
+  std::string name = "outline";
 };
 
 /// How to learn a flame: an outline that wind extinguishes.
 struct FlameRecipe : OutlineRecipe {
   FlameRecipe() { extinction.source = ExtinctionSource::kAuto; }
 };
+
+constexpr auto fields_of(const OutlineRecipe&) {
+  using R = OutlineRecipe;
+  return std::tuple(
+      field("paper", &R::paper,
+            "the paper's systems, one a control point, of that order (its own is 4), with independent Gaussian noise; "
+            "0: symmetric and antisymmetric components of the shape, with resampled residuals",
+            {"paper", "ORDER", 0, 64}),
+      field("align", &R::align, "auto: an input that comes after the motion that it causes is moved; off: as recorded",
+            {.flag = "align", .sign = "A", .words = {"off", "auto"}}),
+      field("inputs", &R::inputs, "names; none given: all of the recordings; an empty list: flicker alone"),
+      field("holdout", &R::holdout, "kept for judging, and then learned from too: the last part of each recording",
+            {"holdout", "SHARE", 0, 0.9}),
+      field("pixels_per_unit", &R::pixels_per_unit, "0: each recording's own mean calm height is 1", {nullptr, "", 0}),
+      field("extinction", &R::extinction, "what puts it out: a rule of the first input"),
+      field("seed", &R::seed, "of the trial runs", {"seed", "N"}), field("name", &R::name, "of the model"));
+}
 
 }  // namespace wisp

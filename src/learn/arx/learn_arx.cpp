@@ -21,8 +21,6 @@ namespace wisp {
 namespace arx {
 namespace {
 
-constexpr const char* kOffsets[] = {"mean", "none", "estimate"};  // as ArxOffset has them
-
 std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const OrderMatrix& na = fit.model.orders.na;
   const bool apart = arx::coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
@@ -30,7 +28,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
   const auto& levels = fit.model.constant;  // the focus may have estimated them
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
-  notes.push_back({"offset", kOffsets[std::size_t(level ? ArxOffset::kEstimate : recipe.offset)]});
+  notes.push_back({"offset", std::string(word_of(level ? ArxOffset::kEstimate : recipe.offset))});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
   if (fit.summary.stable.changed) notes.push_back({"radius", number_text(recipe.radius, 6)});
   return notes;
@@ -80,9 +78,7 @@ Result<ArxOrders> chosen_orders(std::span<const Recording> recordings, const Arx
 }
 
 Result<void> check_recipe(const ArxRecipe& recipe) {
-  if (!(recipe.radius > 0 && recipe.radius < 1)) {
-    return Error{"the radius is " + number_text(recipe.radius) + ", expected a number between 0 and 1"};
-  }
+  if (auto ok = check_fields(recipe); !ok) return ok;
   if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
     return Error{"a kernel chooses the coefficients itself: it needs the focus prediction"};
   }

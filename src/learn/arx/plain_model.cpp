@@ -50,11 +50,6 @@ std::string text_of(const OrderMatrix& orders) {
   return text;
 }
 
-std::string word_of(Coupling coupling) {
-  if (coupling == Coupling::kDiagonal) return "diagonal";
-  return coupling == Coupling::kBand ? "band" : "full";
-}
-
 }  // namespace
 
 Result<void> check_size(const std::string& name, const ChannelSpan& span) {
@@ -172,7 +167,7 @@ std::vector<Note> order_notes(const ArxOrders& orders, Coupling coupling) {
   return {{"na", text_of(orders.na)},
           {"nb", text_of(orders.nb)},
           {"nk", text_of(orders.nk)},
-          {"coupling", word_of(coupling)}};
+          {"coupling", std::string(word_of(coupling))}};
 }
 
 }  // namespace wisp::arx

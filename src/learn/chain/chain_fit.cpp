@@ -194,10 +194,6 @@ ChainDrift drift_of(const ChainModel& chain, double rate_hz) {
 constexpr int kModesWithoutOrientation = 6;
 constexpr std::size_t kMinSegments = 30;  // with fewer, transitions are anecdotes
 
-Error out_of_range(const char* what, double found, const std::string& expected) {
-  return {std::string(what) + " is " + std::to_string(found) + ", expected " + expected};
-}
-
 // The data, cut.
 struct Cut {
   Motion motion;
@@ -404,22 +400,8 @@ Model model_of(const Motion& motion, ChainModel dynamics, const ChainRecipe& rec
 
 }  // namespace
 
-Result<void> check_recipe(const ChainRecipe& recipe) {
-  if (recipe.modes < 0 || recipe.modes > static_cast<int>(kMaxModes))
-    return out_of_range("the number of modes", recipe.modes, "1 to " + std::to_string(kMaxModes) + ", or 0 for auto");
-  if (recipe.history < 1 || recipe.history > 2) return out_of_range("the chain's history", recipe.history, "1 or 2");
-  if (!(recipe.holdout >= 0 && recipe.holdout <= 0.9))
-    return out_of_range("the share that is held out", recipe.holdout, "0 to 0.9");
-  if (!(recipe.blend >= 0 && recipe.blend <= 0.5))
-    return out_of_range("the seconds that a join is spread over", recipe.blend, "0 to 0.5");
-  if (recipe.best_of < 0 || recipe.best_of > 256)
-    return out_of_range("the number of best-joining successors", recipe.best_of, "0 to 256");
-  if (recipe.max_bytes == 0) return out_of_range("the size of the store", 0, "bytes above 0");
-  return {};
-}
-
 Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRecipe& recipe, const Progress& progress) {
-  if (auto ok = check_recipe(recipe); !ok) return ok.error();
+  if (auto ok = check_fields(recipe); !ok) return ok.error();
   if (!go_on(progress, "cutting motion", 0)) return Error{std::string(kStopped)};
   const auto data = cut(recordings, recipe);
   if (!data) return data.error();

@@ -45,11 +45,8 @@ struct ChainFit {
                                       ///< stretches; two in sequence are each other's continuation
 };
 
-/// Whether every number of a recipe is in its range.
-Result<void> check_recipe(const ChainRecipe& recipe);
-
 /// Fits a chain to falls, gusts apart.
-/// Errors: as check_recipe(), motion_of(), segment(), segment_features(), k_means(), system_segments(); stopped by
+/// Errors: as check_fields(), motion_of(), segment(), segment_features(), k_means(), system_segments(); stopped by
 /// `progress`.
 Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
                            const Progress& progress = {});

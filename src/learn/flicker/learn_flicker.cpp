@@ -149,16 +149,6 @@ void add_stretches(const Recording& recording, std::size_t channel, std::size_t 
   }
 }
 
-Result<void> check(const FlickerRecipe& recipe) {
-  const auto wrong = [](const std::string& what, double found, const std::string& expected) {
-    return Error{what + " is " + number_text(found, 6) + ", expected " + expected};
-  };
-  if (!(recipe.rate_hz >= 10 && recipe.rate_hz <= 1000)) return wrong("the rate", recipe.rate_hz, "10 to 1000");
-  if (recipe.modes < 2 || recipe.modes > 8) return wrong("the number of modes", recipe.modes, "2 to 8");
-  if (recipe.order < 1 || recipe.order > 8) return wrong("the order", recipe.order, "1 to 8");
-  return {};
-}
-
 // All stretches of the recordings, at the rate that all of them come to.
 Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
   Light light;
@@ -459,7 +449,7 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
 
 Result<Fit> learn_flicker(std::span<const Recording> recordings, const FlickerRecipe& recipe,
                           const Progress& progress) {
-  if (auto ok = flicker::check(recipe); !ok) return ok.error();
+  if (auto ok = check_fields(recipe); !ok) return ok.error();
   const auto light = flicker::light_of(recordings, recipe);
   if (!light) return light.error();
   if (auto ok = arx::check_progress(progress, "learning", 0); !ok) return ok.error();

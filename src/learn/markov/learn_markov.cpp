@@ -118,7 +118,7 @@ void describe(const SwitchedArxModel& model, const std::string& prefix, ReportSe
 
 Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
                            const Progress& progress) {
-  if (recipe.modes == 0) return Error{"0 modes were requested, expected 1 to 64"};
+  if (auto ok = check_fields(recipe); !ok) return ok.error();
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   const auto sources = arx::sources_of(recordings, channels);
   if (!sources) return sources.error();

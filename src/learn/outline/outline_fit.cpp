@@ -111,18 +111,6 @@ double outside_share(std::span<const Outline> recorded, std::span<const Outline>
 
 constexpr std::size_t kMinHeldOut = 16;  // rows that figures can be made from, a history of six among them
 
-Result<void> check_recipe(const OutlineRecipe& recipe) {
-  const auto refuse = [](const std::string& what, double value, const std::string& range) {
-    return Error{what + " is " + number_text(value, 6) + ", expected " + range};
-  };
-  if (recipe.paper < 0 || recipe.paper > 64) return refuse("the order of the paper's systems", recipe.paper, "0 to 64");
-  if (!(recipe.holdout >= 0 && recipe.holdout <= 0.9)) return refuse("the held-out share", recipe.holdout, "0 to 0.9");
-  if (!(recipe.pixels_per_unit >= 0 && std::isfinite(recipe.pixels_per_unit))) {
-    return refuse("the scale", recipe.pixels_per_unit, "0 or more pixels per unit");
-  }
-  return {};
-}
-
 // Moves inputs that come too late, and notes which and by how much.
 Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                        OutlineSummary& summary) {
@@ -270,7 +258,7 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                const Progress& progress) {
   constexpr const char* kStage = "learning";
-  if (auto ok = check_recipe(recipe); !ok) return ok.error();
+  if (auto ok = check_fields(recipe); !ok) return ok.error();
   OutlineFit out;
   OutlineSummary& summary = out.summary;
   const auto in_step = aligned(recordings, recipe, summary);

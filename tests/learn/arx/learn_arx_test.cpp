@@ -175,7 +175,7 @@ TEST(LearnArx, SettingsOutOfRangeAreNamed) {
   };
   ArxRecipe recipe = recipe_of_made();
   recipe.radius = 1;
-  EXPECT_THAT(complaint(recipe), HasSubstr("the radius is 1, expected"));
+  EXPECT_THAT(complaint(recipe), HasSubstr("radius is 1, expected 0.001 to"));
   recipe = recipe_of_made();
   recipe.na = OrderMatrix(1, 1, 2);
   EXPECT_THAT(complaint(recipe), HasSubstr("na is 1 × 1, expected 2 × 2"));

@@ -242,8 +242,8 @@ TEST(Outline, AFewDozenFramesAreNotUsableAndSaySo) {
 
 TEST(Outline, OptionsOutOfRangeAreRefused) {
   const std::vector recordings{made::outline_recording({.rows = 100})};
-  EXPECT_EQ(refused(recordings, {.paper = -1}), "the order of the paper's systems is -1, expected 0 to 64");
-  EXPECT_EQ(refused(recordings, {.holdout = 0.95}), "the held-out share is 0.95, expected 0 to 0.9");
+  EXPECT_EQ(refused(recordings, {.paper = -1}), "paper is -1, expected 0 to 64");
+  EXPECT_EQ(refused(recordings, {.holdout = 0.95}), "holdout is 0.95, expected 0 to 0.9");
 }
 
 TEST(Outline, AClipWithItsOwnKnotsIsExpressedInTheFirstOnes) {

@@ -64,6 +64,6 @@ export function withTake(session: Session, take: Take): Session {
   const before = made.takes.findIndex(({ name, film }) => name === take.name && film === take.film && film !== null);
   made.takes[before]?.reel.close();
   made.takes.splice(before < 0 ? made.takes.length : before, before < 0 ? 0 : 1, take);
-  const recipe = thing === 'fall' ? { ...recipeOfFalls(made.takes.map(({ captured }) => captured)), smooth: smoothRows(take.captured.rate) } : made.recipe;
+  const recipe = thing === 'fall' ? { ...recipeOfFalls(made.takes.map(({ captured }) => captured)), smooth_rows: smoothRows(take.captured.rate) } : made.recipe;
   return { ...made, recipe, learned: null };
 }

@@ -1,0 +1,108 @@
+// `wisp learn switched`: several ARX modes that a Markov chain switches; and `wisp learn flicker`: the light of a flame
+// by them, for lamps.
+
+#include <chrono>
+
+#include "commands/commands.hpp"
+#include "flags/order_flags.hpp"
+#include "flags/recipe_flags.hpp"
+#include "flags/recordings.hpp"
+#include "reports/learned_model.hpp"
+#include "terminal.hpp"
+#include "wisp/learn/learn.hpp"
+
+namespace wisp::cli {
+namespace {
+
+Result<SwitchedRecipe> switched_recipe(const Arguments& arguments) {
+  if (arguments.text("nk") == "auto") {
+    return Error{"--nk is auto, which `learn switched` does not find: `learn arx --nk auto` does, for a single model"};
+  }
+  SwitchedRecipe recipe;
+  if (auto ok = read_recipe(arguments, recipe); !ok) return ok.error();
+  auto na = order_choice(arguments, "na"), nb = order_choice(arguments, "nb"), nk = order_choice(arguments, "nk");
+  for (const auto* choice : {&na, &nb, &nk}) {
+    if (!*choice) return choice->error();
+  }
+  recipe.name = model_name(arguments);
+  recipe.na = *std::move(na);
+  recipe.nb = *std::move(nb);
+  recipe.nk = *std::move(nk);
+  return recipe;
+}
+
+Result<void> run_learn_switched(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto recipe = switched_recipe(arguments);
+  if (!recipe) return recipe.error();
+  auto whole = read_tables(arguments.positionals(), arguments, terminal);
+  if (!whole) return whole.error();
+  const auto recordings = in_range(std::move(*whole), arguments);
+  if (!recordings) return recordings.error();
+  auto fit = learn(*recordings, *recipe, terminal.progress());
+  if (!fit) return fit.error();
+  if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
+  return hand_over(*fit, model_path(arguments), start, terminal);
+}
+
+std::vector<Flag> switched_flags() {
+  std::vector<Flag> all = {
+      output_flag(),
+      {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
+  };
+  auto of_recipe = recipe_flags(SwitchedRecipe{});
+  flag_named(of_recipe, "outputs").required = true;
+  for (const auto& more : {of_recipe, order_flags({"2", " in every mode"}), recording_flags()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
+  if (!recordings) return recordings.error();
+  FlickerRecipe recipe;
+  if (auto ok = read_recipe(arguments, recipe); !ok) return ok;
+  recipe.name = model_name(arguments);
+  const auto fit = learn(*recordings, recipe, terminal.progress());
+  if (!fit) return fit.error();
+  return hand_over(*fit, model_path(arguments), start, terminal);
+}
+
+}  // namespace
+
+Command learn_switched_command() {
+  return {
+      "learn switched",
+      "Estimates several ARX modes and the Markov chain that switches them.",
+      {{"REC", "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name", true}},
+      switched_flags(),
+      {
+          {"wisp learn switched gusts.csv -o gusts.wisp --inputs u --outputs y --modes 3",
+           "Three modes that follow each other by chance"},
+      },
+      run_learn_switched,
+  };
+}
+
+Command learn_flicker_command() {
+  std::vector<Flag> flags = {output_flag()};
+  for (const auto& more : {recipe_flags(FlickerRecipe{}), recording_flags()}) {
+    flags.insert(flags.end(), more.begin(), more.end());
+  }
+  return {
+      "learn flicker",
+      "Learns the light of a flame, calm and restless by turns, for a lamp to play.",
+      {{"REC", "recordings of brightness, from `capture brightness`", true}},
+      std::move(flags),
+      {{"wisp capture brightness candle.mp4 -o light.csv && wisp learn flicker light.csv -o light.wisp",
+        "From a clip of a candle"},
+       {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv && "
+        "wisp learn flicker light.csv -o light.wisp",
+        "From a photodiode"}},
+      run_learn_flicker,
+  };
+}
+
+}  // namespace wisp::cli

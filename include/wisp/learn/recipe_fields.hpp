@@ -1,0 +1,100 @@
+#pragma once
+// What a recipe's fields are called, which values they take and what they mean, in one table a recipe: flags, their
+// help and their checks, Python's keywords and the studio's settings are made from it. The tables stand below the
+// recipes.
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+/// The words of an enumeration, in its order, where it has any.
+template <class Enumeration>
+inline constexpr std::array<std::string_view, 0> kWordsOf{};
+
+/// The word of a value.
+template <class Enumeration>
+requires(!kWordsOf<Enumeration>.empty()) constexpr std::string_view word_of(Enumeration value) {
+  return kWordsOf<Enumeration>[static_cast<std::size_t>(value)];
+}
+
+/// The value of a word; nothing for another word.
+template <class Enumeration>
+constexpr std::optional<Enumeration> value_of(std::string_view wanted) {
+  for (std::size_t k = 0; k < kWordsOf<Enumeration>.size(); ++k) {
+    if (kWordsOf<Enumeration>[k] == wanted) return static_cast<Enumeration>(k);
+  }
+  return std::nullopt;
+}
+
+/// What may be said of a field beside its meaning.
+struct FieldTraits {
+  const char* flag = nullptr;  ///< of `wisp learn`, without dashes; none: no flag, or one that the command makes
+  const char* sign = "";       ///< what the flag's help calls the value
+  double lowest = -std::numeric_limits<double>::infinity();  ///< of a number, included
+  double highest = std::numeric_limits<double>::infinity();  ///< of a number, included
+  const char* unset = nullptr;         ///< word of a number that is 0 or not there: the recordings decide
+  std::array<const char*, 2> words{};  ///< of a flag for false and for true; none: a switch
+};
+
+/// One field of a recipe.
+template <class Recipe, class Value>
+struct RecipeField {
+  const char* name;  ///< in C++, Python and JSON
+  Value Recipe::*member;
+  const char* help;
+  FieldTraits traits;
+};
+
+template <class Recipe, class Value>
+constexpr RecipeField<Recipe, Value> field(const char* name, Value Recipe::*member, const char* help,
+                                           const FieldTraits& traits = {}) {
+  return {name, member, help, traits};
+}
+
+/// What a number may be: "0 to 0.9", "0 or more".
+std::string range_text(double lowest, double highest);
+
+/// Whether a field's number is in its range, or left open.
+/// Errors: it is outside, with the field's name and range.
+Result<void> check_number(std::string_view name, double value, const FieldTraits& traits);
+
+/// Calls `visit` with each field of a recipe.
+template <class Recipe, class Visit>
+void for_each_field(const Recipe& recipe, Visit&& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of(recipe));
+}
+
+/// The number that a field holds; nothing where it holds another thing, or none.
+template <class Value>
+constexpr std::optional<double> number_of(const Value& value) {
+  if constexpr (std::is_same_v<Value, std::optional<int>>) {
+    if (value) return *value;
+  } else if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
+    return static_cast<double>(value);
+  }
+  return std::nullopt;
+}
+
+/// Whether all numbers of a recipe are in their ranges.
+/// Errors: the first that is not, by its name, with its range.
+template <class Recipe>
+Result<void> check_fields(const Recipe& recipe) {
+  Result<void> all;
+  for_each_field(recipe, [&](const auto& field) {
+    const auto number = number_of(recipe.*(field.member));
+    if (all && number) all = check_number(field.name, *number, field.traits);
+  });
+  return all;
+}
+
+}  // namespace wisp
