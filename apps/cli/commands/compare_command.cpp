@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "commands/commands.hpp"
+#include "flags/arx_flags.hpp"
 #include "flags/recordings.hpp"
-#include "flags/steps_flag.hpp"
 #include "terminal.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/validate.hpp"
@@ -73,7 +73,8 @@ Result<void> run_compare(const Arguments& arguments, Terminal& terminal) {
   const auto recordings = in_range(std::move(*whole), arguments);
   if (!recordings) return recordings.error();
   const auto report =
-      compare(*models, *recordings, {.steps = *steps, .initial = initial_of(arguments)}, terminal.progress());
+      compare(*models, *recordings, {.steps = *steps, .initial = *value_of<InitialState>(arguments.text("initial"))},
+              terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);
   if (!arguments.has("output")) return {};

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "commands/commands.hpp"
-#include "flags/order_flags.hpp"
+#include "flags/arx_flags.hpp"
 #include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/arx_figures.hpp"

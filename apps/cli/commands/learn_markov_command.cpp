@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "commands/commands.hpp"
-#include "flags/order_flags.hpp"
+#include "flags/arx_flags.hpp"
 #include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/learned_model.hpp"

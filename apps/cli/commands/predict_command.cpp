@@ -1,8 +1,8 @@
 // `wisp predict`: what a model says of a recording, row by row.
 
 #include "commands/commands.hpp"
+#include "flags/arx_flags.hpp"
 #include "flags/recordings.hpp"
-#include "flags/steps_flag.hpp"
 #include "reports/arx_validation.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/validate.hpp"
@@ -23,18 +23,17 @@ Result<Recording> recording_for(const Model& model, const std::string& path, con
 Result<void> run_predict(const Arguments& arguments, Terminal& terminal) {
   const auto model = read_model(arguments.positionals()[0]);
   if (!model) return model.error();
-  const auto steps = steps_of(arguments.text("steps"));
-  if (!steps) return steps.error();
+  const int steps = arguments.text("steps") == "inf" ? kFreeRun : arguments.integer("steps");
   const auto recording = recording_for(*model, arguments.positionals()[1], arguments);
   if (!recording) return recording.error();
-  const auto predicted = predict(*model, *recording, {*steps, initial_of(arguments)});
+  const auto predicted = predict(*model, *recording, {steps, *value_of<InitialState>(arguments.text("initial"))});
   if (!predicted) return predicted.error();
   const std::string& output = arguments.text("output");
   if (auto ok = write_csv(output, *predicted); !ok) return ok;
   terminal.add("output", output);
   terminal.add("rows", predicted->rows());
   terminal.say("wrote " + output + ": " + std::to_string(predicted->rows()) + " rows, " +
-               (*steps == kFreeRun ? std::string("free run") : std::to_string(*steps) + " ahead"));
+               (steps == kFreeRun ? std::string("free run") : std::to_string(steps) + " ahead"));
   return {};
 }
 
@@ -47,7 +46,13 @@ Command predict_command() {
       {{"MODEL", "the model, a .wisp file"}, {"REC", "a recording (.csv), a plain table or a MATLAB file"}},
       {
           {"output", Kind::kOutput, "OUT.csv", "", "where to write them", {}, true},
-          {"steps", Kind::kIntegerOrWord, "K|inf", "1", "steps ahead; inf: a free run, from the inputs alone", {"inf"}},
+          ranged({"steps",
+                  Kind::kIntegerOrWord,
+                  "K|inf",
+                  "1",
+                  "steps ahead; inf: a free run, from the inputs alone",
+                  {"inf"}},
+                 1, 100000),
           initial_flag(),
           {"range", Kind::kSamples, "A:B", "", "rows of the recording, 1-based and inclusive"},
           {"inputs", Kind::kNames, "A,B", "",

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "flags/arx_flags.hpp"
 #include "flags/recordings.hpp"
-#include "flags/steps_flag.hpp"
 #include "reports/arx_figures.hpp"
 #include "wisp/learn/validate.hpp"
 
@@ -70,8 +70,9 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
     if (!recording) return recording.error();
     recordings.push_back(std::move(*recording));
   }
-  const ValidationOptions options{steps, switched ? InitialState::kMeasured : initial_of(arguments),
-                                  arguments.has("figures")};
+  const ValidationOptions options{
+      steps, switched ? InitialState::kMeasured : *value_of<InitialState>(arguments.text("initial")),
+      arguments.has("figures")};
   const auto report = validate(model, recordings, options, terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);

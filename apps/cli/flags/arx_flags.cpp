@@ -1,6 +1,7 @@
-#include "flags/order_flags.hpp"
+#include "flags/arx_flags.hpp"
 
 #include <charconv>
+#include <cstdlib>
 
 namespace wisp::cli {
 namespace {
@@ -68,6 +69,27 @@ Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& 
     }
   }
   return OrderChoice(std::move(matrix));
+}
+
+Result<std::vector<int>> steps_in(const Arguments& arguments) {
+  std::vector<int> steps;
+  for (const std::string& word : arguments.names("steps")) {
+    const bool whole = word.find_first_not_of("0123456789") == std::string::npos;
+    steps.push_back(word == "inf" ? kFreeRun : std::atoi(word.c_str()));
+    if (word == "inf" || (whole && steps.back() >= 1 && steps.back() <= 100000)) continue;
+    return Error{"--steps: found \"" + word + "\", expected numbers from 1 to 100000, or inf, separated by commas"};
+  }
+  return steps;
+}
+
+Flag initial_flag() {
+  return {"initial",
+          Kind::kChoice,
+          "STATE",
+          "measured",
+          "where free simulation of a plain model starts: from measured samples, from rest (zero), or from what fits "
+          "best",
+          {"measured", "zero", "estimated"}};
 }
 
 }  // namespace wisp::cli

@@ -1,5 +1,8 @@
 #pragma once
-// --na, --nb and --nk as recipes have them.
+// --na, --nb and --nk as recipes have them; how far ahead is predicted, and where a free run starts.
+
+#include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "wisp/learn/arx_recipe.hpp"
@@ -20,5 +23,10 @@ std::vector<Flag> order_flags(const OrderHelp& help);
 /// row for each of --outputs and a column for each of --outputs (--na) or --inputs.
 /// Errors: text that cannot be understood or has not that shape, with what was found and expected.
 Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& flag);
+
+/// All of --steps: numbers of steps ahead, or `inf` for kFreeRun. Errors: one is neither.
+Result<std::vector<int>> steps_in(const Arguments& arguments);
+
+Flag initial_flag();
 
 }  // namespace wisp::cli
