@@ -202,6 +202,13 @@ std::string leading(const std::vector<std::string>& words) {
   return all;
 }
 
+// The command or group of commands that the first words name.
+std::string command_in(const std::vector<std::string>& words) {
+  std::string name = leading(words);
+  while (!name.empty() && !is_command(name) && !is_group(name)) name.erase(std::min(name.size(), name.rfind(' ')));
+  return name;
+}
+
 // Prints what `wisp` alone or `wisp help WORDS` asks for and returns the exit status; nothing for any other arguments.
 std::optional<int> answer_help(std::vector<std::string> words) {
   if (words.empty()) {
@@ -234,21 +241,14 @@ int run_program(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::string about = leading(words);
-    while (!about.empty() && !is_command(about) && !is_group(about))
-      about.erase(std::min(about.size(), about.rfind(' ')));
-    std::fputs(help(about).c_str(), stdout);
+    std::fputs(help(command_in(words)).c_str(), stdout);
     return flush_output();
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) {
-      const std::string wrong = wrong_words(words);
-      if (!wrong.empty()) {
-        std::fprintf(stderr, "%s\n", wrong.c_str());
-        return kWrongUsage;
-      }
-    }
-    // Maps CLI11's exit codes to 0 for help and 2 for wrong usage.
-    return root.exit(error) == 0 ? flush_output() : kWrongUsage;
+    if (error.get_exit_code() == 0) return root.exit(error), flush_output();  // the version
+    std::string wrong = wrong_words(words);
+    if (wrong.empty()) wrong = std::string("wisp: ") + error.what() + "; more: wisp " + command_in(words) + " --help";
+    std::fprintf(stderr, "%s\n", wrong.c_str());
+    return kWrongUsage;
   }
   for (const auto& wired : all) {
     if (wired->app->parsed()) return run_command(*wired);

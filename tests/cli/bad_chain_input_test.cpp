@@ -189,7 +189,7 @@ TEST_F(BadChainInput, FlagsOutsideTheirRangeAreWrongUsage) {
   const auto path = record("falls.csv", Falls{});
   for (const char* flag : {"--modes 0", "--modes 65", "--history 3", "--holdout 0.95", "--blend 0.6", "--best-of 257",
                            "--shortest=-1", "--debounce=-1", "--max-bytes 0"}) {
-    EXPECT_THAT(not_learned(path, flag, 2), testing::AllOf(StartsWith("--"), HasSubstr(", expected "))) << flag;
+    EXPECT_THAT(not_learned(path, flag, 2), StartsWith("wisp: --")) << flag;
   }
 }
 
