@@ -1,6 +1,6 @@
 // The cascaded tanks of the nonlinear benchmarks (M. Schoukens, P. Mattsson, T. Wigren & J.-P. Noël, 2016): one table
-// of ARX, Hammerstein ARX and Markov-switched ARX on a recording that learning has not seen. Prints it; exit status 1
-// where a bound is missed, 0 with a word where the recordings are not there.
+// of ARX and Markov-switched ARX on a recording that learning has not seen. Prints it; exit status 1 where a bound is
+// missed, 0 with a word where the recordings are not there.
 //
 //   wisp_verify_tanks
 //
@@ -108,8 +108,6 @@ void print_linear(const Tanks& tanks) {
   }
 }
 
-void print_choices(const Tanks& tanks) { std::printf("\nWhat rows held out of the learned recording say\n"); }
-
 double print_switched(const Tanks& tanks) {
   double best = std::numeric_limits<double>::infinity();
   std::printf("\nMarkov-switched ARX, volt\n   n   modes 2, 3, …\n");
@@ -139,7 +137,6 @@ int main() {
   const Tanks tanks{shared::read_sysid("cascaded_tanks_est"), shared::read_sysid("cascaded_tanks_val")};
   std::printf("== Cascaded tanks\n");
   print_linear(tanks);
-  print_choices(tanks);
   const double best = print_switched(tanks);
   Bounds bounds;
   std::printf("\n");
