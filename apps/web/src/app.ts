@@ -72,7 +72,7 @@ export class App {
     readonly wisp: Library,
     readonly settings: Settings,
     private readonly own: Readonly<Settings>,
-    private readonly overlay: boolean,
+    readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
       breath: (seconds) => this.breath.update(seconds, this.stage.frames) + (this.parts?.senses.air.right ?? 0),

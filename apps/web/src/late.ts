@@ -41,7 +41,7 @@ export function furnish(app: App): Parts {
     trouble: (words) => app.notices.say(words),
     ended: () => app.breath.deafen(),
     untuned: (why) => app.notices.say(UNTUNED[why], { words: 'Tune it to my breath', accept: () => tuning.open() }),
-  });
+  }, app.overlay);
   const tuning = new Tuning(ear, byId('tuning', HTMLElement), byId('blow', HTMLButtonElement));
   byId('tune', HTMLButtonElement).addEventListener('click', () => tuning.open());
   // What is filmed in the studio is not blown at.

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
-import { blowOut, drop, onPage, openCard, openDrawer, saved, skip, until } from './browser.js';
+import { blowOut, drop, onPage, openCard, openDrawer, saved, says, skip, until } from './browser.js';
 
 const noneLit = () => window.wisp.burning?.lit === 0;
 const bytesOf = (name) => readFileSync(new URL(`../public/models/${name}`, import.meta.url));
@@ -221,6 +221,8 @@ describe('sharing', { skip }, () => {
     assert.ok(corner < 20, `corner ${corner}`);
     let left = 1;
     for (let k = 0; k < width * height; ++k) if (picture[4 * k + 3] === 255) left = Math.min(left, (k % width) / width);
+    await says(over, '#notices', 'microphone');
+    assert.doesNotMatch(await over.textContent('#notices'), /press Blow|address bar/i);
     assert.ok(left < 0.25, `the leftmost wax is at ${left} of the picture's width`);
     await over.close();
   });

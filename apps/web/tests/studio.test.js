@@ -27,6 +27,9 @@ function table() {
   return Buffer.from(`${rows.join('\n')}\n`);
 }
 
+/** The same, of a logger that writes −999 where it has no sample. */
+const tableWithSentinel = () => Buffer.from(table().toString().split('\n').map((row, k) => (k % 97 === 50 ? row.replace(/[^,]*$/, '-999') : row)).join('\n'));
+
 /** The same, until for its last quarter what comes out has nothing to do with what goes in. */
 function tableThatBreaks() {
   const rows = table().toString().trim().split('\n');
@@ -179,7 +182,9 @@ describe('a table', { skip }, () => {
     await step(page, 'look');
     const pressed = (column) => page.getAttribute(`[data-column="${column}"]`, 'aria-pressed');
     assert.deepEqual(await Promise.all(['time ignored', 'power input', 'temperature output'].map(pressed)), ['true', 'true', 'true']);
+    await says(page, panel, '600 rows, 10 a second \\(from column "time", in steps of 0.1 s\\)');
     assert.equal(await page.inputValue('#table-rate'), '10');
+    assert.equal(await page.locator(`${panel} li`).count(), 0, 'nothing is wrong with it');
     await page.click('[data-act=learn]');
     await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
@@ -197,6 +202,17 @@ describe('a table', { skip }, () => {
     await step(page, 'look');
     await page.click('[data-act=learn]');
     await says(page, '#notices', 'No delay is supported');
+  });
+
+  it('says what will spoil a model before it is learned, and the cure', async () => {
+    await drop(page, 'logger.csv', tableWithSentinel());
+    await says(page, panel, "'temperature' is -999 in 6 rows.*stands for a missing sample. Leave these cells empty");
+    assert.equal(await page.getAttribute('#studio', 'data-step'), 'look');
+    await page.click('[data-column="temperature ignored"]');
+    await page.click('[data-column="time output"]');
+    await page.fill('#table-rate', '20');
+    await says(page, panel, '600 rows, 20 a second');
+    assert.doesNotMatch(await page.textContent(panel), /-999/);
   });
 });
 

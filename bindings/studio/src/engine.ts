@@ -2,7 +2,7 @@
 // them where they stand.
 
 import { compiled, Module } from './module.js';
-import type { Captured, Curve, Learned, PictureSettings, Recipe, Region, Report, Seen, Series, TableSettings } from './types.js';
+import type { Captured, Learned, PictureSettings, Recipe, Region, Seen, Series, TableSettings } from './types.js';
 
 /** A picture as decoders lay it out. */
 export interface RawPicture {
@@ -43,13 +43,8 @@ interface SeenText {
   moving?: [number, number, number, number];
 }
 
-interface ReportText {
-  report: Report;
-  curves: Curve[];
-  text: string;
-}
-
-type RecordingText = ReportText & { rate: number; rows: number; episodes: number[]; series: Omit<Series, 'samples'>[] };
+type ReportText = Pick<Learned, 'report' | 'curves' | 'text'>;
+type RecordingText = Omit<Captured, 'csv' | 'series'> & { series: Omit<Series, 'samples'>[] };
 
 /**
  * Of `studio.wasm`: captures, and learns and judges everything but chains. Of `chains.wasm`: learns and judges chains and
@@ -98,13 +93,8 @@ export class Engine extends Module {
 
   /** The next sound, interleaved; of the first block `begin` counts, seconds after the first frame. */
   sound(samples: Float32Array, channels: number, rate: number, begin: number): void {
-    const at = this.take(samples.byteLength);
-    this.floats(at, samples.length).set(samples);
-    try {
-      this.call('studio_sound', at, samples.length, channels, rate, begin);
-    } finally {
-      this.functions.free!(at);
-    }
+    const bytes = new Uint8Array(samples.buffer, samples.byteOffset, samples.byteLength);
+    this.withBytes(bytes, (at) => this.call('studio_sound', at, samples.length, channels, rate, begin));
   }
 
   /** What the frames so far have shown. */
@@ -133,11 +123,9 @@ export class Engine extends Module {
     return this.recording();
   }
 
-  /** Reads a recording or a table. */
-  table(name: string, bytes: Uint8Array, settings: TableSettings = {}): Captured {
-    this.withBytes(bytes, (at, size) =>
-      this.withText(JSON.stringify({ ...settings, name }), (words, length) => this.call('studio_table', at, size, words, length)),
-    );
+  /** Reads a recording or a table; its report, with `advise`, says what will spoil a model, and cures. */
+  table(name: string, bytes: Uint8Array, settings: TableSettings = {}, how: 'table' | 'advise' = 'table'): Captured {
+    this.read(`studio_${how}`, bytes, { ...settings, name });
     return this.recording();
   }
 
@@ -158,25 +146,19 @@ export class Engine extends Module {
 
   private gather(recordings: readonly Uint8Array[], names: readonly string[] = []): void {
     this.functions.studio_clear!();
-    for (const [k, bytes] of recordings.entries()) {
-      const settings = JSON.stringify({ name: names[k] ?? 'recording.csv' });
-      this.withBytes(bytes, (at, size) => this.withText(settings, (words, length) => this.call('studio_add', at, size, words, length)));
-    }
+    for (const [k, bytes] of recordings.entries()) this.read('studio_add', bytes, { name: names[k] ?? 'recording.csv' });
+  }
+
+  /** Hands a table to a function that reads it. */
+  private read(by: string, bytes: Uint8Array, settings: TableSettings & { name: string }): void {
+    this.withBytes(bytes, (at, size) => this.withText(JSON.stringify(settings), (words, length) => this.call(by, at, size, words, length)));
   }
 
   private recording(): Captured {
-    const { series, rows, ...rest } = JSON.parse(this.text()) as RecordingText;
+    const read = JSON.parse(this.text()) as RecordingText;
     const numbers = this.numbers();
-    const { report, text, rate, episodes } = rest;
-    return {
-      csv: this.answerBytes(),
-      rate,
-      rows,
-      episodes,
-      series: series.map((one, k) => ({ ...one, samples: numbers.slice(k * rows, (k + 1) * rows) })),
-      report,
-      text,
-    };
+    const series = read.series.map((one, k) => ({ ...one, samples: numbers.slice(k * read.rows, (k + 1) * read.rows) }));
+    return { ...read, csv: this.answerBytes(), series };
   }
 
   protected override progress(stage: string, share: number): boolean {

@@ -7,7 +7,7 @@ import type { Captured, Exported, ExportSettings, Learned, PictureSettings, Reci
 export type Task =
   | { do: 'film'; file: File; settings: PictureSettings }
   | { do: 'pictures'; files: File[]; rate: number; settings: PictureSettings }
-  | { do: 'table'; name: string; bytes: Uint8Array; settings: TableSettings }
+  | { do: 'table' | 'advise'; name: string; bytes: Uint8Array; settings: TableSettings }
   | { do: 'learn'; recordings: readonly Uint8Array[]; recipe: Recipe }
   | { do: 'validate'; model: Uint8Array; recordings: readonly Uint8Array[] }
   | { do: 'export'; model: Uint8Array; settings: ExportSettings }

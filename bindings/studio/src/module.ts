@@ -84,10 +84,6 @@ export class Module {
     return new Uint8Array(this.memory.buffer, at, size);
   }
 
-  protected floats(at: number, count: number): Float32Array {
-    return new Float32Array(this.memory.buffer, at, count);
-  }
-
   protected take(size: number): number {
     const at = told(() => this.functions.malloc!(Math.max(1, size)));
     if (at === 0) outOfMemory();

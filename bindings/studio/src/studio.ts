@@ -103,9 +103,9 @@ export class Studio {
     };
   }
 
-  /** Reads a recording or a table: CSV. */
-  table(name: string, bytes: Uint8Array, settings: TableSettings = {}): Promise<Captured> {
-    return this.ask({ do: 'table', name, bytes, settings });
+  /** Reads a recording or a table: CSV. Its report, with `advise`, says what in it will spoil a model, and cures. */
+  table(name: string, bytes: Uint8Array, settings: TableSettings = {}, how: 'table' | 'advise' = 'table'): Promise<Captured> {
+    return this.ask({ do: how, name, bytes, settings });
   }
 
   /** Learns from recordings, each as `Captured.csv`. */

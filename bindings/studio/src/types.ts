@@ -82,6 +82,8 @@ export interface Captured {
   /** as the program writes it: what is learned from, saved and sent */
   csv: Uint8Array;
   rate: number;
+  /** where the rate is from; empty where it was said */
+  why: string;
   rows: number;
   /** rows at which episodes begin: stretches that history does not cross */
   episodes: number[];
@@ -158,7 +160,7 @@ export interface Exported {
   bytes: Uint8Array;
 }
 
-/** Columns of a table that does not say itself. */
+/** Columns of a table, and its rows a second, where it does not say itself. */
 export interface TableSettings {
   rate?: number;
   inputs?: string[];

@@ -223,7 +223,8 @@ async function perform(of: number, task: Task): Promise<Outcome | null> {
     case 'pictures':
       return pictures(of, wisp, task.files, task.rate, task.settings);
     case 'table':
-      return wisp.table(task.name, task.bytes, task.settings);
+    case 'advise':
+      return wisp.table(task.name, task.bytes, task.settings, task.do);
     case 'learn':
       return byEither(of, (learner) => learner.learn(task.recordings, task.recipe));
     case 'validate':

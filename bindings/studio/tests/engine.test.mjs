@@ -98,6 +98,15 @@ describe('the modules that learn', () => {
     assert.ok(judged.curves.length > 0);
   });
 
+  test('says of a table what will spoil a model, and where its rate is from', async () => {
+    const engine = await Engine.start(module);
+    const hostile = Buffer.from(table(600).toString().replace(/^(.*),[^,\n]*$/gm, (line, rest, at) => (at % 61 === 7 ? `${rest},-999` : line)));
+    const { report, why, rate } = engine.table('dryer.csv', hostile, { inputs: ['heat'], outputs: ['temperature'] }, 'advise');
+    assert.match(report.remarks[0].cause, /^'temperature' is -999 in \d+ rows/);
+    assert.equal(engine.table('dryer.csv', table(600), { inputs: ['heat'], outputs: ['temperature'], rate: 5 }, 'advise').report.remarks.length, 0);
+    assert.ok(why !== '' && rate > 0, why);
+  });
+
   test('judges a table on rows that were kept back', async () => {
     const engine = await Engine.start(module);
     const recipe = { kind: 'arx', inputs: ['heat'], outputs: ['temperature'], order: 1, nk: 1, kept_back: 0.25 };

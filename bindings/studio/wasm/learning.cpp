@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <sstream>
 #include <string_view>
 
 #include "learns.hpp"
@@ -11,7 +10,6 @@
 #include "wisp/learn/learn.hpp"
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/record/csv.hpp"
 
 // The host is told of progress, and answers whether to go on.
 extern "C" __attribute__((import_module("env"), import_name("studio_progress"))) int studio_progress(const char* stage,
@@ -54,23 +52,23 @@ SomeRecipe with_settings(const json& from, SomeRecipe recipe) {
   return recipe;
 }
 
+// Of what the other module learns the kind alone.
 Recipe recipe_of(const json& from) {
   const std::string kind = from.value("kind", "flame");
-  if (kind == "chain") return with_settings(from, ChainRecipe{});
-  if (kind == "leaf") return with_settings(from, LeafRecipe{});
-  if (kind == "outline") return with_settings(from, OutlineRecipe{});
-  if (kind != "arx") return with_settings(from, FlameRecipe{});
-  ArxRecipe defaults{.name = "table", .responses = true};
-  defaults.nk.reset();
-  if (const auto order = whole(from, "order"); order && *order > 0) defaults.na = defaults.nb = *order;
-  return with_settings(from, std::move(defaults));
-}
-
-Result<Recording> read_recording(const char* bytes, std::size_t size, const json& settings) {
-  std::istringstream stream(std::string(bytes, size));
-  CsvOptions options{.inputs = names(settings, "inputs"), .outputs = names(settings, "outputs")};
-  options.rate_hz = settings.value("rate", 0.0);
-  return read_csv(stream, settings.value("name", "recording.csv"), options);
+  const bool chain = kind == "chain" || kind == "leaf";
+  if constexpr (kLearnsChains) {
+    if (!chain) return FlameRecipe{};
+    if (kind == "leaf") return with_settings(from, LeafRecipe{});
+    return with_settings(from, ChainRecipe{});
+  } else {
+    if (chain) return ChainRecipe{};
+    if (kind == "outline") return with_settings(from, OutlineRecipe{});
+    if (kind != "arx") return with_settings(from, FlameRecipe{});
+    ArxRecipe defaults{.name = "table", .responses = true};
+    defaults.nk.reset();
+    if (const auto order = whole(from, "order"); order && *order > 0) defaults.na = defaults.nb = *order;
+    return with_settings(from, std::move(defaults));
+  }
 }
 
 // What the last `share` of the rows says of a model that was learned from those before; nothing where either part is
@@ -106,14 +104,7 @@ using namespace wisp::studio;
 
 extern "C" {
 
-// Reads a table or a recording: {name, rate, inputs, outputs}.
-WISP_STUDIO(table) int studio_table(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
-  const auto recording = read_recording(bytes, size, parsed(text, text_size));
-  if (!recording) return fail(recording.error());
-  return hand_over(*recording, {});
-}
-
-// Puts a recording, as CSV, beside the others that are to be learned from; {name, …} as studio_table.
+// Puts a recording, as CSV, beside the others that are to be learned from; {name, rate, inputs, outputs}.
 WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
   auto recording = read_recording(bytes, size, parsed(text, text_size));
   if (!recording) return fail(recording.error());

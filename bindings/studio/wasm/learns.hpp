@@ -8,7 +8,7 @@
 namespace wisp::studio {
 
 /// Which of the two this is.
-extern const bool kLearnsChains;
+inline constexpr bool kLearnsChains = WISP_LEARNS_CHAINS;
 
 /// Why something is learned by neither.
 inline Error left_out(const char* what) { return Error{std::string(what) + " are not learned here; use the program"}; }

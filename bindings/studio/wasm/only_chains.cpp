@@ -12,8 +12,6 @@ namespace wisp {
 
 using studio::left_out;
 
-const bool studio::kLearnsChains = true;
-
 // Nothing comes to these.
 Result<Fit> learn_arx(std::span<const Recording>, const ArxRecipe&, const Progress&) { return Error{}; }
 Result<Fit> learn_outline(std::span<const Recording>, const OutlineRecipe&, const Progress&) { return Error{}; }

@@ -1,7 +1,9 @@
 #include "reported.hpp"
 
 #include <span>
+#include <sstream>
 
+#include "settings.hpp"
 #include "wisp/describe/json.hpp"
 #include "wisp/describe/text.hpp"
 #include "wisp/record/csv.hpp"
@@ -33,6 +35,14 @@ json report_json(const Report& report) {
   return json{{"report", std::move(out)}, {"curves", std::move(curves)}, {"text", to_text(report)}};
 }
 
+Result<Recording> read_recording(const char* bytes, std::size_t size, const json& settings) {
+  std::istringstream stream(std::string(bytes, size));
+  CsvOptions options{.inputs = names(settings, "inputs"), .outputs = names(settings, "outputs")};
+  options.rate_hz = settings.value("rate", 0.0);
+  options.usual_rate_hz = 1;
+  return read_csv(stream, settings.value("name", "recording.csv"), options);
+}
+
 int hand_over(const Recording& recording, const Report& report) {
   Answer& out = fresh();
   const std::string csv = csv_text(recording);
@@ -45,6 +55,7 @@ int hand_over(const Recording& recording, const Report& report) {
   }
   json text = report_json(report);
   text["rate"] = recording.rate_hz;
+  text["why"] = recording.rate_note.text;
   text["rows"] = recording.rows();
   json begins = json::array();
   for (const Episode& episode : episodes(recording)) begins.push_back(episode.begin);

@@ -5,8 +5,6 @@
 
 namespace wisp {
 
-const bool studio::kLearnsChains = false;
-
 // Nothing comes to these.
 Result<Fit> learn_chain(std::span<const Recording>, const ChainRecipe&, const Progress&) { return Error{}; }
 Result<Report> validate_chain(const Model&, std::span<const Recording>, std::uint64_t, const Progress&) {

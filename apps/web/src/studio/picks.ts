@@ -2,9 +2,7 @@
 
 /** What it is, to be learned from. */
 export type Pick =
-  | { kind: 'film'; files: File[] }
-  | { kind: 'pictures'; files: File[] }
-  | { kind: 'table'; files: File[] }
+  | { kind: 'film' | 'pictures' | 'table'; files: File[] }
   | { kind: 'nothing'; words: string };
 
 const isPicture = ({ name, type }: File): boolean => /^image\/(?!gif|svg)/.test(type) || /\.(png|jpe?g|webp|bmp)$/i.test(name);
@@ -31,15 +29,11 @@ export async function unfold(files: readonly File[], entries: readonly (FileSyst
   return (await Promise.all(folders.map(filesOf))).flat();
 }
 
-/** Sorted as people count: frame 9 comes before frame 10. */
-const counted = (files: readonly File[]): File[] =>
-  [...files].sort((a, b) => a.name.localeCompare(b.name, 'en', { numeric: true }));
-
 /** Says what files are. */
 export function pickOf(files: readonly File[]): Pick {
   const films = files.filter(isFilm);
   if (films.length > 0) return { kind: 'film', files: films };
-  const pictures = counted(files.filter(isPicture));
+  const pictures = files.filter(isPicture);
   if (pictures.length > 1) return { kind: 'pictures', files: pictures };
   if (pictures.length === 1) return { kind: 'nothing', words: 'One picture does not move. Choose a film, or the whole folder of numbered pictures.' };
   const tables = files.filter(isTable);

@@ -8,14 +8,13 @@ import type { Dropped } from '../drops.js';
 import { element } from '../panel/element.js';
 import { fetchPart } from '../part.js';
 import { fetchShipped, SHIPPED_FLAME } from '../shipped.js';
-import { fallsPlayed, plotsOf, recordedOf } from './pictures/curves.js';
+import { fallsPlayed, linesOfFalls, plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
 import { Filming } from './camera/filming.js';
 import { gatherPanel } from './panels/gather.js';
 import { Invitation } from './pictures/invitation.js';
 import { lookPanel, partOfSeen } from './panels/look.js';
 import { Engine } from './engine.js';
-import { linesOfFalls } from './falls.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { MAX_OF_FILE, Reel } from './reel.js';
@@ -183,9 +182,9 @@ export class Room {
   /** To what there was before. */
   private back(): void {
     const [last] = this.session.takes.slice(-1);
-    if (this.session.learned !== null) this.showResult();
-    else if (last !== undefined) this.showLook(last);
-    else this.gather();
+    if (this.session.learned !== null && last !== undefined) this.showResult();
+    else if (last === undefined || thingOf(this.session) === 'table') this.gather();
+    else this.showLook(last);
   }
 
   private files(files: File[]): void {
@@ -423,7 +422,7 @@ export class Room {
         this.engine.renew();
         this.host.say(wordsOf(error));
       }
-      this.backToLook();
+      this.back();
       return;
     }
     if (turn !== this.turn) return;
@@ -448,13 +447,6 @@ export class Room {
     } finally {
       if (this.judging === control) this.judging = null;
     }
-  }
-
-  private backToLook(): void {
-    const [last] = this.session.takes.slice(-1);
-    if (this.session.learned !== null && last !== undefined) this.showResult();
-    else if (last === undefined || thingOf(this.session) === 'table') this.gather();
-    else this.showLook(last);
   }
 
   /** The film of these outlines against what was learned. */
@@ -547,7 +539,14 @@ export class Room {
       this.clear();
       this.stepTo('look', 'table');
       this.showLeft(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
-      this.showPanel(tablePanel(file.name, head, (settings) => void this.tabled(file.name, head.named ?? bytes, settings), () => this.back()));
+      const table = head.named ?? bytes;
+      this.showPanel(
+        tablePanel(file.name, head, {
+          learn: (settings) => void this.tabled(file.name, table, settings),
+          advise: async (settings) => (await this.engine.open()).table(file.name, table, settings, 'advise'),
+          back: () => this.back(),
+        }),
+      );
     } catch (error) {
       this.host.say(wordsOf(error));
     }

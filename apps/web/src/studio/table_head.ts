@@ -10,8 +10,6 @@ export interface TableHead {
   names: string[];
   /** whether its cells are numbers, by column */
   numeric: boolean[];
-  /** samples a second, where a column of times or the file itself says so */
-  rate: number | null;
   /** a recording in Wisp's own form: its roles are known */
   recording: boolean;
   /** nothing names its columns: these are its bytes with names */
@@ -32,17 +30,8 @@ const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
 const numberOf = (text: string): number => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e')));
 const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(numberOf(text));
 
-/** A column of times, as its name says; and whether it counts milliseconds. */
+/** A column of times, as its name says. */
 const isTime = (name: string): boolean => /^(t|time|seconds?|sec|zeit|millis|ms)(?![a-z])/i.test(name);
-const inMilliseconds = (name: string): boolean => /(^|[^a-z])(ms|millis)(?![a-z])/i.test(name);
-
-/** The time between rows of a column that counts evenly, as a rate; null where it does not. `unit`: seconds. */
-function rateOfTimes(times: readonly number[], unit: number): number | null {
-  const steps = times.slice(1).map((time, k) => time - (times[k] as number));
-  const mean = steps.reduce((sum, step) => sum + step, 0) / Math.max(1, steps.length);
-  if (!(mean > 0) || steps.some((step) => Math.abs(step - mean) > 0.05 * mean)) return null;
-  return Number((1 / (unit * mean)).toPrecision(6));
-}
 
 /** Looks at the first lines. */
 export function headOf(bytes: Uint8Array): TableHead {
@@ -58,13 +47,9 @@ export function headOf(bytes: Uint8Array): TableHead {
   const rows = (unnamed ? cells : cells.slice(1)).filter((row) => row.length >= names.length);
   // The first row may say units.
   const numeric = names.map((_, k) => rows.some((row) => Number.isFinite(numberOf(row[k] ?? ''))) && rows.slice(1).every((row) => isNumber(row[k] ?? '')));
-  const timed = names.findIndex(isTime);
-  const said = comments.map((line) => /^# rate_hz (\S+)/.exec(line)?.[1]).find((rate) => rate !== undefined);
-  const times = timed < 0 ? [] : rows.slice(0, -1).map((row) => numberOf(row[timed] ?? '')).filter(Number.isFinite);
   return {
     names,
     numeric,
-    rate: said !== undefined ? Number(said) : times.length > 3 ? rateOfTimes(times, inMilliseconds(names[timed] ?? '') ? 1e-3 : 1) : null,
     recording: comments.some((line) => line.startsWith('# wisp-recording')),
     named: unnamed ? withNames(bytes, names, separator) : null,
     preview: names.flatMap((name, k) => (numeric[k] === true && !isTime(name) ? [columnOf(name, rows.map((row) => row[k] ?? ''))] : [])),

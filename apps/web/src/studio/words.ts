@@ -22,6 +22,26 @@ export function sentence(words: string): string {
   return `${first ?? ''}${said.slice(1)}${/[.!?]$/.test(said) ? '' : '.'}`;
 }
 
+/** A sentence of the program's that names its flags, in the page's own terms. */
+export const inPage = (words: string): string => sentence(words.replace('--rate HZ or --dt S', 'how many rows a second there are'));
+
+/** Cures of remarks that are flags of the program, by kind. */
+const CURES: Readonly<Record<number, string>> = {
+  8: 'Delays are found while it learns',
+  9: 'Let the change from row to row be what comes out',
+  10: 'Take the straight line off, add a column that tells what drifts, or give a part of the rows',
+};
+
+/** What will spoil a model of a table, each with its cure. */
+export function remarksOf({ report }: Captured): string[] {
+  const remarks = report.remarks as { kind: number; cause: string; cure: string }[];
+  return remarks.map(({ kind, cause, cure }) => `${sentence(cause)} ${inPage(CURES[kind] ?? cure)}`);
+}
+
+/** How long a table is, and where its rate is from. */
+export const rowsOf = ({ rows, rate, why }: Captured): string =>
+  sentence(`${rows.toLocaleString('en')} rows, ${Number(rate.toPrecision(6))} a second${why === '' ? '' : ` (${why})`}`);
+
 export interface Verdict {
   good: boolean;
   /** in a few words */
@@ -133,15 +153,12 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
   } else add('Outlines that lie over each other, a frame ahead', figure(report, 'overlap_by_steps', '1'), 0.85);
   if (thing === 'flame') return made;
   const kept = judged === undefined ? [] : judgedFits(judged.report);
-  for (const { name, next, free } of kept.slice(0, MAX_OUTPUTS)) {
+  const fit = (steps: string, k: number): number => figure(report, 'fit_percent', steps, String(k)) ?? NaN;
+  const fits = kept.length > 0 ? kept : outputs.map((name, k) => ({ name, next: fit('1', k), free: fit('inf', k) }));
+  for (const { name, next, free } of fits.slice(0, MAX_OUTPUTS)) {
     add(`${name}, a row ahead`, next / 100, 0.5);
     add(`${name}, played from what goes in alone`, free / 100, 0.4);
   }
-  if (kept.length > 0) return made;
-  outputs.slice(0, MAX_OUTPUTS).forEach((name, k) => {
-    add(`${name}, a row ahead`, percent('fit_percent', '1', String(k)), 0.5);
-    add(`${name}, played from what goes in alone`, percent('fit_percent', 'inf', String(k)), 0.4);
-  });
   return made;
 }
 
@@ -181,17 +198,10 @@ const CAPTURING: Readonly<Record<Thing | 'either', string>> = {
 };
 
 const STAGES: Readonly<Record<string, string>> = {
-  reading: 'Reading the film.',
-  decoding: 'Reading the film.',
-  listening: 'Listening for wind in the sound.',
   learning: 'Finding out what each point does next, and what the wind does to it.',
-  aligning: 'Finding out how much later the flame moves than the sound is heard.',
-  'choosing input curves': 'Finding out how much harder a strong breath bends it than a soft one.',
-  'fitting input curves': 'Bending the wind so that soft and strong both fit.',
   'searching orders': 'Finding out how far back it has to remember.',
   'finding delays': 'Finding out how late it answers.',
   fitting: 'Fitting what each point of the outline does next.',
-  refining: 'Refining it until it also fits far ahead.',
   simulating: 'Playing it freely, beside the film.',
   predicting: 'Predicting seconds that it has never seen.',
   judging: 'Judging it on seconds that it has never seen.',

@@ -34,8 +34,7 @@ const PLAIN = { share: 0.4, seconds: 0.12, strong: 1.8 };
 const HISS =
   'Blowing is hardly more than a hiss at this microphone, so from now on it goes by loudness: loud words may put it out too.';
 
-const STEADY =
-  'It has become louder here: a fan, rain or an engine may pass for breath. Press Blow twice, and I take it for the room.';
+const STEADY = 'It has become louder here: a fan, rain or an engine may pass for breath. ';
 
 export interface EarEvents {
   wind(wind: number): void;
@@ -55,12 +54,20 @@ type Calibration = Awaited<ReturnType<Microphone['calibration']>>;
 const ELSE = ' Until then a quick move past the flame makes wind too.';
 
 const WORDS: Readonly<Record<MicrophoneTrouble, string>> = {
-  unsupported: 'Browsers give a microphone only to pages that come over HTTPS, or from this very machine.' + ELSE,
-  denied: 'The microphone was not allowed. It can be allowed in the address bar.' + ELSE,
-  none: 'No microphone was found. Plug one in and press Blow again.' + ELSE,
-  busy: 'Another program holds the microphone. Close it there and press Blow again.' + ELSE,
-  lost: 'The microphone is gone. Press Blow when it is back.' + ELSE,
-  failed: 'The microphone could not be used.' + ELSE,
+  unsupported: 'Browsers give a microphone only to pages that come over HTTPS, or from this very machine.',
+  denied: 'The microphone was not allowed. It can be allowed in the address bar.',
+  none: 'No microphone was found. Plug one in and press Blow again.',
+  busy: 'Another program holds the microphone. Close it there and press Blow again.',
+  lost: 'The microphone is gone. Press Blow when it is back.',
+  failed: 'The microphone could not be used.',
+};
+
+/** An overlay has no button, and OBS no address bar. */
+const IN_OVERLAY: Partial<typeof WORDS> = {
+  denied: 'The microphone was not allowed. OBS allows it when it is started with --enable-media-stream.',
+  none: 'No microphone was found. Plug one in and load this page again.',
+  busy: 'Another program holds the microphone. Close it there and load this page again.',
+  lost: 'The microphone is gone. Load this page again when it is back.',
 };
 
 export class Ear {
@@ -93,6 +100,7 @@ export class Ear {
   constructor(
     private readonly wisp: Library,
     private readonly events: EarEvents,
+    private readonly overlay: boolean,
   ) {}
 
   /** How strong the breath is: 0 to 1. */
@@ -245,12 +253,13 @@ export class Ear {
 
   /** Says once that something steady has begun since the room was learned. */
   private watchRoom(rise: number): void {
-    if (rise >= LOUDER && !this.louder) this.events.trouble(STEADY);
+    if (rise >= LOUDER && !this.louder) this.events.trouble(`${STEADY}${this.overlay ? 'Load this page again' : 'Press Blow twice'}, and I take it for the room.`);
     this.louder = rise >= LOUDER;
   }
 
   private fail(error: unknown): void {
     this.close();
-    this.events.trouble(WORDS[error instanceof MicrophoneError ? error.trouble : 'failed']);
+    const trouble = error instanceof MicrophoneError ? error.trouble : 'failed';
+    this.events.trouble(((this.overlay && IN_OVERLAY[trouble]) || WORDS[trouble]) + ELSE);
   }
 }

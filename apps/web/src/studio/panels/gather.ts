@@ -2,6 +2,7 @@
 
 import { element } from '../../panel/element.js';
 import type { Thing } from '../words.js';
+import { button } from './verdict.js';
 
 export interface GatherEvents {
   camera(): void;
@@ -29,10 +30,10 @@ function icon(name: keyof typeof ICONS): SVGElement {
 }
 
 function choice(name: keyof typeof ICONS, title: string, words: string, act: () => void): HTMLElement {
-  const button = element('button', { type: 'button', class: 'choice-card', 'data-gather': name });
-  button.append(icon(name), element('span', {}, element('b', {}, title), element('small', {}, words)));
-  button.addEventListener('click', act);
-  return button;
+  const card = element('button', { type: 'button', class: 'choice-card', 'data-gather': name });
+  card.append(icon(name), element('span', {}, element('b', {}, title), element('small', {}, words)));
+  card.addEventListener('click', act);
+  return card;
 }
 
 /** `more`: something was gathered already, and this is to be learned together with it; `back` returns to it. */
@@ -62,15 +63,13 @@ export function gatherPanel(events: GatherEvents, more: { count: number; thing: 
     table,
   );
   if (more !== null) {
-    const back = element('button', { type: 'button', class: 'tool' }, 'Back');
-    back.addEventListener('click', () => more.back());
     return element(
       'div',
       { class: 'panel' },
       element('h2', { tabindex: '-1' }, 'Film more'),
       element('p', {}, `${more.count === 1 ? 'One film is' : `${more.count} films are`} kept. Another is learned together with ${more.count === 1 ? 'it' : 'them'}${more.thing === 'fall' ? ', if it is of the same thing falling.' : ': soft breaths in one, blowing out in the next.'}`),
       choices,
-      element('div', { class: 'actions' }, back),
+      element('div', { class: 'actions' }, button('Back', 'back', () => more.back())),
     );
   }
   return element(

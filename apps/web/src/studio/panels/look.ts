@@ -3,7 +3,7 @@
 import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { rateField } from './rate.js';
-import { button, verdictHead } from './verdict.js';
+import { button, choice, list, verdictHead } from './verdict.js';
 import { shownIn, type Take } from '../session.js';
 import { adviceOf, foundIn, sentence, within } from '../words.js';
 
@@ -14,8 +14,7 @@ type Fact = readonly [string, string];
 /** What was decided by now. */
 export function partOfSeen({ threshold, channel, flames, frame, state, moving }: Seen, falls: boolean): Fact[] {
   if (falls) return [['Picture', frame.toLocaleString('en')], ['Moves', moving === null ? 'nothing' : 'something']];
-  const facts: Fact[] = [['Picture', frame.toLocaleString('en')]];
-  facts.push(['Flame', state === 'waiting' ? 'not found yet' : state === 'gone' ? 'not in this picture' : 'followed']);
+  const facts: Fact[] = [['Picture', frame.toLocaleString('en')], ['Flame', state === 'waiting' ? 'not found yet' : state === 'gone' ? 'not in this picture' : 'followed']];
   if (threshold !== null && channel !== null) facts.push(['Its edge', `${Math.round(threshold)} of 255 in ${COLOURS[channel] ?? channel}`]);
   if (flames !== null && flames > 1) facts.push(['Flames', String(flames)]);
   return facts;
@@ -73,10 +72,8 @@ export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents
   if (falls && take.again !== null) panel.append(wallHeight(settings.height ?? 1, events));
   if (typeof flames === 'number' && flames > 1 && take.again !== null) panel.append(flameChoice(flames, settings.flame ?? 1, events));
   const warnings = [...(report.warnings ?? []).filter((line) => !falls || !line.includes('--height')).map(sentence), ...(falls ? [] : adviceOf([captured], null))];
-  if (warnings.length > 0) {
-    panel.append(element('section', { class: 'warnings' }, element('h3', {}, 'Better next time'), element('ul', {}, ...[...new Set(warnings)].map((line) => element('li', {}, line)))));
-  }
   panel.append(
+    ...list('Better next time', [...new Set(warnings)], 'warnings'),
     ...(take.again === null ? [] : [element('p', { class: 'quiet' }, 'Not the right one? Drag a box over the picture to say where to look.')]),
     element(
       'div',
@@ -98,11 +95,6 @@ function wallHeight(now: number, events: LookEvents): HTMLElement {
 }
 
 function flameChoice(flames: number, now: number, events: LookEvents): HTMLElement {
-  const group = element('div', { class: 'choice', role: 'group', 'aria-label': 'Which flame' }, element('span', {}, 'Which flame'));
-  for (let which = 1; which <= Math.min(flames, 6); ++which) {
-    const made = element('button', { type: 'button', 'aria-pressed': String(which === now) }, which === 1 ? 'largest' : String(which));
-    made.addEventListener('click', () => events.flame(which));
-    group.append(made);
-  }
-  return group;
+  const all = Array.from({ length: Math.min(flames, 6) }, (_, k) => k + 1);
+  return choice('Which flame', all.map((which) => [which === 1 ? 'largest' : String(which), { 'aria-pressed': String(which === now) }, () => events.flame(which)]));
 }

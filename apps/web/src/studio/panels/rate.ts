@@ -1,28 +1,25 @@
 // How many a second: of pictures, and of a table's rows.
 
 import { element } from '../../panel/element.js';
+import { button } from './verdict.js';
 
 /** What cameras mostly do. */
 const USUAL = 30;
 const MOST = 1000;
 
 /** A field for how many of something there are a second. */
-export function rateField(id: string, words: string, value: number): { input: HTMLInputElement; label: HTMLElement } {
+export function rateField(id: string, words: string, value: number | ''): { input: HTMLInputElement; label: HTMLElement } {
   const input = element('input', { type: 'number', min: '0.001', max: '1000000', step: 'any', value, id, inputmode: 'decimal' });
   return { input, label: element('label', { class: 'rate', for: id }, words, input) };
 }
 
 /** The foot of a panel that goes on or back. */
-export function goOrBack(go: HTMLButtonElement, back: () => void): HTMLElement {
-  const returns = element('button', { type: 'button', class: 'tool' }, 'Back');
-  returns.addEventListener('click', back);
-  return element('div', { class: 'actions' }, go, returns);
-}
+export const goOrBack = (go: HTMLButtonElement, back: () => void): HTMLElement => element('div', { class: 'actions' }, go, button('Back', 'back', back));
 
 /** The panel. `go` is called with what was said. */
 export function ratePanel(name: string, pictures: number, go: (rate: number) => void, back: () => void): HTMLElement {
   const { input: rate, label } = rateField('pictures-rate', 'Pictures a second', USUAL);
-  const look = element('button', { type: 'button', class: 'tool main', 'data-act': 'look' }, 'Look at them');
+  const look = button('Look at them', 'look', () => go(rate.valueAsNumber), true);
   const length = element('p', { class: 'quiet', role: 'status' });
   const check = (): void => {
     const good = rate.validity.valid && rate.valueAsNumber <= MOST && rate.valueAsNumber >= 1;
@@ -30,7 +27,6 @@ export function ratePanel(name: string, pictures: number, go: (rate: number) => 
     length.textContent = good ? `They last ${(pictures / rate.valueAsNumber).toFixed(1)} s.` : `Say a number from 1 to ${MOST}.`;
   };
   rate.addEventListener('input', check);
-  look.addEventListener('click', () => go(rate.valueAsNumber));
   check();
   return element(
     'div',

@@ -6,7 +6,7 @@ import { telling } from '../../panel/telling.js';
 import { plotsOf } from '../pictures/curves.js';
 import { outputsOf, thingOf, type Session } from '../session.js';
 import { takingOf, type TakingEvents } from './taking.js';
-import { button, verdictHead } from './verdict.js';
+import { button, choice, list, verdictHead } from './verdict.js';
 import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
 
 export interface ResultEvents extends TakingEvents {
@@ -24,11 +24,6 @@ function meter({ words, share, good, value }: Meter): HTMLElement {
   (bar.firstElementChild as HTMLElement).style.width = `${100 * share}%`;
   (bar.lastElementChild as HTMLElement).style.left = `${100 * good}%`;
   return element('div', { class: 'meter' }, element('span', {}, words), element('output', {}, value), bar);
-}
-
-function list(title: string, lines: readonly string[], kind: string): HTMLElement[] {
-  if (lines.length === 0) return [];
-  return [element('section', { class: kind }, element('h3', {}, title), element('ul', {}, ...lines.map((line) => element('li', {}, line))))];
 }
 
 const TO_PLAY = { flame: ['Blow it out', 'Blow at it all the same'], fall: ['See it fall', 'See it fall all the same'] } as const;
@@ -93,15 +88,9 @@ function knobsOf({ kind }: Recipe): typeof FLAME_KNOBS {
 function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | null, events: ResultEvents): HTMLElement {
   const details = element('details', { class: 'more' }, element('summary', {}, knobsOf(recipe).length > 0 ? 'More: learn it in another way' : 'More'));
   for (const [words, name, options] of knobsOf(recipe)) {
-    const group = element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words));
     const now = options.find(([, change]) => change[name] === recipe[name]) ?? options[0];
-    for (const option of options) {
-      const [label, change] = option;
-      const made = element('button', { type: 'button', 'aria-pressed': String(option === now), 'data-knob': `${name} ${label}` }, label);
-      made.addEventListener('click', () => events.again({ [name]: undefined, ...change } as Partial<Recipe>));
-      group.append(made);
-    }
-    details.append(group);
+    const knob = (option: Option) => ({ 'aria-pressed': String(option === now), 'data-knob': `${name} ${option[0]}` });
+    details.append(choice(words, options.map((option) => [option[0], knob(option), () => events.again({ [name]: undefined, ...option[1] } as Partial<Recipe>)])));
   }
   if (plots !== null) details.append(element('div', { class: 'judged', 'data-plots': true }, ...plots));
   details.append(element('h3', {}, 'The report'), element('pre', { tabindex: '0', 'aria-label': 'The report' }, text));

@@ -1,44 +1,66 @@
-// A table: which columns go in, which come out, how often a row comes.
+// A table: which columns go in, which come out, how often a row comes, and what in it will spoil a model.
 
-import type { TableSettings } from '@wisp/studio';
+import type { Captured, TableSettings } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { goOrBack, rateField } from './rate.js';
 import { rolesOf, type TableHead } from '../table_head.js';
+import { inPage, remarksOf, rowsOf } from '../words.js';
+import { button, choice, list } from './verdict.js';
 
 const ROLES = ['input', 'output', 'ignored'] as const;
 const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as const;
 
-/** The panel. `learn` is called with what was chosen. */
-export function tablePanel(name: string, head: TableHead, learn: (settings: TableSettings) => void, back: () => void): HTMLElement {
+/** How long a choice stands until the table is looked at again. */
+const SETTLED_MS = 200;
+
+export interface TableEvents {
+  /** with what was chosen; without a rate the table says it */
+  learn(settings: TableSettings): void;
+  advise(settings: TableSettings): Promise<Captured>;
+  back(): void;
+}
+
+/** The panel. */
+export function tablePanel(name: string, head: TableHead, events: TableEvents): HTMLElement {
   const roles = rolesOf(head);
   const rows = element('div', { class: 'columns' });
-  const { input: rate, label } = rateField('table-rate', 'Rows a second', head.rate ?? 1);
-  const go = element('button', { type: 'button', class: 'tool main', 'data-act': 'learn' }, 'Learn it');
+  const { input: rate, label } = rateField('table-rate', 'Rows a second', '');
+  const go = button('Learn it', 'learn', () => events.learn(chosen()), true);
   const trouble = element('p', { class: 'quiet', role: 'status' });
-  const unsaid = head.rate === null ? [element('p', { class: 'quiet' }, 'The table does not say how often a row comes. At 1 a second, time is counted in rows.')] : [];
+  const found = element('div', { 'data-advice': true, 'aria-live': 'polite' });
+  let [said, looks, waiting] = [false, 0, 0];
+  const chosen = (): TableSettings => {
+    const named = (role: (typeof ROLES)[number]): string[] => head.names.filter((_, k) => roles[k] === role);
+    return { ...(said ? { rate: rate.valueAsNumber } : {}), inputs: named('input'), outputs: named('output') };
+  };
+  const look = async (): Promise<void> => {
+    const turn = ++looks;
+    const advice = await events.advise(chosen()).catch((error: unknown) => inPage(error instanceof Error ? error.message : String(error)));
+    if (turn !== looks) return;
+    if (typeof advice === 'string') return found.replaceChildren(element('p', { class: 'warning' }, advice));
+    if (!said) rate.value = String(Number(advice.rate.toPrecision(6)));
+    found.replaceChildren(element('p', { class: 'quiet' }, rowsOf(advice)), ...list('What will spoil a model', remarksOf(advice), 'warnings'));
+  };
   const check = (): void => {
-    const missing = !roles.includes('output') ? 'Say which column comes out.' : !(rate.valueAsNumber > 0) ? 'Say how many rows a second there are.' : '';
+    const missing = !roles.includes('output') ? 'Say which column comes out.' : said && !(rate.valueAsNumber > 0) ? 'Say how many rows a second there are.' : '';
     go.disabled = missing !== '';
     trouble.textContent = missing;
+    clearTimeout(waiting);
+    if (missing === '') waiting = window.setTimeout(() => void look(), SETTLED_MS);
   };
   head.names.forEach((column, k) => {
-    const group = element('div', { class: 'choice', role: 'group', 'aria-label': column }, element('span', {}, column));
-    for (const role of ROLES) {
-      const made = element('button', { type: 'button', 'aria-pressed': String(roles[k] === role), 'data-column': `${column} ${role}` }, WORDS[role]);
-      made.disabled = head.numeric[k] !== true && role !== 'ignored';
-      made.addEventListener('click', () => {
-        roles[k] = role;
-        for (const one of group.querySelectorAll('button')) one.setAttribute('aria-pressed', String(one === made));
-        check();
-      });
-      group.append(made);
-    }
+    const take = (role: (typeof ROLES)[number]): void => {
+      roles[k] = role;
+      group.querySelectorAll('button').forEach((one, at) => one.setAttribute('aria-pressed', String(ROLES[at] === role)));
+      check();
+    };
+    const barred = (role: string): boolean => head.numeric[k] !== true && role !== 'ignored';
+    const group = choice(column, ROLES.map((role) => [WORDS[role], { 'aria-pressed': String(roles[k] === role), 'data-column': `${column} ${role}`, disabled: barred(role) }, () => take(role)]));
     rows.append(group);
   });
-  rate.addEventListener('input', check);
-  go.addEventListener('click', () => {
-    const named = (role: (typeof ROLES)[number]): string[] => head.names.filter((_, k) => roles[k] === role);
-    learn({ rate: rate.valueAsNumber, inputs: named('input'), outputs: named('output') });
+  rate.addEventListener('input', () => {
+    said = true;
+    check();
   });
   check();
   return element(
@@ -48,8 +70,8 @@ export function tablePanel(name: string, head: TableHead, learn: (settings: Tabl
     element('p', {}, `${name}: say what each column is. What comes out is learned from its own past and from what went in.`),
     rows,
     label,
-    ...unsaid,
+    found,
     trouble,
-    goOrBack(go, back),
+    goOrBack(go, () => events.back()),
   );
 }

@@ -1,4 +1,4 @@
-// What panels with a verdict share: its sentence in a colour, and buttons for what can be done about it.
+// What panels share: a verdict in a colour, lists, and buttons for what can be done.
 
 import { element } from '../../panel/element.js';
 
@@ -6,6 +6,22 @@ export function button(words: string, name: string, act: () => void, main = fals
   const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
   made.addEventListener('click', act);
   return made;
+}
+
+/** One of several: a button each, with its attributes. */
+export function choice(words: string, options: readonly (readonly [string, Parameters<typeof element>[1], () => void])[]): HTMLElement {
+  const made = options.map(([label, attributes, act]) => {
+    const one = element('button', { type: 'button', ...attributes }, label);
+    one.addEventListener('click', act);
+    return one;
+  });
+  return element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words), ...made);
+}
+
+/** A list under a head; nothing where it is empty. */
+export function list(title: string, lines: readonly string[], kind: string): HTMLElement[] {
+  if (lines.length === 0) return [];
+  return [element('section', { class: kind }, element('h3', {}, title), element('ul', {}, ...lines.map((line) => element('li', {}, line))))];
 }
 
 export const verdictHead = (good: boolean, title: string, reason: string): HTMLElement =>

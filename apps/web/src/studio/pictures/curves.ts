@@ -74,14 +74,19 @@ function wayOf(id: string, across: readonly number[], up: readonly number[]): Cu
   return { id, label: id, x_label: 'metres', y_label: 'm', x: from(across), y: from(up) };
 }
 
-/** Recorded falls. */
-function fallsOf({ series, episodes, rows }: Captured): Curve[] {
+/** Sideways and up, metres, of every recorded fall. */
+function waysOf({ series, episodes, rows }: Captured): [Float64Array, Float64Array][] {
   const [x, z] = ['pos.x', 'pos.z'].map((name) => series.find((one) => one.name === name)?.samples);
   if (x === undefined || z === undefined) return [];
-  return episodes.slice(0, MAX_FALLS).map((begin, k) => {
-    const end = episodes[k + 1] ?? rows;
-    return wayOf(`fall.${k}`, [...x.subarray(begin, end)], [...z.subarray(begin, end)]);
-  });
+  return episodes.map((begin, k) => [x.subarray(begin, episodes[k + 1] ?? rows), z.subarray(begin, episodes[k + 1] ?? rows)]);
+}
+
+const fallsOf = (captured: Captured): Curve[] => waysOf(captured).slice(0, MAX_FALLS).map(([x, z], k) => wayOf(`fall.${k}`, [...x], [...z]));
+
+/** Falls as lines over their film, pixels, x and y by turns. `metres`: of wall that the picture shows, top to bottom. */
+export function linesOfFalls(captured: Captured, metres: number, { width, height }: { width: number; height: number }): Float32Array[] {
+  const scale = height / metres;
+  return waysOf(captured).map(([x, z]) => Float32Array.from({ length: 2 * x.length }, (_, k) => (k % 2 === 0 ? width / 2 + scale * (x[k / 2] as number) : height - scale * (z[(k - 1) / 2] as number))));
 }
 
 /** Falls of a model, as many and as long as those that are shown of the recording. */

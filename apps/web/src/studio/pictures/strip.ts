@@ -1,6 +1,7 @@
 // A film strip: what was recorded above, what the model plays in the same wind below, at the same moments.
 
 import type { Library } from '@wisp/player';
+import type { Region } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { partOf } from './duet.js';
 import { paintFlame } from './flame_paint.js';
@@ -62,7 +63,7 @@ export class Strip {
     return [...new Set(wanted)];
   }
 
-  private inside(context: CanvasRenderingContext2D, cell: Cell, draw: (fit: { scale: number; x: number; y: number }) => void): void {
+  private inside(context: CanvasRenderingContext2D, cell: Region, draw: (fit: { scale: number; x: number; y: number }) => void): void {
     const part = partOf(this.outlines);
     const { scale, x, y } = contain(part, cell.width, cell.height);
     context.save();
@@ -75,7 +76,7 @@ export class Strip {
     context.restore();
   }
 
-  private drawRecorded(context: CanvasRenderingContext2D, row: number, cell: Cell): void {
+  private drawRecorded(context: CanvasRenderingContext2D, row: number, cell: Region): void {
     this.inside(context, cell, (fit) => {
       const kept = this.take.reel.at(row / this.outlines.rate);
       if (kept !== null) drawKept(context, kept, fit);
@@ -88,18 +89,11 @@ export class Strip {
     });
   }
 
-  private drawPlayed(context: CanvasRenderingContext2D, play: Play, cell: Cell): void {
+  private drawPlayed(context: CanvasRenderingContext2D, play: Play, cell: Region): void {
     this.inside(context, cell, (fit) => {
       if (play.size <= 0) return;
       const line = play.line().map((value, k) => (k % 2 === 0 ? fit.x : fit.y) + fit.scale * value);
       paintFlame(context, line, fit.scale * this.outlines.height);
     });
   }
-}
-
-interface Cell {
-  x: number;
-  y: number;
-  width: number;
-  height: number;
 }

@@ -1,0 +1,27 @@
+// Tables and recordings that are read for the host to show. Those that are learned from are added (learning.cpp).
+
+#include "reported.hpp"
+#include "settings.hpp"
+#include "wisp/learn/advice.hpp"
+
+using namespace wisp;
+using namespace wisp::studio;
+
+extern "C" {
+
+// Reads a table or a recording: {name, rate, inputs, outputs}.
+WISP_STUDIO(table) int studio_table(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
+  const auto recording = read_recording(bytes, size, parsed(text, text_size));
+  if (!recording) return fail(recording.error());
+  return hand_over(*recording, {});
+}
+
+// The same, with what a table shows before any model as its report. Samples stand in the answer once.
+WISP_STUDIO(advise) int studio_advise(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
+  const auto recording = read_recording(bytes, size, parsed(text, text_size));
+  if (!recording) return fail(recording.error());
+  Report report = advise(*recording);
+  for (ReportSection& section : report.sections) section.series.clear();
+  return hand_over(*recording, report);
+}
+}
