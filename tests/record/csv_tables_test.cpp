@@ -60,6 +60,7 @@ TEST(CsvTable, ARowOfUnitsIsNoRowOfNumbers) {
   EXPECT_EQ(recording->channels[1].unit, "1");
   EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
   EXPECT_THAT(complaint("u,y\nvolts,amps\nmore,text\n1,2\n"), HasSubstr("row 2: found \"volts\""));
+  EXPECT_THAT(complaint("u,y\nvolts,amps\nmore,3\n1,2\n"), HasSubstr("row 3: found \"more\""));
 }
 
 TEST(CsvTable, WithoutAHeaderTheColumnsAreNamed) {
@@ -91,6 +92,10 @@ TEST(CsvTable, QuotedCellsHoldSeparatorsAndQuotes) {
   EXPECT_EQ(recording->channels[1].name, "the \"y\"");
   EXPECT_THAT(recording->channels[1].samples, ElementsAre(2, 4));
   EXPECT_THAT(complaint("\"Power, W\",y\n1,2\n"), HasSubstr("its columns are \"Power, W\", y"));
+}
+
+TEST(CsvTable, AQuoteAtTheEndAloneIsAnInch) {
+  expect_samples("5\",y\n1,4\n2.5,5\n-3e-4,6\n", {.rate_hz = 1, .inputs = {"5\""}, .outputs = {"y"}});
 }
 
 TEST(CsvTable, NamesThatHoldSeparatorsAreWrittenBack) {

@@ -165,6 +165,30 @@ TEST(Csv, UnevenTimeIsResampledAndAGapIsMissing) {
   EXPECT_THAT(complaint("time,u\n0,1\n0.1,1\n0.2,1\n0.15,1\n", {.inputs = {"u"}}), HasSubstr("time does not go on"));
 }
 
+TEST(Csv, AJitteredClockIsResampledAtItsRoundRateAndSaysTheTrueError) {
+  const auto truth = [](double t) { return std::sin(9 * t); };
+  std::mt19937 chance(5);
+  std::uniform_real_distribution<double> late(0, 0.02);
+  std::string table = "time,y\n0,0\n";
+  for (int row = 1; row < 400; ++row) {
+    const double t = std::round(1e4 * (0.1 * row + late(chance))) / 1e4;
+    table += std::to_string(t) + "," + std::to_string(truth(t)) + "\n";
+  }
+  const auto even = parse(table, {.outputs = {"y"}});
+  ASSERT_TRUE(even) << even.error().message;
+  EXPECT_EQ(even->rate_hz, 10) << "the mean step is 0.10001 s";
+  const std::vector<double>& samples = even->channels[0].samples;
+  double wrong = 0, square = 0;
+  for (std::size_t row = 0; row < samples.size(); ++row) {
+    wrong += std::pow(samples[row] - truth(0.1 * static_cast<double>(row)), 2);
+    square += std::pow(samples[row], 2);
+  }
+  const std::string before = "may be wrong by ", &text = even->rate_note.text;
+  ASSERT_THAT(text, HasSubstr(before));
+  const double said = std::stod(text.substr(text.find(before) + before.size()));
+  EXPECT_NEAR(said, 100 * std::sqrt(wrong / square), 0.25 * said) << text;
+}
+
 TEST(Csv, DatesSayTheRate) {
   for (const char* table : {"time,u\n2024-01-01 23:59,1\n2024-01-02T00:00Z,2\n",
                             "date,u\n31.12.2023 23:59:30,1\n01.01.2024 00:00:30,2\n"}) {
@@ -187,6 +211,11 @@ TEST(Csv, LinesMayEndInCarriageReturnsAlone) {
   const auto recording = parse("u,y\r1,2\r3,4\r", {.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}});
   ASSERT_TRUE(recording) << recording.error().message;
   EXPECT_EQ(recording->channels[1].samples, (std::vector<double>{2, 4}));
+}
+
+TEST(Csv, AHeaderOfMarksAloneHasNoChannels) {
+  EXPECT_THAT(complaint(kHead + "episode,flag:filled\n0,1\n"),
+              HasSubstr("the header has no input, output or motion column"));
 }
 
 TEST(Csv, OfManyColumnsSomeAreListed) {
@@ -259,7 +288,15 @@ TEST(Csv, ABadRecordingIsNotWritten) {
   recording.channels[0].name = "a";
   recording.channels[0].samples[0] = INFINITY;
   EXPECT_FALSE(write_csv(path, recording));
+  recording.channels[0].samples[0] = 1;
+  recording.flags = {{"filled", {1, 0}}};
+  EXPECT_FALSE(write_csv(path, recording)) << "two marks of one row";
+  recording.flags = {};
+  recording.attributes = {{"good", "yes"}, {"bad", "one\nline more"}};
+  EXPECT_FALSE(write_csv(path, recording));
   EXPECT_FALSE(std::filesystem::exists(path));
+  recording.attributes.pop_back();
+  EXPECT_TRUE(write_csv(path, recording));
 }
 
 }  // namespace
