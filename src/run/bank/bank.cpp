@@ -149,13 +149,13 @@ bool Bank::end(InstanceId id) {
 void Bank::set_inputs(std::span<const float> values) {
   State& s = *state_;
   if (!check_size("Bank::set_inputs()", values.size(), static_cast<std::size_t>(s.rows) * s.inputs, true)) return;
-  s.path->set_inputs(s, values.data());
+  s.path->set_inputs(&s, values.data());
 }
 
 void Bank::set_common_inputs(std::span<const float> values) {
   State& s = *state_;
   if (!check_size("Bank::set_common_inputs()", values.size(), static_cast<std::size_t>(s.inputs))) return;
-  s.path->set_common_inputs(s, values.data());
+  s.path->set_common_inputs(&s, values.data());
 }
 
 bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
@@ -244,7 +244,7 @@ void Bank::polylines(std::span<float> values) const {
   const State& s = *state_;
   const std::size_t used = static_cast<std::size_t>(s.rows) * s.polyline.points * 2;
   if (!has_outline(s) || !check_size("Bank::polylines()", values.size(), used, true)) return;
-  s.path->polylines(s, values.data());
+  s.path->polylines(&s, values.data());
   std::fill(values.begin() + static_cast<std::ptrdiff_t>(used), values.end(), 0.0F);
 }
 

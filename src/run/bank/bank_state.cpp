@@ -197,7 +197,7 @@ std::uint64_t Bank::State::share(Work work) {
 void Bank::State::step_all(const Steps& made) {
   const auto turn = [this](int samples) { std::visit([&](auto& dynamics) { dynamics.turn(samples); }, stepper); };
   turn(1);
-  clamped.clamped += share([&](int first, int last) { return path->step(*this, first, last, made); });
+  clamped.clamped += share([&](int first, int last) { return path->step(this, first, last, &made); });
   if (kAhead) turn(made.count - 1);
   steps += static_cast<std::uint64_t>(made.count);
   clamped.steps += static_cast<std::uint64_t>(made.count) * static_cast<std::uint64_t>(living);
@@ -205,7 +205,7 @@ void Bank::State::step_all(const Steps& made) {
 
 void Bank::State::show() {
   share([this](int first, int last) {
-    path->show(*this, first, last);
+    path->show(this, first, last);
     return std::uint64_t{0};
   });
 }

@@ -344,23 +344,20 @@ void Bank::State::show_life(int block, std::size_t count, float* values) const {
 
 namespace {
 
-void set_inputs(Bank::State& s, const float* values) {
-  for (int block = 0; block < s.blocks(); ++block) s.set_inputs(block, values);
+template <auto kSet>
+void set_blocks(void* state, const float* values) {
+  auto& s = *static_cast<Bank::State*>(state);
+  for (int block = 0; block < s.blocks(); ++block) (s.*kSet)(block, values);
 }
 
-void set_common_inputs(Bank::State& s, const float* values) {
-  for (int block = 0; block < s.blocks(); ++block) s.set_common_inputs(block, values);
-}
-
-void show(Bank::State& s, int first, int last) {
-  for (int block = first; block < last; ++block) s.show_block(block);
+void show(void* state, int first, int last) {
+  for (int block = first; block < last; ++block) static_cast<Bank::State*>(state)->show_block(block);
 }
 
 void polylines(const Bank::State& s, float* values) {
   const std::size_t row = static_cast<std::size_t>(s.polyline.points) * 2;
   for (int block = 0; block < s.blocks(); ++block) {
-    const int first = block * s.kLanes;
-    const int lanes = std::min(s.kLanes, s.rows - first);
+    const int first = block * s.kLanes, lanes = std::min(s.kLanes, s.rows - first);
     float* out = values + first * row;
     s.polyline_of(block, [&](int number, const float* lane_values) {
       for (int lane = 0; lane < lanes; ++lane) out[lane * row + number] = lane_values[lane];
@@ -376,8 +373,10 @@ void polylines(const Bank::State& s, float* values) {
 
 extern "C" WISP_INSIDE const wisp::FramePath WISP_FRAME_PATH = {
     WISP_WIDTH_NAME,
-    wisp::set_inputs,
-    wisp::set_common_inputs,
-    [](wisp::Bank::State& s, int first, int last, const wisp::Steps& made) { return s.step_blocks(first, last, made); },
+    wisp::set_blocks<&wisp::Bank::State::set_inputs>,
+    wisp::set_blocks<&wisp::Bank::State::set_common_inputs>,
+    [](void* s, int first, int last, const void* made) {
+      return static_cast<wisp::Bank::State*>(s)->step_blocks(first, last, *static_cast<const wisp::Steps*>(made));
+    },
     wisp::show,
-    wisp::polylines};
+    [](const void* s, float* values) { wisp::polylines(*static_cast<const wisp::Bank::State*>(s), values); }};

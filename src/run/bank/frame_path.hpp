@@ -25,15 +25,16 @@ struct Steps {
   bool show = true;               ///< whether the outputs of the last step are made readable
 };
 
+/// A bank's state and steps are of another namespace for every width, alike in memory, and so come as addresses.
 struct FramePath {
   const char* width;
-  void (*set_inputs)(Bank::State& state, const float* values);
-  void (*set_common_inputs)(Bank::State& state, const float* values);
-  /// Makes the steps `made` of blocks first … last − 1 and, where asked, makes their outputs readable while they are in
+  void (*set_inputs)(void* state, const float* values);
+  void (*set_common_inputs)(void* state, const float* values);
+  /// Makes the Steps `made` of blocks first … last − 1 and, where asked, makes their outputs readable while they are in
   /// the cache. Returns in how many steps of instances an output was clamped.
-  std::uint64_t (*step)(Bank::State& state, int first, int last, const Steps& made);
-  void (*show)(Bank::State& state, int first, int last);
-  void (*polylines)(const Bank::State& state, float* values);
+  std::uint64_t (*step)(void* state, int first, int last, const void* made);
+  void (*show)(void* state, int first, int last);
+  void (*polylines)(const void* state, float* values);
 };
 
 /// The frame paths that this machine can run, the narrowest first.
