@@ -220,6 +220,8 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
   facts.seen_from = first;
   facts.rows = last - first + 1;
   facts.absent = facts.rows - shapes.size();
+  for (const DroppedFrame& one : report.dropped)
+    facts.absent -= one.reason == "duplicate" && one.frame > first && one.frame < last ? 1 : 0;
   report.out_at = out_at(report, last);
   return true;
 }

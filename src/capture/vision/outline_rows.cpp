@@ -252,7 +252,6 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   leave_out_glints(fate);
   std::vector<double> controls = findings.controls;
   fill_gaps(fate, stands, controls, 2 * static_cast<std::size_t>(points));
-  report.facts.frozen = times(Fate::kDuplicate);
   count(fate, findings, report);
   find_other_scenes(fate, findings, report.facts);
   report.facts.fades_out = fades_out(fate, findings, usual_brightness, report.rate_hz);

@@ -66,7 +66,7 @@ static_assert(kVerdictCurves.size() == kFacts.size());
 // Of the rows in which the flame burns and that have a frame of their own, those without an outline.
 double missing_share(R r) {
   const double lost = r.facts.lost * static_cast<double>(r.frames);
-  const double absent = static_cast<double>(r.facts.absent - r.facts.blown - r.facts.frozen) - lost;
+  const double absent = static_cast<double>(r.facts.absent - r.facts.blown) - lost;
   return std::max(0.0, absent) / static_cast<double>(std::max<std::size_t>(r.facts.rows - r.facts.blown, 1));
 }
 

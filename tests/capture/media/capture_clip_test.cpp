@@ -94,6 +94,7 @@ TEST(CaptureClip, AccountsForAllFramesOfTheShakenFlame) {
     EXPECT_EQ(report.duplicates, 27u);
     EXPECT_EQ(report.tracked + report.filled + report.dropped.size(), 266u);
     EXPECT_EQ(report.tracked, 239u);
+    EXPECT_TRUE(report.usable) << report.reason;
     EXPECT_GT(mean_overlap(*captured, path, 0), points == 8 ? 0.93 : 0.97) << points;
   }
 }

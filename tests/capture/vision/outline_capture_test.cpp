@@ -122,6 +122,7 @@ TEST(OutlineCapture, FourDuplicatesInARowEndTheEpisode) {
   EXPECT_EQ(captured->report.dropped[0].frame, 30u);
   EXPECT_EQ(captured->report.dropped[0].reason, "duplicate");
   EXPECT_TRUE(missing(*captured, 31));
+  EXPECT_EQ(captured->report.facts.absent, 0u);
   EXPECT_EQ(episodes(captured->recording).size(), 2u);
 }
 

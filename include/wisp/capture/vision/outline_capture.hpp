@@ -44,8 +44,7 @@ struct DroppedFrame {
 /// What tells an outline of a flame from one of something else. Shares are of the rows with an outline.
 struct OutlineFacts {
   std::size_t rows = 0;            ///< from the first outline until the flame is out for good
-  std::size_t absent = 0;          ///< of them, without an outline
-  std::size_t frozen = 0;          ///< of those, repeats of a frame that stands too long to be filled
+  std::size_t absent = 0;          ///< of them, without an outline, although their frame does not repeat the one before
   std::size_t blown = 0;           ///< of those, because the flame was blown out and lit again: see excuse_absence()
   std::size_t seen_from = 0;       ///< the first row with an outline
   std::size_t still = 0;           ///< rows before it in which the thing stood there and did not move

@@ -19,7 +19,7 @@ struct TimeOffset {
   double rows = 0;         ///< the second series begins so much later than the first
   double correlation = 0;  ///< there, −1 to 1
   double next_best = 0;    ///< of the offsets at least a second away
-  /// Films of one flame have 0.9 and more and 0.3 between both, of two flames 0.3 and less.
+  /// Two films of one flame correlate by 0.9 and more, 0.3 above the next best; films of two flames by at most 0.3.
   bool certain() const { return correlation >= 0.6 && correlation - next_best >= 0.15; }
 };
 
