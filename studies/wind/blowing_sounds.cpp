@@ -201,51 +201,33 @@ std::vector<KnownSound> speech() {
   return all;
 }
 
+// A Butterworth filter of two poles: `sign` −1 keeps what is above the frequency, 1 what is below.
+Samples filtered(const Samples& sound, double frequency_hz, double sign) {
+  const double w = kTurn * frequency_hz / kSoundRate;
+  const double alpha = std::sin(w) / std::numbers::sqrt2;
+  const double gain = (1 - sign * std::cos(w)) / 2 / (1 + alpha);
+  const double a1 = -2 * std::cos(w) / (1 + alpha);
+  const double a2 = (1 - alpha) / (1 + alpha);
+  double d1 = 0;
+  double d2 = 0;
+  Samples out;
+  out.reserve(sound.size());
+  for (const float x : sound) {
+    const double now = static_cast<double>(x) - a1 * d1 - a2 * d2;
+    out.push_back(static_cast<float>(gain * (now + sign * 2 * d1 + d2)));
+    d2 = d1;
+    d1 = now;
+  }
+  return out;
+}
+
+Samples without_highs(const Samples& sound, double frequency_hz) { return filtered(sound, frequency_hz, 1); }
+
 }  // namespace
 
 Samples without_lows(const Samples& sound, double frequency_hz) {
-  if (frequency_hz <= 0) return sound;
-  const double w = kTurn * frequency_hz / kSoundRate;
-  const double alpha = std::sin(w) / std::numbers::sqrt2;
-  const double gain = (1 + std::cos(w)) / 2 / (1 + alpha);
-  const double a1 = -2 * std::cos(w) / (1 + alpha);
-  const double a2 = (1 - alpha) / (1 + alpha);
-  double d1 = 0;
-  double d2 = 0;
-  Samples out;
-  out.reserve(sound.size());
-  for (const float x : sound) {
-    const double now = static_cast<double>(x) - a1 * d1 - a2 * d2;
-    out.push_back(static_cast<float>(gain * (now - 2 * d1 + d2)));
-    d2 = d1;
-    d1 = now;
-  }
-  return out;
+  return frequency_hz <= 0 ? sound : filtered(sound, frequency_hz, -1);
 }
-
-namespace {
-
-/// A Butterworth low-pass of two poles.
-Samples without_highs(const Samples& sound, double frequency_hz) {
-  const double w = kTurn * frequency_hz / kSoundRate;
-  const double alpha = std::sin(w) / std::numbers::sqrt2;
-  const double gain = (1 - std::cos(w)) / 2 / (1 + alpha);
-  const double a1 = -2 * std::cos(w) / (1 + alpha);
-  const double a2 = (1 - alpha) / (1 + alpha);
-  double d1 = 0;
-  double d2 = 0;
-  Samples out;
-  out.reserve(sound.size());
-  for (const float x : sound) {
-    const double now = static_cast<double>(x) - a1 * d1 - a2 * d2;
-    out.push_back(static_cast<float>(gain * (now + 2 * d1 + d2)));
-    d2 = d1;
-    d1 = now;
-  }
-  return out;
-}
-
-}  // namespace
 
 Samples banded(const Samples& sound, double low_hz, double high_hz) {
   const Samples risen = without_lows(without_lows(sound, low_hz), low_hz);

@@ -9,7 +9,7 @@ describe('a piece that is lost on its way', { skip }, () => {
   before(async () => (opened = await openBrowser()));
   after(() => opened?.close());
 
-  it('is asked for again: help, leaves and the studio open', async () => {
+  it('is fetched again: help, leaves and the studio open', async () => {
     const page = await opened.page('#scene=candle&detail=0.1');
     const seen = new Set();
     await page.route(/assets\/.*\.js$/, (route) => {
