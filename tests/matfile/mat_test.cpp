@@ -45,16 +45,25 @@ class ScratchMat {
     Mat_VarFree(variable);
     return *this;
   }
-  ScratchMat& structure(const char* name, const char* field, std::vector<double> numbers) {
-    std::size_t one[2] = {1, 1};
-    std::size_t dims[2] = {numbers.size(), 1};
-    const char* fields[] = {field};
-    matvar_t* variable = Mat_VarCreateStruct(name, 2, one, fields, 1);
-    Mat_VarSetStructFieldByName(variable, field, 0,
-                                Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, numbers.data(), 0));
+  // `count` structures of the same fields, a column of numbers each.
+  ScratchMat& structures(const char* name, std::size_t count, std::vector<std::pair<const char*, std::vector<double>>> columns) {
+    std::size_t shape[2] = {1, count};
+    std::vector<const char*> fields;
+    for (const auto& column : columns) fields.push_back(column.first);
+    matvar_t* variable = Mat_VarCreateStruct(name, 2, shape, fields.data(), static_cast<unsigned>(fields.size()));
+    for (std::size_t at = 0; at < count; ++at) {
+      for (auto& [field, numbers] : columns) {
+        std::size_t dims[2] = {numbers.size(), 1};
+        Mat_VarSetStructFieldByName(variable, field, at,
+                                    Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, numbers.data(), 0));
+      }
+    }
     Mat_VarWrite(file_, variable, MAT_COMPRESSION_NONE);
     Mat_VarFree(variable);
     return *this;
+  }
+  ScratchMat& structure(const char* name, const char* field, std::vector<double> numbers) {
+    return structures(name, 1, {{field, std::move(numbers)}});
   }
   ScratchMat& text(const char* name, const char* value) {
     std::size_t dims[2] = {1, std::string(value).size()};
@@ -116,6 +125,28 @@ TEST(Mat, ListsWhatItCouldRead) {
   const auto names = list_mat(file.close());
   ASSERT_TRUE(names);
   EXPECT_THAT(*names, ::testing::UnorderedElementsAre("data.y (3 × 1)", "u (3 × 2)"));
+}
+
+TEST(Mat, FieldsAfterOthersAreFound) {
+  ScratchMat file("several");
+  file.structures("data", 1, {{"u", {7, 8, 9, 10}}, {"y", {1, 2, 3}}, {"z", {4, 5}}});
+  const auto& path = file.close();
+  const auto names = list_mat(path);
+  ASSERT_TRUE(names);
+  EXPECT_THAT(*names, ElementsAre("data.u (4 × 1)", "data.y (3 × 1)", "data.z (2 × 1)"));
+  const auto recording = read_mat(path, {.rate_hz = 1, .outputs = {"data.z"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(4, 5));
+}
+
+TEST(Mat, AnArrayOfStructuresHasNoFieldOfOneName) {
+  ScratchMat file("array");
+  file.structures("runs", 2, {{"y", {1, 2, 3}}}).matrix("u", 3, 1, {1, 2, 3});
+  const auto& path = file.close();
+  const auto names = list_mat(path);
+  ASSERT_TRUE(names);
+  EXPECT_THAT(*names, ElementsAre("u (3 × 1)"));
+  EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"runs.y"}}), HasSubstr("runs.y"));
 }
 
 TEST(Mat, SaysWhatIsWrong) {
