@@ -1,7 +1,6 @@
 #pragma once
 // What the parts of the long check of learned falls share.
 
-#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -31,9 +30,6 @@ void gusts(Bounds& bounds);
 void paper(Bounds& bounds);
 void spread(Bounds& bounds);
 void steering(Bounds& bounds);
-
-/// Writes windows of recorded and synthesized falls for studies/fidelity/fidelity_leaf.py.
-Result<void> write_windows(const std::filesystem::path& file);
 
 /// Says what is wrong and ends the program.
 [[noreturn]] void give_up(const Error& error);
