@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "run/flame_model.hpp"
+#include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
@@ -137,6 +138,27 @@ void flame_frame(benchmark::State& state) {
   per_instance(state, instances);
 }
 BENCHMARK(flame_frame)->ArgName("flames")->Arg(1)->Arg(100)->Arg(10000);
+
+// A frame of the page's flame, in the plane and in the round: wind in, a step, polylines of 32 points out.
+void shipped_frame(benchmark::State& state) {
+  const auto instances = static_cast<int>(state.range(0));
+  Model model = read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp").value();
+  if (state.range(1) != 0) model = in_the_round(model).value();
+  Bank bank = full_bank(model, instances);
+  std::vector<float> wind(static_cast<std::size_t>(instances) * model.inputs.size());
+  std::vector<float> outlines(static_cast<std::size_t>(instances) * bank.polyline_points() * 2);
+  int frame = 0;
+  for (auto _ : state) {
+    // A breath that comes and goes.
+    std::fill(wind.begin(), wind.end(), ++frame % 120 < 40 ? 0.3f : 0.0f);
+    bank.set_inputs(wind);
+    bank.step();
+    bank.polylines(outlines);
+    benchmark::DoNotOptimize(outlines.data());
+  }
+  per_instance(state, instances);
+}
+BENCHMARK(shipped_frame)->ArgNames({"flames", "round"})->ArgsProduct({{1, 1000}, {0, 1}});
 
 // The flame of flame_step as one writes it at first: rings with a modulo, loops over all outputs, double precision.
 void flame_step_plain(benchmark::State& state) {

@@ -47,7 +47,7 @@ def peers():
 
 def rows_of(figures):
     """Name of a row and its figure at a width, in nanoseconds an instance and step."""
-    rows = ("flame_step/", "default_flame_step/", "flame_frame/", "flame_steps/", "flame_far/")
+    rows = ("flame_step/", "default_flame_step/", "flame_frame/", "shipped_frame/", "flame_steps/", "flame_far/")
     names = [name for name in figures["baseline"] if name.startswith(rows)]
     return [(name, {width: figures[width][name]["ns_each"] for width in figures}) for name in names]
 
@@ -59,6 +59,15 @@ def print_steps(figures):
     for name, at in rows_of(figures):
         ratios = [f"{at[width] / at['baseline']:.2f}" for width in widths[1:]]
         print(f"| {name} | " + " | ".join([f"{at[width]:.1f}" for width in widths] + ratios) + " |")
+
+
+def print_bodies(figures):
+    print("\n| the page's flame, a step and its polyline, ns | in the plane | in the round | times |")
+    print("| --- | ---: | ---: | ---: |")
+    for width, at in figures.items():
+        for many in (1, 1000):
+            plane, body = (at[f"shipped_frame/flames:{many}/round:{kind}"]["ns_each"] for kind in (0, 1))
+            print(f"| {width}, {many} at once | {plane:.0f} | {body:.0f} | {body / plane:.2f} |")
 
 
 def print_limits(figures):
@@ -118,6 +127,7 @@ def main():
     figures = {width: median([one[width] for one in rounds]) for width in rounds[0]}
     peer = peers()
     print_steps(figures)
+    print_bodies(figures)
     print_limits(figures)
     print_filter(figures, peer)
     if len(sys.argv) > 2:

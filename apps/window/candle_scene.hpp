@@ -40,12 +40,6 @@ inline constexpr float kRingDepth = 0.07F;
 
 inline constexpr float kClickPixels = 5;
 
-inline FlameStyle style_of(const Model& model, int candles) {
-  FlameStyle style = candle_style(model);
-  if (candles > 1) style.candle_width = 0.36F;
-  return style;
-}
-
 class CandleScene {
  public:
   /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
@@ -213,7 +207,8 @@ class CandleScene {
   };
 
   CandleScene(Bank bank, const Model& model, int candles)
-      : bank_(std::move(bank)), flame_(is_flame(model)), style_(style_of(model, candles)) {
+      : bank_(std::move(bank)), flame_(is_flame(model)), style_(candle_style(model)) {
+    if (candles > 1) style_.candle_width = 0.36F;
     if (model.extinction) {
       wind_input_ = model.extinction->input;
       level_ = static_cast<float>(model.extinction->level);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <optional>
@@ -49,12 +48,6 @@ std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, 
   return {};
 }
 
-std::string frame_name(int frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "frame-%05d", frame);
-  return name;
-}
-
 }  // namespace
 
 Key key_named(std::string_view name) {
@@ -94,9 +87,6 @@ Result<Course> Course::open(const PlayOptions& options, Player& player) {
     if (!events) return events.error();
     course.events_ = std::move(*events);
     course.scripted_ = true;
-    course.takes_pictures_ = std::any_of(course.events_.begin(), course.events_.end(), [](const TimedEvent& event) {
-      return std::holds_alternative<PictureTaken>(event.what);
-    });
   }
   if (options.sound) {
     auto sound = SoundFile::open(*options.sound);
@@ -110,6 +100,11 @@ Result<Course> Course::open(const PlayOptions& options, Player& player) {
     if (code) return Error{options.pictures->string() + ": cannot be made: " + code.message()};
   }
   return course;
+}
+
+bool Course::takes_pictures() const {
+  const auto takes = [](const TimedEvent& event) { return std::holds_alternative<PictureTaken>(event.what); };
+  return std::any_of(events_.begin(), events_.end(), takes);
 }
 
 void Course::bring(double seconds, Player& player, const std::function<void(const Event&)>& deliver) {
@@ -131,24 +126,12 @@ double thread_milliseconds() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-void FrameCosts::add(double milliseconds) {
-  ++frames_;
-  sum_ += milliseconds;
-  if (frames_ > 10) worst_ = std::max(worst_, milliseconds);
-}
-
-void FrameCosts::report(PlayReport& report) const {
-  report.draw_ms = frames_ > 0 ? sum_ / frames_ : 0;
-  report.worst_draw_ms = worst_;
-}
-
 Result<PlayReport> play_without_display(const PlayOptions& options) {
   auto player = Player::create(options.player);
   if (!player) return player.error();
   auto course = Course::open(options, *player);
   if (!course) return course.error();
   PlayReport report;
-  FrameCosts costs;
   for (int frame = 1; frame <= options.frames && !player->closed(); ++frame) {
     if (options.interrupted && *options.interrupted) break;
     const auto now = time_of_frame(frame);
@@ -156,16 +139,15 @@ Result<PlayReport> play_without_display(const PlayOptions& options) {
     const double before = thread_milliseconds();
     player->advance(now - time_of_frame(frame - 1));
     const Image& image = player->draw();
-    costs.add(thread_milliseconds() - before);
+    report.add_frame(thread_milliseconds() - before);
     if (!options.pictures) continue;
     std::vector<std::string> names = course->wanted();
-    if (!course->takes_pictures()) names = {frame_name(frame)};
+    if (!course->takes_pictures()) names = {"frame-" + std::to_string(100'000 + frame).substr(1)};
     for (const std::string& name : names) {
       if (auto ok = write_png(*options.pictures / (name + ".png"), image); !ok) return ok.error();
       report.pictures.push_back({name, frame, player->state()});
     }
   }
-  costs.report(report);
   report.figures = player->figures();
   report.state = player->state();
   return report;

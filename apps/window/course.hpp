@@ -46,7 +46,7 @@ class Course {
   const std::vector<std::string>& wanted() const { return wanted_; }
 
   /// Whether the script asks for pictures at all.
-  bool takes_pictures() const { return takes_pictures_; }
+  bool takes_pictures() const;
 
   bool scripted() const { return scripted_; }
 
@@ -54,23 +54,11 @@ class Course {
   std::vector<TimedEvent> events_;
   std::size_t next_ = 0;
   std::vector<std::string> wanted_;
-  bool takes_pictures_ = false;
   bool scripted_ = false;
   std::optional<SoundFile> sound_;
 };
 
 /// Milliseconds of the processor that this thread has used.
 double thread_milliseconds();
-
-/// Mean and worst cost of a frame.
-class FrameCosts {
- public:
-  void add(double milliseconds);
-  void report(PlayReport& report) const;
-
- private:
-  int frames_ = 0;
-  double sum_ = 0, worst_ = 0;
-};
 
 }  // namespace wisp::window

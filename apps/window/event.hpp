@@ -161,13 +161,11 @@ inline constexpr double kWindRate = 120;
 /// The wind in a stream of sound.
 class Ear {
  public:
-  /// Begins with what was known of the microphone, if anything.
   /// Errors: as WindLevel::create().
-  Result<void> open(const SoundFormat& format, std::optional<WindCalibration> known = {}) {
+  Result<void> open(const SoundFormat& format) {
     auto level = WindLevel::create(format, {.frame_rate_hz = kWindRate});
     if (!level) return level.error();
     level_.emplace(std::move(*level));
-    if (known) level_->set_calibration(*known);
     return {};
   }
 
@@ -191,20 +189,7 @@ class Ear {
   /// The wind now, 1 a strong gust; 0 unless listening.
   float wind() const { return level_ ? level_->latest().wind : 0.0F; }
 
-  /// How loud it is, 0 … 1, for the indicator.
-  float loudness() const {
-    if (!level_) return 0;
-    // 60 dB below full scale and less is an empty meter.
-    const float rms = std::max(level_->latest().rms, 1e-6F);
-    return std::clamp(1 + 20 * std::log10(rms) / 60, 0.0F, 1.0F);
-  }
-
   EarState state() const { return level_ ? EarState::kListening : closed_; }
-
-  /// What was learned of the room, while open.
-  std::optional<WindCalibration> calibration() const {
-    return level_ ? std::optional(level_->calibration()) : std::nullopt;
-  }
 
  private:
   std::optional<WindLevel> level_;

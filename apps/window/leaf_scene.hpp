@@ -41,10 +41,6 @@ inline float room_width(int width, int height) {
   return kViewHeight * static_cast<float>(width) / static_cast<float>(height);
 }
 
-inline void put(Bank& bank, int slot, const BodyMoment& body) {
-  if (ChainFacet* chain = bank.chain()) chain->place(bank.at(slot), body);
-}
-
 class LeafScene {
  public:
   /// Errors: as Bank::create(). Precondition: the model's view is a pose or a position; 1 <= leaves <= kMaxLeaves.
@@ -191,7 +187,7 @@ class LeafScene {
     const float turn = 6.2831853F * chance(), tilt = 0.6F * (chance() - 0.5F);
     body.orientation = {std::cos(turn / 2), tilt, 0, std::sin(turn / 2)};
     body.velocity = {0.3F * (chance() - 0.5F), 0.3F * (chance() - 0.5F), -0.5F};
-    put(bank_, slot, body);
+    if (ChainFacet* chain = bank_.chain()) chain->place(bank_.at(slot), body);
     Life& life = lives_[static_cast<std::size_t>(slot)];
     life = {body.position, body.orientation, 0, kMinRest + kMoreRest * chance(), 0, life.look, life.size};
   }
@@ -245,7 +241,7 @@ class LeafScene {
     body.velocity = {(0.5F + 0.3F * chance()) * wind[0], wind[1] + 0.5F * (chance() - 0.5F) * strength,
                      (0.55F + 0.7F * chance()) * strength};
     body.spin = {6 * (chance() - 0.5F), 6 * (chance() - 0.5F), 5 * (chance() - 0.5F)};
-    put(bank_, slot, body);
+    if (ChainFacet* chain = bank_.chain()) chain->place(bank_.at(slot), body);
     life.rested = 0;
     life.patience = kMinRest + kMoreRest * chance();
   }

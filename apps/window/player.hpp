@@ -263,7 +263,7 @@ class Player {
         more(-1);
         break;
       case Key::kC:
-        next_cake();
+        if (candles) show_candles(candles->candles() == 1 ? kCake : 1);
         break;
       case Key::kTab:
         next_model();
@@ -295,9 +295,7 @@ class Player {
       case Key::kQ:
         closed_ = true;
         break;
-      case Key::kLeft:
-      case Key::kRight:
-      case Key::kNone:
+      default:
         break;
     }
   }
@@ -313,17 +311,13 @@ class Player {
       leaves->set_leaves(direction > 0 ? now + std::max(1, now / 2) : now - std::max(1, now / 3));
       notice(std::to_string(leaves->leaves()) + (leaves->leaves() == 1 ? " leaf" : " leaves"));
     } else if (auto* candles = std::get_if<CandleScene>(&*scene_)) {
-      const int wanted = std::clamp(candles->candles() + direction, 1, CandleScene::kMaxCandles);
-      if (wanted == candles->candles()) return;
-      auto made = CandleScene::create(*model_, wanted, options_.seed);
-      if (made) show(std::move(*made), *model_);
+      show_candles(std::clamp(candles->candles() + direction, 1, CandleScene::kMaxCandles));
     }
   }
-  void next_cake() {
+  void show_candles(int wanted) {
     const auto* candles = std::get_if<CandleScene>(&*scene_);
-    if (!candles) return;
-    auto made = CandleScene::create(*model_, candles->candles() == 1 ? kCake : 1, options_.seed);
-    if (made) show(std::move(*made), *model_);
+    if (!candles || wanted == candles->candles()) return;
+    if (auto made = CandleScene::create(*model_, wanted, options_.seed)) show(std::move(*made), *model_);
   }
   void next_model() {
     if (options_.models.size() < 2) return notice("there is one model only; drop another .wisp file here");
@@ -350,19 +344,11 @@ class Player {
     burning_ = now;
   }
   void draw_indicator() {
-    std::string text;
-    switch (ear_.state()) {
-      case EarState::kOff:
-        return;
-      case EarState::kMissing:
-        text = "no microphone";
-        break;
-      case EarState::kListening:
-        // A meter of the wind as it is heard, eight steps to a gust of 2.
-        text = "microphone ";
-        for (int k = 0; k < 8; ++k) text += ear_.wind() * 4 > static_cast<float>(k) ? "●" : "·";
-        break;
-    }
+    if (ear_.state() == EarState::kOff) return;
+    const bool listens = ear_.state() == EarState::kListening;
+    std::string text = listens ? "microphone " : "no microphone";
+    // A meter of the wind as it is heard, eight steps to a gust of 2.
+    for (int k = 0; listens && k < 8; ++k) text += ear_.wind() * 4 > static_cast<float>(k) ? "●" : "·";
     const std::array<std::string, 1> lines{text};
     draw_note(image_, lines, Corner::kTopRight, std::max(11.0F, static_cast<float>(image_.height()) / 52));
   }

@@ -53,7 +53,7 @@ class Microphone {
   Microphone(const Microphone&) = delete;
   Microphone& operator=(const Microphone&) = delete;
 
-  // Opens the system's default microphone and the ear for it. An ear that knew this room goes on with what it knew.
+  // Opens the system's default microphone and the ear for it.
   // Errors: there is none, or it may not be used.
   Result<void> open(Ear& ear) {
     close();
@@ -407,7 +407,6 @@ void Window::draw_smaller(double milliseconds) {
 }
 
 Result<PlayReport> Window::run() {
-  FrameCosts costs;
   last_ = SDL_GetPerformanceCounter();
   std::chrono::nanoseconds shown{0};
   for (int frame = 1; !player_.closed() && (options_.frames == 0 || frame <= options_.frames); ++frame) {
@@ -424,14 +423,13 @@ Result<PlayReport> Window::run() {
     player_.advance(passed);
     const Image& image = player_.draw();
     const double cost = thread_milliseconds() - before;
-    costs.add(cost);
+    report_.add_frame(cost);
     if (auto ok = show(image); !ok) return ok.error();
     if (auto ok = keep(course_.wanted(), frame); !ok) return ok.error();
     SDL_RenderPresent(renderer_.get());
     hold_back(began);
     draw_smaller(cost);
   }
-  costs.report(report_);
   report_.figures = player_.figures();
   report_.state = player_.state();
   return report_;

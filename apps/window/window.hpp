@@ -1,6 +1,7 @@
 #pragma once
 // `wisp play`: the player in a window, or without any display for tests and pictures.
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,10 +33,17 @@ struct PlayReport {
   PlayerFigures figures{};
   std::vector<KeptPicture> pictures{};
   std::vector<std::string> said{};  ///< notices: no microphone, no vertical sync
+  int drawn = 0;                    ///< frames
   double draw_ms = 0;               ///< of the processor, mean of a frame's step and picture
   double worst_draw_ms = 0;         ///< but for the first ten frames
   std::string renderer{};           ///< of the window; empty without one
   std::string state{};              ///< at the end
+
+  /// Takes in the cost of a frame.
+  void add_frame(double milliseconds) {
+    draw_ms += (milliseconds - draw_ms) / ++drawn;
+    if (drawn > 10) worst_draw_ms = std::max(worst_draw_ms, milliseconds);
+  }
 };
 
 /// Frames a second of scripts and of pictures without a display: the same bytes for the same seed on every machine of

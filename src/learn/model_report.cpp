@@ -132,7 +132,7 @@ struct ViewFields {
     add_shape(outline.shape, section);
     add(section, "view.in_the_round", is_in_the_round(model) ? "recorded" : in_the_round(model) ? "symmetry" : "no");
     if (!is_in_the_round(model) && in_the_round(model)) {
-      add(section, "", "a body by the assumption of rotational symmetry: one camera saw it", "in the round");
+      add(section, "", "a body by the assumption of rotational symmetry", "in the round");
     }
     add(section, "view.metres_per_unit", outline.metres_per_unit);
     add(section, "view.pixels_per_unit", outline.pixels_per_unit);

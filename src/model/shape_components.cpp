@@ -8,8 +8,6 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMaxComponents = 256;
-
 bool is_range(const ValueRange& range) {
   return std::isfinite(range.lowest) && std::isfinite(range.highest) && range.lowest <= range.highest;
 }
@@ -79,7 +77,7 @@ Result<void> check(const ShapeComponents& shape, std::size_t points) {
     return Error{"the shape at rest has " + std::to_string(shape.rest.size()) + " coordinates, expected " +
                  std::to_string(coordinates)};
   }
-  if (shape.count() == 0 || shape.symmetric > kMaxComponents || shape.antisymmetric > kMaxComponents) {
+  if (shape.count() == 0 || shape.symmetric > kMaxShapeComponents || shape.antisymmetric > kMaxShapeComponents) {
     return Error{"the shape has " + std::to_string(shape.count()) + " components, expected 1 to 256 of a kind"};
   }
   if (shape.basis.size() != points * (shape.symmetric + shape.antisymmetric))

@@ -335,6 +335,8 @@ export class App {
     }
     if (this.duckFrom < DUCKS.lasts) this.duck(Math.min(seconds, DUCKS.frame));
     if (this.parts !== null) {
+      const turned = this.parts.senses.turned();
+      if (turned !== 0 && playing.scene instanceof CandleScene) playing.scene.goRound(turned);
       this.parts.senses.frame(playing.scene instanceof CandleScene ? playing.scene.burning().lit : 0);
       this.parts.drawer.frame(reading, cost);
       const { state } = this.parts.ear;

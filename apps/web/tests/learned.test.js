@@ -37,16 +37,6 @@ describe('what was learned', { skip }, () => {
     assert.ok(heights.every((width) => width > 10), heights.join());
   });
 
-  it('lets tilt and touch be switched on and off', async () => {
-    const pressed = () => page.getAttribute('[data-knob=senses]', 'aria-pressed');
-    assert.equal(await pressed(), 'false');
-    await page.click('[data-knob=senses]');
-    assert.equal(await pressed(), 'true');
-    await page.focus('#stage');
-    await page.keyboard.press('a');
-    assert.equal(await pressed(), 'false');
-  });
-
   it('offers its answer to wind to a flame that has none, and says that it is borrowed', async () => {
     await drop(page, 'calm.wisp', calm);
     await noticed(page, 'Playing calm.wisp');

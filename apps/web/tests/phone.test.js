@@ -37,6 +37,30 @@ describe('on a phone', { skip }, () => {
     await until(page, 'it burns again', allLit);
   });
 
+  it('a phone that is tilted blows it aside or away; turned, it goes round the candle, also where it stands upright', async () => {
+    const held = (alpha, beta, gamma) => session.send('DeviceOrientation.setDeviceOrientationOverride', { alpha, beta, gamma });
+    const sees = (...how) => until(page, ...how);
+    await page.evaluate(() => (DeviceOrientationEvent.requestPermission = async () => (window.asked = navigator.userActivation.isActive) && 'granted'));
+    await held(10, 88, 0);
+    await page.keyboard.press('a');
+    await sees('it has asked, in a press', () => window.asked === true && document.querySelector('[data-knob=senses]').ariaPressed === 'true');
+    await sees('nothing blows', () => Math.abs(window.wisp.wind) < 0.02);
+    await held(100, 60, -89.9);  // upright and rolled: 30 degrees down on the left
+    await sees('it leans to the left', () => window.wisp.wind < -0.5 && window.wisp.answer < -0.1);
+    await held(10, 88, 0);
+    await sees('it is still', () => Math.abs(window.wisp.wind) < 0.1);
+    await held(10, 60, 0);
+    await sees('it leans away', () => window.wisp.wind > 0.3 && window.wisp.answer > 0.1);
+    assert.equal(await page.evaluate(() => window.wisp.azimuth), 0);
+    for (const alpha of [30, 50, 70]) {
+      await held(alpha, 60, 0);
+      await sees('the eye has gone with it', (degrees) => Math.abs(window.wisp.azimuth - (degrees * Math.PI) / 180) < 0.01, alpha - 10);
+    }
+    await page.$eval('[data-knob=senses]', (knob) => knob.click());
+    assert.equal(await page.getAttribute('[data-knob=senses]', 'aria-pressed'), 'false');
+    await sees('nothing blows', () => Math.abs(window.wisp.wind) < 0.02);
+  });
+
   it('hands the link on with a picture of this flame', async () => {
     await page.evaluate(() => {
       navigator.canShare = () => true;

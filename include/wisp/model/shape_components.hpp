@@ -26,6 +26,9 @@ struct ValueRange {
   friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
+/// The most components of a kind that a shape has.
+inline constexpr std::size_t kMaxShapeComponents = 256;
+
 /// Shape coordinates = rest + basis · components, each clamped to the range that was recorded, so that flanks neither
 /// cross each other nor leave the base.
 struct ShapeComponents {

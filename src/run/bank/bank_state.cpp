@@ -227,101 +227,79 @@ std::size_t record_size(const Bank::State& s) {
   return 3 * 8 + 4 * (s.channels.regressors.size() + values) + life;
 }
 
-std::uint64_t age_of(std::uint64_t then, std::uint64_t now) {
-  return then == kNeverInSteps ? kNeverInSteps : now - then;
-}
-std::uint64_t moment_of(std::uint64_t age, std::uint64_t now) {
-  return age == kNeverInSteps ? kNeverInSteps : now - age;
-}
-
-// What is saved of an instance of a model that goes out: the wind, its harm, whether it is lit, its sizes, its
-// event, for how long, and its last shape.
-void save_life(Bank::State& s, int slot, ByteWriter& out) {
-  for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size, &s.event, &s.carried})
-    out.put((*values)[slot]);
-  for (const auto* moments : {&s.lit_at, &s.out_at}) out.put(age_of((*moments)[slot], s.steps));
-  const float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
-  for (std::size_t i = 0; i < s.channels.outputs.size(); ++i) out.put(shape[i * s.kLanes]);
-}
-
-void restore_life(Bank::State& s, int slot, ByteReader& in) {
-  for (auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size, &s.event, &s.carried})
-    (*values)[slot] = in.get_float();
-  for (auto* moments : {&s.lit_at, &s.out_at}) (*moments)[slot] = moment_of(in.get64(), s.steps);
-  float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
-  for (std::size_t i = 0; i < s.channels.outputs.size(); ++i) shape[i * s.kLanes] = in.get_float();
-}
-
-void save_slot(Bank::State& s, int slot, ByteWriter& out) {
-  out.put(s.generation[slot]);
-  out.put(static_cast<std::uint32_t>(s.alive[slot]));
-  out.put(s.stream[slot]);
-  out.put(s.steps - s.born[slot]);
-  const int block = slot / s.kLanes, lane = slot % s.kLanes;
-  for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) out.put(s.regressors_of(block)[k * s.kLanes + lane]);
-  const auto put = [&](float& z, float, float, float = 0) { out.put(z); };
-  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, put); }, s.stepper);
-  if (s.extinction.present) save_life(s, slot, out);
-}
-
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
 // Whether `value` is a whole number of steps above `low`. Where step is 0, any number is. Counters and indices in a
 // bank are small enough to be exact in single precision.
 bool on_grid(float value, float low, float step) { return !(step > 0) || std::fmod(value - low, step) == 0; }
 
-bool life_is_sound(const Bank::State& s, ByteReader& in) {
-  bool sound = within(in.get_float(), 0, s.extinction.most);
-  sound &= within(in.get_float(), 0, 1);
-  const float lit = in.get_float();
-  sound &= lit == 0 || lit == 1;
-  for (int k = 0; k < 2; ++k) sound &= within(in.get_float(), 0, 1);
-  const float event = in.get_float();
-  sound &= within(event, kNoEvent, static_cast<float>(s.extinction.sizes.size()) - 1) && on_grid(event, kNoEvent, 1);
-  sound &= within(in.get_float(), -1, 1);
-  for (int k = 0; k < 2; ++k) {
-    const std::uint64_t age = in.get64();
-    sound &= age == kNeverInSteps || age < kMaxAge;
-  }
-  for (const OutputChannel& channel : s.channels.outputs) {
-    sound &= within(in.get_float(), std::min(channel.lowest, 0.0f), std::max(channel.highest, 0.0f));
-  }
-  return sound;
-}
+// A slot's record as it is written or read; what is read is found sound, that save() could have made it, or goes into
+// the bank.
+struct SlotRecord {
+  ByteWriter* out = nullptr;  // null: it is read
+  ByteReader* in = nullptr;
+  std::uint64_t now = 0;  // steps of the bank
+  bool restores = false;
+  bool sound = true;
 
-// Whether a slot's record could have been written by save().
-bool slot_is_sound(Bank::State& s, ByteReader& in) {
-  in.get32();
-  bool sound = in.get32() <= 1;
-  in.get64();
-  sound &= in.get64() < kMaxAge;
-  for (const RegressorChannel& channel : s.channels.regressors) {
-    sound &= within(in.get_float(), channel.least, channel.most);
+  void whole(std::uint32_t& value, std::uint32_t most) {
+    if (out) return out->put(value);
+    const std::uint32_t read = in->get32();
+    sound &= read <= most;
+    if (restores) value = read;
   }
-  const auto check = [&](float&, float low, float high, float step = 0) {
-    const float value = in.get_float();
-    sound &= within(value, low, high) && on_grid(value, low, step);
-  };
-  std::visit([&](auto& dynamics) { dynamics.visit_lane(0, 0, check); }, s.stepper);
-  if (s.extinction.present) sound &= life_is_sound(s, in);
-  return sound;
-}
+  void whole(std::uint64_t& value) {
+    if (out) return out->put(value);
+    const std::uint64_t read = in->get64();
+    if (restores) value = read;
+  }
+  void number(float& value, float low, float high, float step) {
+    if (out) return out->put(value);
+    const float read = in->get_float();
+    sound &= within(read, low, high) && on_grid(read, low, step);
+    if (restores) value = read;
+  }
+  void moment(std::uint64_t& then, bool may_be_never) {
+    if (out) return out->put(then == kNeverInSteps ? then : now - then);
+    const std::uint64_t age = in->get64();
+    sound &= age < kMaxAge || (may_be_never && age == kNeverInSteps);
+    if (restores) then = age == kNeverInSteps ? age : now - age;
+  }
+};
 
-void restore_slot(Bank::State& s, int slot, ByteReader& in) {
-  s.generation[slot] = in.get32();
-  s.alive[slot] = static_cast<std::uint8_t>(in.get32());
-  s.stream[slot] = in.get64();
-  s.born[slot] = s.steps - in.get64();
+// What is saved of a slot, in its order. Of a model that goes out: the wind, its harm, whether it is lit, its sizes,
+// its event, for how long, when it was lit and went out, and its last shape.
+void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
-  for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) {
-    s.regressors_of(block)[k * s.kLanes + lane] = in.get_float();
+  std::uint32_t alive = s.alive[slot];
+  record.whole(s.generation[slot], ~std::uint32_t{0});
+  record.whole(alive, 1);
+  s.alive[slot] = static_cast<std::uint8_t>(alive);
+  record.whole(s.stream[slot]);
+  record.moment(s.born[slot], false);
+  const auto number = [&](float& value, float low, float high, float step = 0) {
+    record.number(value, low, high, step);
+  };
+  float* regressor = s.regressors_of(block) + lane;
+  for (const RegressorChannel& channel : s.channels.regressors) {
+    number(*regressor, channel.least, channel.most);
+    regressor += s.kLanes;
   }
-  const auto take = [&](float& z, float, float, float = 0) { z = in.get_float(); };
-  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, take); }, s.stepper);
-  if (s.extinction.present) restore_life(s, slot, in);
-  if (!s.alive[slot]) return;
-  ++s.living;
-  s.rows = slot + 1;
+  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, number); }, s.stepper);
+  if (!s.extinction.present) return;
+  number(s.wind[slot], 0, s.extinction.most);
+  number(s.harm[slot], 0, 1);
+  number(s.lit[slot], 0, 1, 1);
+  number(s.size[slot], 0, 1);
+  number(s.previous_size[slot], 0, 1);
+  number(s.event[slot], kNoEvent, static_cast<float>(s.extinction.sizes.size()) - 1, 1);
+  number(s.carried[slot], -1, 1);
+  for (auto* moments : {&s.lit_at, &s.out_at}) record.moment((*moments)[slot], true);
+  float* shape = s.last_shape_of(block) + lane;
+  for (const OutputChannel& channel : s.channels.outputs) {
+    number(*shape, std::min(channel.lowest, 0.0f), std::max(channel.highest, 0.0f));
+    shape += s.kLanes;
+  }
 }
 
 struct Fields {
@@ -401,7 +379,8 @@ void Bank::save(std::span<std::byte> bytes) const {
                               s.clamped.clamped, s.clamped.steps, std::uint64_t{0}, bits_of(s.ground)}) {
     out.put(field);
   }
-  for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);
+  SlotRecord record{.out = &out, .now = s.steps};
+  for (int slot = 0; slot < s.capacity; ++slot) visit_slot(s, slot, record);
   std::memcpy(bytes.data(), kSaveMagic.data(), kSaveMagic.size());
   ByteWriter header(bytes.data() + kSaveMagic.size());
   header.put(version_of(s));
@@ -418,7 +397,9 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   const Fields fields = read_fields(fields_in);
   if (!fields_are_sound(s, fields)) return damaged("its time or noise is out of range");
   for (int slot = 0; slot < s.capacity; ++slot) {
-    if (!slot_is_sound(s, sound_in)) return damaged("slot " + std::to_string(slot) + " holds what no bank can");
+    SlotRecord record{.in = &sound_in};
+    visit_slot(s, slot, record);
+    if (!record.sound) return damaged("slot " + std::to_string(slot) + " holds what no bank can");
   }
   s.seed = fields.seed;
   s.keys = random_keys(fields.seed);
@@ -430,7 +411,13 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   s.clamped = {fields.clamped, fields.steps};
   s.called = s.steps;
   s.living = s.rows = s.lowest_free = 0;
-  for (int slot = 0; slot < s.capacity; ++slot) restore_slot(s, slot, in);
+  SlotRecord record{.in = &in, .now = s.steps, .restores = true};
+  for (int slot = 0; slot < s.capacity; ++slot) {
+    visit_slot(s, slot, record);
+    if (!s.alive[slot]) continue;
+    ++s.living;
+    s.rows = slot + 1;
+  }
   s.show();
   return {};
 }

@@ -13,8 +13,6 @@
 namespace wisp {
 namespace {
 
-std::vector<std::byte> room_for(const Arena& measured) { return std::vector<std::byte>(measured.bytes()); }
-
 // Counts the operations of `work`.
 template <class Work>
 OperationCount count(Work work) {
@@ -86,13 +84,31 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
   return {{numbers, mean(all.numbers + all.words) - numbers}, most};
 }
 
+// What is counted: an instance's dynamics, and what shows it, with a polyline of `points` points (0: none).
 template <class Stepper>
-OperationCount count_view(const Channels& channels, const Stepper& stepper, const ShapeProgram& shape,
-                          const PolylineProgram& polyline) {
-  std::vector<CountingReal> made(channels.outputs.size()), points(2 * shape.points);
+struct Played {
+  template <class Kind>
+  Played(const Model& model, const Kind& dynamics, int points, Arena& arena)
+      : channels(make_channels(model, Stepper::operating_point(dynamics), arena)),
+        shape(make_shape_program(model, arena)),
+        stepper(model, dynamics, channels, 1, arena) {
+    if (points > 0) polyline = make_polyline(std::get<OutlineView>(model.view), points, arena);
+  }
+
+  Channels channels;
+  ShapeProgram shape;
+  PolylineProgram polyline;
+  Stepper stepper;
+};
+
+template <class Stepper>
+OperationCount count_view(const Played<Stepper>& played) {
+  const ShapeProgram& shape = played.shape;
+  const PolylineProgram& polyline = played.polyline;
+  std::vector<CountingReal> made(played.channels.outputs.size()), points(2 * shape.points);
   std::vector<CountingReal>& shown = shape.empty() ? made : points;
   return count([&] {
-    stepper.show_frame(0, made.data());
+    played.stepper.show_frame(0, made.data());
     if (!shape.empty()) {
       shape_lanes<CountingNumbers>(shape, made.data(),
                                    [&](std::size_t i, const auto& value) { store(value, &points[i]); });
@@ -127,16 +143,11 @@ ExtinctionCount count_extinction(const Model& model) {
   return {burning.numbers, shrinking.numbers};
 }
 
-template <class Stepper, class Kind>
-Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels, const ShapeProgram& shape,
-                 const PolylineProgram& polyline) {
-  Arena measured;
-  Stepper(model, dynamics, channels, 1, measured);
-  std::vector<std::byte> memory = room_for(measured);
-  Arena arena(memory);
-  Stepper stepper(model, dynamics, channels, 1, arena);
+template <class Stepper>
+Cost count_frame(const Model& model, Played<Stepper>& played) {
+  Stepper& stepper = played.stepper;
   std::vector<CountingReal> blowing;
-  const OperationCount inputs = count([&] { blowing = blowing_regressors(model, channels); });
+  const OperationCount inputs = count([&] { blowing = blowing_regressors(model, played.channels); });
   const OperationCount quiet = count_step(stepper, blowing, 0).mean;
   const auto [noisy, steady] = count_step(stepper, blowing, 1);
   const std::int64_t most = std::max(steady, count_step(stepper, blowing, 1, Course::kSwinging).most);
@@ -145,7 +156,7 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.dynamics_operations = inputs.numbers + quiet.numbers + quiet.words;
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
-  cost.view_operations = count_view(channels, stepper, shape, polyline).numbers;
+  cost.view_operations = count_view(played).numbers;
   const ExtinctionCount extinction = count_extinction(model);
   cost.extinction_operations = extinction.burning;
   cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
@@ -158,18 +169,6 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   return cost;
 }
 
-// What a stepper needs besides the model: its channels, and the polyline of `points` points (0: none).
-struct Surroundings {
-  Surroundings(const Model& model, const OperatingPoint& point, int points, Arena& arena)
-      : channels(make_channels(model, point, arena)), shape(make_shape_program(model, arena)) {
-    if (points > 0) polyline = make_polyline(std::get<OutlineView>(model.view), points, arena);
-  }
-
-  Channels channels;
-  ShapeProgram shape;
-  PolylineProgram polyline;
-};
-
 }  // namespace
 
 Result<Cost> count_operations(const Model& model, int polyline_points) {
@@ -178,13 +177,12 @@ Result<Cost> count_operations(const Model& model, int polyline_points) {
   }
   const int points = std::holds_alternative<OutlineView>(model.view) ? polyline_points : 0;
   const auto count_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<Cost> {
-    const OperatingPoint point = Type::operating_point(dynamics);
     Arena measured;
-    Surroundings(model, point, points, measured);
-    std::vector<std::byte> memory = room_for(measured);
+    Played<Type>(model, dynamics, points, measured);
+    std::vector<std::byte> memory(measured.bytes());
     Arena arena(memory);
-    const Surroundings around(model, point, points, arena);
-    return count_frame<Type>(model, dynamics, around.channels, around.shape, around.polyline);
+    Played<Type> played(model, dynamics, points, arena);
+    return count_frame(model, played);
   };
   return visit_dynamics<CountingNumbers>(model, count_kind);
 }

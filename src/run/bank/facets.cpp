@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "run/bank/bank_state.hpp"
 #include "wisp/run/body_facet.hpp"
@@ -110,12 +111,8 @@ namespace {
 
 constexpr int kBodyLanes = Bank::State::kLanes;
 
-struct Ring {
-  float x, y, z, radius, rise_x, rise_z;
-};
-
 // A ring from the two points of each outline, seen from the front and from the side, that are as far from the tip.
-Ring ring_of(const Bank::State& s, int ring, int lane) {
+std::array<float, kRingNumbers> ring_of(const Bank::State& s, int ring, int lane) {
   const int points = s.polyline.points;
   const auto at = [&](int side, int point, int coordinate) {
     return s.round_lines[static_cast<std::size_t>(2 * (side * points + point) + coordinate) * kBodyLanes + lane];
@@ -127,10 +124,8 @@ Ring ring_of(const Bank::State& s, int ring, int lane) {
 }
 
 void write_lane(const Bank::State& s, int lane, float* out) {
-  for (int k = 0; k < s.body_facet.rings(); ++k) {
-    const Ring ring = ring_of(s, k, lane);
-    for (float number : {ring.x, ring.y, ring.z, ring.radius, ring.rise_x, ring.rise_z}) *out++ = number;
-  }
+  for (int k = 0; k < s.body_facet.rings(); ++k)
+    for (float number : ring_of(s, k, lane)) *out++ = number;
 }
 
 }  // namespace

@@ -39,37 +39,45 @@ ShapeProgram make_shape_program(const Model& model, Arena& arena);
 /// Combines the program with the hash `before`. Returns `before` where the program is empty.
 std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
 
-/// A shape coordinate as the weighted sum of components, [component][lane]. Those from 2N on are z.
+/// A coordinate of the symmetric part, or of the antisymmetric one from `points` on, as the weighted sum of the part's
+/// components, [component][lane], about `rest`.
 template <class N>
-inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components) {
+inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components,
+                                 float rest) {
   const bool symmetric = i < program.points;
   const std::size_t count = symmetric ? program.symmetric : program.antisymmetric;
-  const bool across = i >= 2 * program.points;
-  const std::size_t row = i - (across ? 2 : symmetric ? 0 : 1) * program.points;
-  const float* basis = program.basis.data() + (symmetric ? 0 : program.points * program.symmetric) + row * count;
-  if (!symmetric) components += (program.symmetric + (across ? count : 0)) * N::kLanes;
-  auto sum = all<Reals<N>>(program.rest[i]);
+  const float* basis = program.basis.data() +
+                       (symmetric ? i * count : program.points * program.symmetric + (i - program.points) * count);
+  auto sum = all<Reals<N>>(rest);
   for (std::size_t k = 0; k < count; ++k, components += N::kLanes) {
     if (basis[k] != 0) sum = sum + all<Reals<N>>(basis[k]) * load<Reals<N>>(components);
   }
   return hold(sum, all<Reals<N>>(program.lowest[i]), all<Reals<N>>(program.highest[i]));
 }
 
-/// Calls show(output, values) for every coordinate of every control point; `components` is [component][lane].
+/// Calls show(output, values) for every coordinate of every control point; `components` is [component][lane]. Vectors
+/// are seen from a direction before they are summed: that takes half of the products of summing x and z.
 template <class N, class Show>
 inline void shape_lanes(const ShapeProgram& program, const typename N::Real* components, const Show& show,
                         LevelView view = {}) {
   const std::size_t points = program.points;
+  const typename N::Real* vectors = components + program.symmetric * N::kLanes;
+  typename N::Real seen[kMaxShapeComponents * N::kLanes];
+  for (std::size_t k = 0; k < program.across * N::kLanes; k += N::kLanes) {
+    const auto along = load<Reals<N>>(vectors + k), across = load<Reals<N>>(vectors + program.across * N::kLanes + k);
+    store(all<Reals<N>>(view.x) * along + all<Reals<N>>(view.z) * across, seen + k);
+  }
+  if (program.across > 0) vectors = seen;
+  const auto even_at = [&](std::size_t i) { return shape_coordinate<N>(program, i, components, program.rest[i]); };
   const auto vector = [&](std::size_t i) {
-    const auto along = shape_coordinate<N>(program, points + i, components);
-    if (program.across == 0) return along;
-    const auto across = shape_coordinate<N>(program, 2 * points + i, components);
-    return all<Reals<N>>(view.x) * along + all<Reals<N>>(view.z) * across;
+    const float along = program.rest[points + i];
+    const float rest = program.across > 0 ? view.x * along + view.z * program.rest[2 * points + i] : along;
+    return shape_coordinate<N>(program, points + i, vectors, rest);
   };
   for (std::size_t p = 0; p < points / 2; ++p) {
     const std::size_t right = points - 1 - p;
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto even = shape_coordinate<N>(program, 2 * p + axis, components);
+      const auto even = even_at(2 * p + axis);
       const auto odd = vector(2 * p + axis);
       const auto &half = axis == 0 ? even : odd, &middle = axis == 0 ? odd : even;
       show(2 * p + axis, settle(middle - half));
@@ -78,7 +86,7 @@ inline void shape_lanes(const ShapeProgram& program, const typename N::Real* com
   }
   if (points % 2 == 0) return;
   show(points - 1, settle(vector(points - 1)));
-  show(points, settle(shape_coordinate<N>(program, points - 1, components)));
+  show(points, settle(even_at(points - 1)));
 }
 
 }  // namespace wisp

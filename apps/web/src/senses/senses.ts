@@ -1,4 +1,4 @@
-// Tilt and touch, opt-in: a phone that makes wind where it is tilted, and vibrates when a flame goes out.
+// Tilt and touch, opt-in: a phone that makes wind where it is tilted, goes round where it is turned, and vibrates when a flame goes out.
 
 import type { Air } from '@wisp/player/parts/stage/scene';
 import { Tilt } from './tilt.js';
@@ -14,6 +14,11 @@ export class Senses {
   /** Wind that tilting makes. */
   get air(): Air {
     return this.tilt.air;
+  }
+
+  /** Radians to go round the candle by, as the phone was turned. Who prefers less motion stays where they are. */
+  turned(): number {
+    return document.body.classList.contains('calm') ? 0 : this.tilt.turned();
   }
 
   /** On or off. To be called from a press or a key: browsers may ask only there. */

@@ -1,50 +1,72 @@
-// A phone that is tilted makes wind: what it leans to from how it was held before.
+// A phone in the hand: tilted, it makes wind, by how it was held before; turned about the vertical, it goes round the candle.
 
 import type { Air } from '@wisp/player/parts/stage/scene';
 
-/** Degrees from rest that blow as a strong breath. */
-const STRONG = 38;
-const MOST = 1;
+/** Radians from rest that blow as a strong breath, and the share of them that is a hand's trembling. */
+const STRONG = 0.66;
+const TREMBLES = 0.12;
 /** Seconds after which a new way to hold it is rest. */
 const FORGETS = 4;
+/** Radians between two readings: more is a jump of the sensor. */
+const JUMP = 0.5;
 
-interface Asking {
-  requestPermission?: () => Promise<'granted' | 'denied'>;
-}
-
-/** One of the phone's angles, degrees. */
+/** One of the phone's angles. */
 class Angle {
   private rest: number | null = null;
   private now = 0;
 
   get wind(): number {
-    if (this.rest === null) return 0;
-    const lean = (this.now - this.rest) / STRONG;
-    return Math.max(-MOST, Math.min(MOST, Math.abs(lean) < 0.12 ? 0 : lean));
+    const lean = (this.now - (this.rest ?? this.now)) / STRONG;
+    return Math.max(-1, Math.min(1, Math.abs(lean) < TREMBLES ? 0 : lean));
   }
 
-  take(degrees: number | null, seconds: number): void {
-    if (degrees === null) return;
-    this.now = degrees;
-    this.rest = this.rest === null ? degrees : this.rest + (degrees - this.rest) * (1 - Math.exp(-seconds / FORGETS));
+  take(radians: number): void {
+    this.now = radians;
+    this.rest ??= radians;
   }
+
+  pass(seconds: number): void {
+    if (this.rest !== null) this.rest += (this.now - this.rest) * (1 - Math.exp(-seconds / FORGETS));
+  }
+}
+
+/** How the picture lies: by how much its right edge is down, and its upper edge up; where its right edge points to, from above. */
+function lie({ alpha, beta, gamma }: DeviceOrientationEvent): [roll: number, pitch: number, heading: number] | null {
+  if (alpha === null || beta === null || gamma === null) return null;
+  const [a, b, c, held] = [alpha, beta, gamma, window.screen.orientation?.angle ?? 0].map((degrees) => (degrees * Math.PI) / 180) as [number, number, number, number];
+  // The vertical in the phone's axes, and its first two axes from above. Its angles themselves jump where it stands upright.
+  const up = [-Math.cos(b) * Math.sin(c), Math.sin(b), Math.cos(b) * Math.cos(c)] as const;
+  const first = [Math.cos(a) * Math.cos(c) - Math.sin(a) * up[1] * Math.sin(c), Math.sin(a) * Math.cos(c) + Math.cos(a) * up[1] * Math.sin(c)] as const;
+  const second = [-Math.sin(a) * Math.cos(b), Math.cos(a) * Math.cos(b)] as const;
+  const right = (x: number, y: number): number => Math.cos(held) * x - Math.sin(held) * y;
+  return [
+    -Math.asin(Math.max(-1, Math.min(1, right(up[0], up[1])))),
+    Math.atan2(Math.sin(held) * up[0] + Math.cos(held) * up[1], up[2]),
+    Math.atan2(right(first[1], second[1]), right(first[0], second[0])),
+  ];
 }
 
 export class Tilt {
   private sideways = new Angle();
   private forwards = new Angle();
+  private heading: number | null = null;
   private at = 0;
+  private turn = 0;
   private readonly listener = (event: DeviceOrientationEvent): void => {
-    const seconds = Math.min(1, Math.max(0, (event.timeStamp - this.at) / 1000));
-    this.at = event.timeStamp;
-    this.sideways.take(event.gamma, seconds);
-    this.forwards.take(event.beta, seconds);
+    const angles = lie(event);
+    if (angles === null) return;
+    const [roll, pitch, heading] = angles;
+    this.sideways.take(roll);
+    this.forwards.take(pitch);
+    const turned = Math.atan2(Math.sin(heading - (this.heading ?? heading)), Math.cos(heading - (this.heading ?? heading)));
+    if (Math.abs(turned) < JUMP) this.turn += turned;
+    this.heading = heading;
   };
 
   /** Asks, where that has to be asked; then listens. */
   async open(): Promise<void> {
     if (typeof DeviceOrientationEvent === 'undefined') return;
-    const { requestPermission } = DeviceOrientationEvent as Asking;
+    const { requestPermission } = DeviceOrientationEvent as { requestPermission?: () => Promise<'granted' | 'denied'> };
     if (requestPermission !== undefined && (await requestPermission()) !== 'granted') return;
     window.addEventListener('deviceorientation', this.listener);
   }
@@ -53,10 +75,21 @@ export class Tilt {
     window.removeEventListener('deviceorientation', this.listener);
     this.sideways = new Angle();
     this.forwards = new Angle();
+    this.heading = null;
   }
 
-  /** 1 is strong. A phone whose upper edge goes down leans away. */
+  /** 1 is strong. A phone whose upper edge goes down leans away. It comes to rest also where no more readings come. */
   get air(): Air {
+    const seconds = (performance.now() - this.at) / 1000;
+    this.at += 1000 * seconds;
+    for (const angle of [this.sideways, this.forwards]) angle.pass(seconds);
     return { right: this.sideways.wind, away: -this.forwards.wind };
+  }
+
+  /** Radians that it was turned by since this was asked last, anticlockwise from above. */
+  turned(): number {
+    const { turn } = this;
+    this.turn = 0;
+    return turn;
   }
 }
