@@ -25,4 +25,17 @@ void set_verdict(Recording& recording, bool usable, const std::string& reason) {
   recording.attributes.push_back({"usable_reason", reason});
 }
 
+ReportEntry symmetry_entry(const Recording& recording) {
+  ReportEntry entry{"symmetry_differs", {}, "lean differs with the wind's direction by", "%", {}, ""};
+  const auto told = numbers_attribute(recording, "symmetry");
+  if (!told || !*told || (*told)->size() != 3) {
+    entry.meaning = "unknown: expected at least nine blows, from all round";
+    return entry;
+  }
+  entry.value = (**told)[0];
+  entry.interval = {(**told)[1], (**told)[2]};
+  entry.meaning = "a flame that is the same from all sides, as it is played: an interval that begins at 0";
+  return entry;
+}
+
 }  // namespace wisp

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "wisp/base/report.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -24,5 +25,9 @@ std::optional<std::string> refused_by_capture(std::span<const Recording> recordi
 
 /// Says it.
 void set_verdict(Recording& recording, bool usable, const std::string& reason);
+
+/// How far a flame that several cameras filmed is from being the same from all sides (attribute `symmetry`, percent and
+/// its 95 % interval; absent where too few blows told it).
+ReportEntry symmetry_entry(const Recording& recording);
 
 }  // namespace wisp

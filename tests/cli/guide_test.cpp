@@ -119,6 +119,8 @@ TEST_F(Guide, TwoPhonesFilmAFlameInTheRound) {
     if (command.starts_with("capture")) {
       EXPECT_TRUE(file_text(at("said")).starts_with("usable")) << file_text(at("said"));
     }
+    if (command.starts_with("learn"))
+      EXPECT_THAT(file_text(at("said")), HasSubstr("lean differs with the wind's direction by"));
   }
   const Said joined =
       wisp("capture flame " + at("front.mp4") + " " + at("side.mp4") + " --angles 0,90 --json -o " + at("again.csv"));
@@ -126,7 +128,6 @@ TEST_F(Guide, TwoPhonesFilmAFlameInTheRound) {
   EXPECT_LT(joined.json()["heights_differ"], 3.0);
   EXPECT_NEAR(joined.json()["views"][1]["begins"], 0, 0.02);
   for (const auto& blow : joined.json()["blows"]) EXPECT_NEAR(blow["azimuth"], 45, 8) << blow;
-  EXPECT_LT(joined.json()["answers_differ"], 20.0);
   EXPECT_EQ(wisp("info " + at("candle.wisp") + " --json").json()["view"]["in_the_round"], "symmetry");
   const Said alone = wisp("capture flame " + at("front.mp4") + " --angles 0,90 -o " + at("no.csv"));
   EXPECT_NE(alone.status, 0);

@@ -96,12 +96,12 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   if (!factors) return factors.error();
   auto on_one_scale = at_common_gain({recordings.begin(), recordings.end()});
   if (!on_one_scale) return on_one_scale.error();
-  std::vector<std::string> warnings;
+  Report report;
   for (Recording& recording : *on_one_scale) {
     const std::size_t removed = remove_jumps(recording);
     if (removed == 0) continue;
-    warnings.push_back(recording.source + ": " + std::to_string(removed) +
-                       " outlines lie far from those around them, as nothing moves: left out");
+    report.warnings.push_back(recording.source + ": " + std::to_string(removed) +
+                              " outlines lie far from those around them, as nothing moves: left out");
   }
   const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe.extinction);
   if (!seen) return seen.error();
@@ -115,14 +115,13 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
     fit->summary.usable = fit->model.training.usable = {false, *why};
     fit->summary.code = "capture";
   }
-  Report report;
   report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason, fit->summary.code};
-  report.warnings = std::move(warnings);
-  const auto& more = fit->summary.warnings;
-  report.warnings.insert(report.warnings.end(), more.begin(), more.end());
+  for (const std::string& warning : fit->summary.warnings) report.warnings.push_back(warning);
   if (*extinction && (*extinction)->warning) report.warnings.push_back(*(*extinction)->warning);
   report.sections = report_sections(*fit);
   report.sections.push_back(gain_section(*factors));
+  if (find_attribute(recordings[0], "azimuths"))
+    report.sections.push_back({"Symmetry", {symmetry_entry(recordings[0])}});
   report.sections.push_back(extinction_section(fit->model, *extinction));
   return Fit{std::move(fit->model), std::move(report)};
 }

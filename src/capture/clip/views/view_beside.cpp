@@ -6,6 +6,7 @@
 #include "base/statistics.hpp"
 #include "capture/clip/views/view_join.hpp"
 #include "record/loudness.hpp"
+#include "record/verdict.hpp"
 #include "wisp/model/shape_components.hpp"
 
 namespace wisp {
@@ -18,6 +19,8 @@ struct Blow {
   std::size_t begin = 0, end = 0;  // rows
   double x = 1, z = 0;             // its direction, of length 1
   double alike = 0, answer = 0;    // the share of the lean that is that way; the lean for each 1 of wind, pixels
+  double strength = 0;             // mean wind, weighted by itself
+  double azimuth() const { return std::atan2(-z, x); }
 };
 
 std::vector<Blow> blows_of(const std::vector<double>& wind, double rate_hz) {
@@ -46,15 +49,17 @@ std::vector<double> displaced(std::vector<double> place, const std::vector<doubl
 // Towards the mean displacement, weighted by the wind that made it.
 void direct(const std::vector<double>& wind, const std::vector<double>& x, const std::vector<double>& z,
             std::size_t lag, Blow& blow) {
-  double sum_x = 0, sum_z = 0, all = 0, square = 0;
+  double sum_x = 0, sum_z = 0, all = 0, square = 0, cube = 0;
   for (std::size_t row = blow.begin; row < blow.end && row + lag < x.size(); ++row) {
     const double dx = wind[row] * x[row + lag], dz = wind[row] * z[row + lag];
     if (std::isnan(dx + dz)) continue;
     sum_x += dx, sum_z += dz, all += std::hypot(dx, dz), square += wind[row] * wind[row];
+    cube += std::pow(wind[row], 3);
   }
   const double length = std::hypot(sum_x, sum_z);
   if (length > 0)
     blow.x = sum_x / length, blow.z = sum_z / length, blow.alike = length / all, blow.answer = length / square;
+  if (square > 0) blow.strength = cube / square;
 }
 
 std::vector<double> heard_along(const Recording* film, double first_row, std::size_t rows) {
@@ -68,7 +73,8 @@ std::vector<double> heard_along(const Recording* film, double first_row, std::si
   return wind;
 }
 
-ReportSection wind_section(const std::vector<Blow>& blows, double rate_hz) {
+// Tells the recording, too, how far the flame is from being the same from all sides.
+ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
   ReportTable table{"blows",
                     "Blows",
                     {{"begin", "begin", "s"},
@@ -77,22 +83,15 @@ ReportSection wind_section(const std::vector<Blow>& blows, double rate_hz) {
                      {"alike", "of the lean that way"},
                      {"answer", "lean for each 1 of wind", "px"}},
                     {}};
-  std::vector<double> answers;
+  std::vector<BlowAnswer> answers;
   for (const Blow& blow : blows) {
-    answers.push_back(blow.answer);
-    table.rows.push_back({static_cast<double>(blow.begin) / rate_hz,
-                          static_cast<double>(blow.end - blow.begin) / rate_hz,
-                          std::atan2(-blow.z, blow.x) * 180 / std::numbers::pi, blow.alike, blow.answer});
+    if (blow.answer > 0) answers.push_back({blow.azimuth(), blow.strength, blow.answer});
+    table.rows.push_back({static_cast<double>(blow.begin) / rings.rate_hz,
+                          static_cast<double>(blow.end - blow.begin) / rings.rate_hz,
+                          blow.azimuth() * 180 / std::numbers::pi, blow.alike, blow.answer});
   }
-  return {"Wind",
-          {{"blows.count", blows.size(), "blows", ""},
-           {"answers_differ",
-            100 * deviation(answers) / std::max(1e-9, mean(answers)),
-            "blows are answered alike within",
-            "%",
-            {},
-            "a flame that is the same from all sides: 20 and less"}},
-          {std::move(table)}};
+  if (const auto found = asymmetry_of(answers)) set_numbers_attribute(rings, "symmetry", *found);
+  return {"Wind", {{"blows.count", blows.size(), "blows", ""}, symmetry_entry(rings)}, {std::move(table)}};
 }
 
 }  // namespace
@@ -139,7 +138,7 @@ ReportSection see_from_beside(const Recording* film, double first_row, Recording
   }
   outline.insert(outline.end(), {std::move(wind_x), std::move(wind_z)});
   rings.channels.insert(rings.channels.begin(), outline.begin(), outline.end());
-  return wind_section(blows, rings.rate_hz);
+  return wind_section(blows, rings);
 }
 
 }  // namespace wisp

@@ -4,6 +4,7 @@
 // A level camera sees of a horizontal place (x, z) its part to the right, x cos α − z sin α: of an outline's symmetric
 // parts the body's own, of its antisymmetric ones such parts of vectors, which views at two angles and more give.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,6 +41,18 @@ struct FilmedView {
 /// wind.z, the blow's vector, towards where the flame leans in it. A new blow begins an episode. Returns what each blow
 /// was.
 ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings);
+
+/// What a blow did: where it blew to (radians), its mean wind weighted by itself, and the lean for each 1 of wind.
+struct BlowAnswer {
+  double azimuth = 0, strength = 0, lean = 0;
+};
+
+inline constexpr std::size_t kMinSymmetryBlows = 9;
+
+/// By how much the lean for each 1 of wind depends on the direction, in percent of its mean, beside a line in the
+/// strength: the root mean square over all directions of two harmonics, less what chance shows; and its 95 % interval,
+/// from leans that are shuffled among the blows. Nothing of fewer blows than kMinSymmetryBlows, or from one side.
+std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> blows);
 
 /// Joins films, in pixels of the first: x to the right of a camera at 0°, y up from the base at rest, z towards that
 /// camera. Returns, for every frame that all have and every ring k from the base to the tip, as motion ringk.x, .y, .z,
