@@ -119,8 +119,9 @@ TEST_F(Guide, TwoPhonesFilmAFlameInTheRound) {
     if (command.starts_with("capture")) {
       EXPECT_TRUE(file_text(at("said")).starts_with("usable")) << file_text(at("said"));
     }
-    if (command.starts_with("learn"))
+    if (command.starts_with("learn")) {
       EXPECT_THAT(file_text(at("said")), HasSubstr("lean differs with the wind's direction by"));
+    }
   }
   const Said joined =
       wisp("capture flame " + at("front.mp4") + " " + at("side.mp4") + " --angles 0,90 --json -o " + at("again.csv"));
