@@ -12,7 +12,7 @@
 
 #include "event.hpp"
 #include "wisp/draw/image.hpp"
-#include "wisp/draw/leaf_flock.hpp"
+#include "wisp/draw/leaf.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/random.hpp"

@@ -90,7 +90,6 @@ class ClipSound : public testing::Test {
     auto film = VideoWriter::create(at(name), {.width = kWidth,
                                                .height = kHeight,
                                                .rate_hz = kRate,
-                                               .preset = "ultrafast",
                                                .sound_rate_hz = microphone.rate_hz});
     ASSERT_TRUE(film) << film.error().message;
     for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k)));

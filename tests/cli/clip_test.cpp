@@ -31,16 +31,15 @@ Image flame_frame(int frame, Point base = {80, 180}, double tapers = 0) {
     outline.push_back({static_cast<float>(side * half_width + sway * up * up), static_cast<float>(height * up)});
   }
   Image image(kWidth, kHeight);
-  const FlameScene scene{.base = base, .pixels_per_unit = 120};
-  draw_flame(image, outline, scene, {.glow = 0, .candle = false});
+  const Flame flame{outline, {.base = base, .pixels_per_unit = 120}};
+  draw_flames(image, {&flame, 1}, {.glow = 0, .candle = false});
   return image;
 }
 
 class Clip : public InFolder {
  protected:
   void write_clip(const std::string& name, int frames, bool black = false) {
-    auto film =
-        VideoWriter::create(at(name), {.width = kWidth, .height = kHeight, .rate_hz = 30, .preset = "ultrafast"});
+    auto film = VideoWriter::create(at(name), {.width = kWidth, .height = kHeight, .rate_hz = 30});
     ASSERT_TRUE(film) << film.error().message;
     for (int k = 0; k < frames; ++k) ASSERT_TRUE(film->write(black ? Image(kWidth, kHeight) : flame_frame(k)));
     ASSERT_TRUE(film->finish());
@@ -112,8 +111,7 @@ TEST_F(Clip, BecomesARecordingAModelAndPictures) {
 }
 
 TEST_F(Clip, AFilmStripShowsTheLearnedFlameInTheClipsOwnLightAndCrop) {
-  auto film =
-      VideoWriter::create(at("clip.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30, .preset = "ultrafast"});
+  auto film = VideoWriter::create(at("clip.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30});
   ASSERT_TRUE(film);
   for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k, {80, 155}, 0.4)));
   ASSERT_TRUE(film->finish());

@@ -35,8 +35,7 @@ Image paper_frame(int frame) {
 class FallFilm : public InFolder {
  protected:
   void write_film(const std::string& name, int falls) {
-    auto film =
-        VideoWriter::create(at(name), {.width = kWidth, .height = kHeight, .rate_hz = 30, .preset = "ultrafast"});
+    auto film = VideoWriter::create(at(name), {.width = kWidth, .height = kHeight, .rate_hz = 30});
     ASSERT_TRUE(film) << film.error().message;
     for (int frame = 0; frame < falls * kFallFrames; ++frame) ASSERT_TRUE(film->write(paper_frame(frame)));
     ASSERT_TRUE(film->finish());

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "draw/flame/flame_layers.hpp"
 #include "paths.hpp"
-#include "wisp/draw/image.hpp"
+#include "wisp/draw/flame.hpp"
 
 namespace wisp {
 
@@ -32,6 +33,36 @@ inline std::vector<Point> drop_outline(float lean = 0, float height = 1, float w
 inline float brightness_at(const Image& image, int x, int y) {
   const Colour colour = image.at(x, y);
   return 0.2126F * colour.red + 0.7152F * colour.green + 0.0722F * colour.blue;
+}
+
+/// One candle over what the picture holds.
+inline void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene,
+                       const FlameStyle& style = {}) {
+  const Flame flame{outline, scene};
+  draw_flames(image, {&flame, 1}, style);
+}
+
+/// The room of LiveFlames without its flames, by all pixels.
+inline void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& style = {}) {
+  using namespace drawing;
+  std::vector<Stand> stands;
+  for (const Flame& flame : flames) {
+    const Candle candle = prepared(flame, image.width(), image.height());
+    stands.push_back(stand_of(candle.scene, clamped(style), candle.lamp));
+  }
+  Room room(image.width(), image.height());
+  LightField codes = room.lit(stands);
+  const Tone& tone = Tone::get();
+  for (Plane* plane : {&codes.red, &codes.green, &codes.blue}) {
+    for (float& value : plane->values) value = tone.code(value);
+  }
+  std::vector<float> scratch(static_cast<std::size_t>(codes.width()) + 2), dither(image.width());
+  Row row(image.width());
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) dither[x] = rounding_at(x, y);
+    spread(codes, Between(y, codes.height()), scratch, row, image.width());
+    write_codes(row, dither.data(), image.row(y).data(), 0, image.width());
+  }
 }
 
 /// A folder of the test's own, removed at its end.

@@ -86,7 +86,8 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Page
   Flipbook book{.rate_hz = static_cast<double>(pages.frames.size()) / seconds, .loop = take.loop, .pivot = scene.base};
   for (const auto& outline : outlines) {
     book.frames.emplace_back(width, height);
-    draw_flame(book.frames.back(), outline, scene, style);
+    const Flame flame{outline, scene};
+    draw_flames(book.frames.back(), {&flame, 1}, style);
     make_light(book.frames.back());
     fade_edges(room, book.frames.back());
   }

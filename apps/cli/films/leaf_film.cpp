@@ -21,6 +21,7 @@ constexpr double kFadeSeconds = 0.6;     // fade at the end of the rest
 constexpr double kSettleSeconds = 0.12;  // transition from the landing pose to lying flat
 constexpr double kTrailSeconds = 0.9;
 constexpr double kRounding = 1e-6;        // rows
+constexpr float kShownLarger = 1.8F;      // a leaf in a room is a few pixels
 constexpr double kStaggerSeconds = 0.45;  // between the first falls of two leaves
 
 using PoseColumns = std::array<const std::vector<double>*, 7>;
@@ -119,10 +120,10 @@ class Film {
   }
 
   // The leaves that are in the air or on the floor at a time of the video.
-  std::vector<DrawnLeaf> at(double seconds) {
+  std::vector<FlockLeaf> at(double seconds) {
     trails_.clear();
     trails_.reserve(falls_.size());
-    std::vector<DrawnLeaf> leaves;
+    std::vector<FlockLeaf> leaves;
     for (const Fall& fall : falls_) {
       const double since = seconds - fall.begins;
       const double lasts = static_cast<double>(fall.last - fall.first) / rate_;
@@ -140,24 +141,22 @@ class Film {
     return pose;
   }
 
-  DrawnLeaf flying(const Fall& fall, double since) {
+  FlockLeaf flying(const Fall& fall, double since) {
     // A tolerance for rounding, without which a row could be shown twice and the next one skipped.
     const auto row = std::min(fall.last, fall.first + static_cast<std::size_t>(since * rate_ + kRounding));
     const auto back = static_cast<std::size_t>(kTrailSeconds * rate_);
     std::vector<LeafPose> trail;
     for (std::size_t k = std::max(fall.first + back, row) - back; k <= row; ++k) trail.push_back(placed(fall, k));
     trails_.push_back(std::move(trail));
-    DrawnLeaf leaf{placed(fall, row), options_.style, 1, trails_.back()};
-    // Fades in.
-    leaf.opacity = static_cast<float>(std::min(1.0, since / 0.2));
-    return leaf;
+    const auto coming = static_cast<float>(std::min(1.0, since / 0.2));
+    return {.pose = placed(fall, row), .size = kShownLarger, .opacity = coming, .trail = trails_.back()};
   }
 
-  DrawnLeaf resting(const Fall& fall, double since) const {
+  FlockLeaf resting(const Fall& fall, double since) const {
     const LeafPose landed = placed(fall, fall.last);
     const float share = static_cast<float>(std::min(1.0, since / kSettleSeconds));
     const float left = static_cast<float>(std::clamp((kRestSeconds - since) / kFadeSeconds, 0.0, 1.0));
-    return {between(landed, lying(landed), share), options_.style, left, {}};
+    return {.pose = between(landed, lying(landed), share), .size = kShownLarger, .opacity = left};
   }
 
   const PoseColumns& columns_;
@@ -180,27 +179,23 @@ class Side {
       : options_(options),
         columns_(columns),
         caption_(panel.caption),
-        camera_(leaf_camera_from_side(1.1F * options.fall_metres)),
-        film_(*panel.recording, columns_, options_) {
-    empty_ = draw_leaf_room(options.width, options.height, camera_, room_);
-  }
+        painter_(options.width, options.height, leaf_camera_from_side(1.1F * options.fall_metres), options.style),
+        film_(*panel.recording, columns_, options_) {}
   Side(const Side&) = delete;
   Side& operator=(const Side&) = delete;
 
   void draw(double seconds, Image& frame, int left) {
-    Image image = empty_;
-    draw_leaves(image, film_.at(seconds), camera_, room_);
-    if (!caption_.empty()) draw_label(image, caption_, Corner::kTopLeft);
-    for (int y = 0; y < image.height(); ++y) std::ranges::copy(image.row(y), frame.row(y).begin() + left);
+    painter_.draw(image_, film_.at(seconds));
+    if (!caption_.empty()) draw_label(image_, caption_, Corner::kTopLeft);
+    for (int y = 0; y < image_.height(); ++y) std::ranges::copy(image_.row(y), frame.row(y).begin() + left);
   }
 
  private:
   LeafFilmOptions options_;
   PoseColumns columns_;
   std::string caption_;
-  LeafCamera camera_;
-  LeafRoom room_;
-  Image empty_;
+  LeafFlock painter_;
+  Image image_;
   Film film_;  // refers to options_ and columns_
 };
 
@@ -244,8 +239,7 @@ Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const
   }
   const double rate = std::min(kMaxFramesASecond, own_rate);
   const int width = narrow.width * static_cast<int>(panels.size());
-  auto video = VideoWriter::create(
-      path, {.width = width, .height = options.height, .rate_hz = rate, .crf = 18, .preset = "fast"});
+  auto video = VideoWriter::create(path, {.width = width, .height = options.height, .rate_hz = rate, .crf = 18});
   if (!video) return video.error();
   const int frames = std::max(1, static_cast<int>(std::lround(std::min(options.max_seconds, longest) * rate)));
   Image image(width, options.height);

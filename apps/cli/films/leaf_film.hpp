@@ -17,7 +17,7 @@ struct LeafFilmOptions {
   double max_seconds = 20;    ///< of the video
   int max_leaves = 7;         ///< episodes shown at once
   float fall_metres = 1.45F;  ///< height of a fall; the next one begins at the row after it
-  LeafStyle style{.scale = 1.8F};
+  LeafStyle style{};
 };
 
 /// Checks that a film of that name can be written, before long work.

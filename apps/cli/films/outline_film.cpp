@@ -9,7 +9,7 @@
 #include "films/film_look.hpp"
 #include "wisp/capture/media/video.hpp"
 #include "wisp/draw/film_strip.hpp"
-#include "wisp/draw/flame.hpp"
+#include "wisp/draw/live_flames.hpp"
 #include "wisp/draw/overlay.hpp"
 #include "wisp/draw/video_writer.hpp"
 
@@ -253,14 +253,12 @@ Image cartoon(const Outline& pixels, const Strip& strip) {
   FlameScene scene;
   scene.base = strip.view.base;
   scene.pixels_per_unit = strip.view.unit;
+  const Flame flame{outline, scene};
   if (!strip.content.flame) {
-    const Flame shape{outline, scene};
-    draw_shapes(image, {&shape, 1});
+    draw_shapes(image, {&flame, 1});
     return image;
   }
-  const Flame flame{outline, scene};
-  draw_room(image, {&flame, 1});
-  draw_flames(image, {&flame, 1});
+  LiveFlames(strip.view.width, strip.view.height).draw(image, {&flame, 1});
   return image;
 }
 

@@ -21,11 +21,9 @@ struct FilmRow {
 
 /// What a strip shows. All frames are scaled into cells of one size, the proportions of the first frame.
 struct FilmStrip {
-  std::string title{};  ///< above everything; empty: none
   std::vector<FilmRow> rows{};
   std::vector<std::string> times{};  ///< under the columns, such as "0.25 s"; fewer than columns: the rest are bare
   int frame_height = 200;            ///< pixels of a cell, 16 … 2000
-  int gap = 4;                       ///< pixels between frames, 0 … 100
 };
 
 /// Draws the strip. Its size follows from the frames.

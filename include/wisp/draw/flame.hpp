@@ -22,23 +22,12 @@ struct Model;
 
 /// How a candle and its flame look. Lengths are in model units: 1 is the mean height of the calm flame.
 struct FlameStyle {
-  Colour core{255, 248, 224};  ///< the bright middle, where the glow is thickest
-  Colour body{255, 196, 74};   ///< between core and rim: soot at about 1800 K seen through a camera
-  Colour rim{255, 134, 30};    ///< the translucent outer layer and the tip, where soot is thin and cooler
-  Colour base{84, 168, 255};   ///< the blue of burning gas without soot, around the base
-  Colour halo{255, 140, 52};   ///< light scattered in the air and the lens around the flame
-
-  float exposure = 1.0F;    ///< light that reaches the picture, 0 … 8; 1 leaves the core just short of white
   float glow = 1.0F;        ///< strength of the halo, 0 … 4; 0 leaves it out
   float glow_reach = 1.0F;  ///< size of the halo, 0.25 … 4; 1 reaches about one flame height
 
-  bool candle = true;           ///< draw the candle; without it only the flame's light and smoke
-  Colour wax{240, 226, 200};    ///< the candle's colour by daylight
-  float candle_width = 0.62F;   ///< 0.05 … 4; 22 mm under a flame of 35 mm
-  float candle_height = 0.95F;  ///< 0.05 … 20; what does not fit is cut off by the picture
-  float wick_gap = 0.12F;       ///< from the candle's top to the flame's base, 0 … 1
-  float wick_height = 0.24F;    ///< from the candle's top to the wick's end, 0 … 1
-  float ambient = 0.06F;        ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
+  bool candle = true;          ///< draw the candle; without it only the flame's light and smoke
+  Colour wax{240, 226, 200};   ///< the candle's colour by daylight
+  float candle_width = 0.62F;  ///< 0.05 … 4; 22 mm under a flame of 35 mm
 };
 
 /// The age of an event that never happened.
@@ -52,7 +41,6 @@ inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 struct FlameScene {
   Point base{};                 ///< pixel of the outline's origin, the middle of the flame's base; y down
   float pixels_per_unit = 200;  ///< pixels of the mean flame height, 1 … 10000
-  float brightness = 1;         ///< of this flame against the style's, 0 … 4
   float seconds_since_lit = kLongAgo;
   float seconds_since_out = kLongAgo;
   std::optional<float> size{};  ///< 0 … 1, of a flame whose outline shrinks and grows by itself, as a bank's does
@@ -103,16 +91,8 @@ FlameStyle candle_style(const Model& model);
 /// are ignored.
 void draw_shapes(Image& image, std::span<const Flame> shapes);
 
-/// Draws one candle.
-void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene, const FlameStyle& style = {});
-
-/// Fills a picture with a dark room for candles to stand in: a wall and a table, lit by the flames from where they are,
-/// the candles' shadows on the table, and a little moonlight. Finer than 8 bits (dithered, so that video does not show
-/// steps). Draw the same flames over it.
-void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& style = {});
-
 /// A scene that frames one candle well in a picture of that size: the flame in the upper middle with room to lean and
-/// grow to twice its mean height, the candle standing on the table of draw_room().
+/// grow to twice its mean height, the candle standing on the table of LiveFlames' room.
 FlameScene framed(int width, int height);
 
 /// Where a camera stands that looks at the base of a flame from afar: degrees anticlockwise round it, from above, from

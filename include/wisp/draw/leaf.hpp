@@ -1,11 +1,15 @@
 #pragma once
-// Leaves in the air over a floor, from poses: shaded, with a midrib, two sides and a soft shadow.
+// Leaves in the air over a floor, from poses: with a midrib, two sides, soft shadows and the way that they came.
 //
-// A leaf is a curled surface of triangles, lit by a lamp and by the room; light from behind shines through. Its shadow
-// is the same surface seen from the lamp, blurred the more the higher the leaf is. Where it comes from, a simulator, a
-// model or a recording, is not the picture's affair. The same call draws the same bytes.
+// A leaf is painted once, large and flat; in the air it is a bent card of a few triangles with that picture on it, lit
+// by how it turns. Shadows are soft ellipses of as much darkness as the leaf takes from the lamp, gathered on a coarse
+// grid. So hundreds are drawn in a few milliseconds. Where poses come from, a simulator, a model or a recording, is not
+// the picture's affair. The same call draws the same bytes.
 
 #include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 
 #include "wisp/draw/image.hpp"
@@ -18,24 +22,15 @@ struct LeafPose {
   std::array<float, 4> attitude{1, 0, 0, 0};  ///< quaternion, w first, leaf to world; its direction counts
 };
 
-/// How a leaf looks.
+/// How leaves look.
 struct LeafStyle {
   float length = 0.073F;        ///< of the blade, metres, 0.001 … 100
   float width = 0.049F;         ///< metres, 0.001 … 100
-  float scale = 1;              ///< drawn this much larger than it is, 0.1 … 20: a leaf in a room is a few pixels
   float curl = 1;               ///< 0 is flat, 1 a leaf that has lain in the sun for a day, up to 3
   Colour upper{214, 92, 36};    ///< between the veins, near the midrib
   Colour margin{150, 38, 24};   ///< towards the edge
   Colour under{206, 158, 112};  ///< the other side: paler and dull
   Colour vein{240, 200, 120};   ///< midrib and veins
-};
-
-/// A leaf of the picture, with the way that it came.
-struct DrawnLeaf {
-  LeafPose pose{};
-  LeafStyle style{};
-  float opacity = 1;                  ///< of leaf and shadow, 0 … 1
-  std::span<const LeafPose> trail{};  ///< oldest first, up to now; drawn as a line that fades, none where empty
 };
 
 /// Where the picture is taken from.
@@ -47,8 +42,6 @@ struct LeafCamera {
 
 /// From the side, a little from above: `height` metres over the floor fill the picture, the floor in view below.
 LeafCamera leaf_camera_from_side(float height);
-/// From straight above: x to the right, y up, the given place of the floor in the middle.
-LeafCamera leaf_camera_from_above(std::array<float, 3> middle, float view_height);
 
 /// The room: floor and backdrop.
 struct LeafRoom {
@@ -57,15 +50,41 @@ struct LeafRoom {
   std::array<float, 3> lamp{-0.35F, -0.45F, 1};  ///< towards the light; need not be of length 1, z > 0
 };
 
-/// An empty room, to be copied for every frame of a camera that stands still.
-///
-/// Precondition: 1 <= width, height <= kLargestImageSide.
-Image draw_leaf_room(int width, int height, const LeafCamera& camera, const LeafRoom& room = {});
+/// One leaf of a picture.
+struct FlockLeaf {
+  LeafPose pose{};
+  std::uint8_t look = 0;              ///< which of the flock's colours it has, counted round
+  float size = 1;                     ///< times the style's, 0.1 … 4
+  float opacity = 1;                  ///< of leaf and shadow, 0 … 1
+  std::span<const LeafPose> trail{};  ///< oldest first, up to now; drawn as a line that fades, none where empty
+};
 
-/// Draws leaves, their shadows on the floor and their trails over the picture. What is behind is drawn first.
-/// Poses that are not finite are left out; styles and camera are clamped to their ranges.
-///
-/// Precondition: !image.empty().
-void draw_leaves(Image& image, std::span<const DrawnLeaf> leaves, const LeafCamera& camera, const LeafRoom& room = {});
+/// Draws leaves in pictures of one size, from a camera that stands still.
+class LeafFlock {
+ public:
+  /// `style` gives size, curl and the first of the colours; the others are the same leaf in other weeks of autumn.
+  /// Style and camera are clamped to their ranges.
+  ///
+  /// Precondition: 1 <= width, height <= kLargestImageSide.
+  LeafFlock(int width, int height, const LeafCamera& camera, const LeafStyle& style = {}, const LeafRoom& room = {});
+
+  LeafFlock(LeafFlock&&) noexcept;
+  LeafFlock& operator=(LeafFlock&&) noexcept;
+  ~LeafFlock();
+
+  /// Draws the room and the leaves in it over all of the picture, which is made anew where it has another size; what is
+  /// behind is drawn first. Poses that are not finite are left out.
+  void draw(Image& image, std::span<const FlockLeaf> leaves);
+
+  /// Where a place of the room is in the picture; nothing where it is behind the camera.
+  std::optional<Point> pixel_of(const std::array<float, 3>& place) const;
+
+  /// Pixels of one metre at the camera's target.
+  float pixels_per_metre() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace wisp

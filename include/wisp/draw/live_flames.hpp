@@ -1,9 +1,11 @@
 #pragma once
-// Candles in a dark room at a window's frame rate: the picture of draw_room() and draw_flames(), computed faster.
+// Candles in a dark room, at a window's frame rate: a wall and a table, lit by the flames from where they are, the
+// candles' shadows on the table, and a little moonlight; over it the picture of draw_flames(). Dithered, so that video
+// does not show steps.
 //
 // Soft light is computed on a grid of a quarter of the picture's size and interpolated as screen codes where only the
-// dark room is behind it; memory and room are reused. At 1280 × 800 that takes a seventh of the time, and no pixel
-// differs by more than a few codes.
+// dark room is behind it; memory and room are reused. At 1280 × 800 that takes a seventh of the time of computing all
+// pixels, and none differs by more than a few codes.
 
 #include <memory>
 #include <span>

@@ -17,11 +17,8 @@ namespace wisp {
 struct VideoWriterOptions {
   int width = 0;  ///< pixels, 2 … 16384; odd sizes are padded by one repeated column or row
   int height = 0;
-  double rate_hz = 0;  ///< frames a second, 0.1 … 1000; 30000/1001 and its like are kept exactly
-  int crf = 15;        ///< x264's constant rate factor, 0 (lossless) … 51; at 15 soft glows keep their dither
-  /// x264's speed: "ultrafast" … "veryslow". "medium" at 17 looks the same, for twice the work and three fifths
-  /// of the file.
-  std::string preset = "veryfast";
+  double rate_hz = 0;     ///< frames a second, 0.1 … 1000; 30000/1001 and its like are kept exactly
+  int crf = 15;           ///< x264's constant rate factor, 0 (lossless) … 51; at 15 soft glows keep their dither
   int sound_rate_hz = 0;  ///< samples a second of a mono sound track, such as 44100; 0: no sound track
   int threads = 0;        ///< of the video encoder; 0: one a core. The bytes depend on it
   bool loop = false;      ///< of an .apng: plays for ever

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "draw/cairo.hpp"
-#include "draw/text.hpp"
 
 namespace wisp {
 
@@ -16,22 +15,21 @@ constexpr Colour kFilm{14, 13, 15, 255};
 constexpr Colour kCaption{236, 230, 220, 255};
 constexpr Colour kTime{158, 150, 140, 255};
 constexpr Colour kEmpty{26, 25, 27, 255};
+constexpr int kGap = 4;  // pixels between frames
 
 // Where everything goes, in whole pixels so that frames stay sharp.
 struct Layout {
   int columns = 0;
   int cell_width = 0;
   int cell_height = 0;
-  int gap = 0;
   int margin = 0;
-  int title = 0;  // heights of the lines of text, with the room around them
-  int caption = 0;
+  int caption = 0;  // heights of the lines of text, with the room around them
   int times = 0;
   int width = 0;
   long height = 0;
   double text = 0;  // height of captions
 
-  int cell_x(int column) const { return margin + column * (cell_width + gap); }
+  int cell_x(int column) const { return margin + column * (cell_width + kGap); }
 };
 
 const Image* first_frame(const FilmStrip& strip) {
@@ -50,19 +48,17 @@ Result<Layout> lay_out(const FilmStrip& strip) {
   at.cell_height = std::clamp(strip.frame_height, 16, 2000);
   const double proportion = static_cast<double>(frame->width()) / frame->height();
   at.cell_width = std::max(1, static_cast<int>(std::lround(at.cell_height * proportion)));
-  at.gap = std::clamp(strip.gap, 0, 100);
   at.text = std::clamp(at.cell_height / 14.0, 11.0, 28.0);
   at.margin = static_cast<int>(std::lround(at.text * 1.4));
-  at.title = strip.title.empty() ? 0 : static_cast<int>(std::lround(at.text * 2.2));
   at.times = strip.times.empty() ? 0 : static_cast<int>(std::lround(at.text * 1.5));
   at.caption = static_cast<int>(std::lround(at.text * 2.0));
   std::size_t columns = 0;
-  at.height = at.title + at.times + at.margin + at.margin / 2;
+  at.height = at.times + at.margin + at.margin / 2;
   for (const FilmRow& row : strip.rows) {
     columns = std::max(columns, row.frames.size());
     at.height += at.cell_height + (row.caption.empty() ? at.margin / 2 : at.caption);
   }
-  const auto width = 2.0 * at.margin + static_cast<double>(columns) * (at.cell_width + at.gap) - at.gap;
+  const auto width = 2.0 * at.margin + static_cast<double>(columns) * (at.cell_width + kGap) - kGap;
   if (width > kLargestImageSide || at.height > kLargestImageSide) {
     return Error{"film strip: " + std::to_string(std::lround(width)) + " x " + std::to_string(at.height) +
                  " pixels are too many; show fewer or smaller frames"};
@@ -98,10 +94,6 @@ Result<Image> draw_film_strip(const FilmStrip& strip) {
   Image image(at.width, static_cast<int>(at.height), kFilm);
   const CairoContext context = context_of(image);
   int y = at.margin / 2;
-  if (!strip.title.empty()) {
-    show_text(context.get(), strip.title, at.margin, y + at.text * 1.5, {at.text * 1.2, true}, kCaption);
-    y += at.title;
-  }
   for (const FilmRow& row : strip.rows) {
     if (!row.caption.empty()) show_text(context.get(), row.caption, at.margin, y + at.text * 1.35, {at.text}, kCaption);
     y += row.caption.empty() ? at.margin / 2 : at.caption;

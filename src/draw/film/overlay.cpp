@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "draw/cairo.hpp"
-#include "draw/text.hpp"
 
 namespace wisp {
 

@@ -10,7 +10,6 @@ extern "C" {
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <string_view>
 #include <vector>
 
 #include "draw/film/libav_owners.hpp"
@@ -66,10 +65,6 @@ const Kind& kind_of(const std::filesystem::path& path) {
   return found == kKinds.end() ? kKinds[0] : *found;
 }
 
-// Checked here, since x264 reports a wrong preset on the terminal.
-constexpr std::array<std::string_view, 9> kPresets{"ultrafast", "superfast", "veryfast", "faster",  "fast",
-                                                   "medium",    "slow",      "slower",   "veryslow"};
-
 Error option_error(const std::filesystem::path& path, const std::string& what) {
   return {path.string() + ": cannot be encoded: " + what};
 }
@@ -86,9 +81,6 @@ Result<void> check_options(const std::filesystem::path& path, const VideoWriterO
   }
   if (options.crf < 0 || options.crf > 51) {
     return option_error(path, "the rate factor (crf) is " + std::to_string(options.crf) + ", expected 0 to 51");
-  }
-  if (std::ranges::find(kPresets, options.preset) == kPresets.end()) {
-    return option_error(path, "x264 has no preset \"" + options.preset + "\"; expected ultrafast … veryslow");
   }
   if (options.sound_rate_hz != 0 && (options.sound_rate_hz < 7350 || options.sound_rate_hz > 96000)) {
     return option_error(path, "the sound's rate is " + std::to_string(options.sound_rate_hz) +
@@ -178,7 +170,8 @@ Result<void> VideoWriter::Encoder::open_video() {
     av_dict_set(&settings, "auto-alt-ref", "0", 0);  // VP9 has no hidden frames with opacity
     context.bit_rate = 0;
   } else {
-    av_dict_set(&settings, "preset", options.preset.c_str(), 0);
+    // "medium" at a rate factor of 17 looks the same as this at 15, for twice the work and three fifths of the file.
+    av_dict_set(&settings, "preset", "veryfast", 0);
     // Spends more bits on dark, smooth areas, where a halo would otherwise break into steps.
     av_dict_set(&settings, "x264-params", "aq-mode=3", 0);
   }

@@ -28,8 +28,8 @@ Body body_of(const FlameScene& scene, const FlameStyle& style) {
   body.unit = scene.pixels_per_unit;
   body.middle = scene.base.x;
   body.half = 0.5F * style.candle_width * body.unit;
-  body.top = scene.base.y + style.wick_gap * body.unit;
-  body.bottom = body.top + style.candle_height * body.unit;
+  body.top = scene.base.y + kWickGap * body.unit;
+  body.bottom = body.top + kCandleHeight * body.unit;
   return body;
 }
 
@@ -156,8 +156,7 @@ class Shader {
     spot.front = (y - body_.top) / body_.squash();
     spot.round = spot.across * spot.across + spot.front * spot.front;
     spot.facing = 0.6F;
-    Light light =
-        room_light(spot, wax_, style_.ambient, true) + own_.power * (flame_tint() * top_light(spot, wax_, lean_));
+    Light light = room_light(spot, wax_, kAmbient, true) + own_.power * (flame_tint() * top_light(spot, wax_, lean_));
     for (const Lamp& lamp : near_) light = light + 0.8F * neighbour_light(spot, wax_, lamp, body_);
     return light;
   }
@@ -167,7 +166,7 @@ class Shader {
   Light bounced(const Spot& spot) const { return (0.05F + 0.035F * (1 - spot.facing)) * wax_; }
 
   Light side_light(const Spot& spot) const {
-    Light light = room_light(spot, wax_, style_.ambient, false) +
+    Light light = room_light(spot, wax_, kAmbient, false) +
                   own_.power * (flame_tint() * (seeping(spot, wax_, style_.candle_width, lean_) + bounced(spot)));
     for (const Lamp& lamp : near_) light = light + neighbour_light(spot, wax_, lamp, body_);
     return light;
@@ -288,13 +287,13 @@ void draw_wick(Image& image, const Wick& wick, const Lamp& own, float ambient) {
 
 }  // namespace
 
-Wick make_wick(const FlameScene& scene, const FlameStyle& style, int width, int height) {
+Wick make_wick(const FlameScene& scene, int width, int height) {
   Wick wick;
   const float unit = scene.pixels_per_unit;
-  const float length = style.wick_height * unit;
+  const float length = kWickHeight * unit;
   if (length <= 0) return wick;
   wick.width = 0.032F * unit;
-  wick.root = {scene.base.x, scene.base.y + style.wick_gap * unit};
+  wick.root = {scene.base.x, scene.base.y + kWickGap * unit};
   // Wicks curl over as they burn, in a random direction.
   const float bend = (random_at(scene.seed, 0) < 0.5F ? -1.0F : 1.0F) * (0.16F + 0.16F * random_at(scene.seed, 1));
   constexpr int kSteps = 14;
@@ -327,7 +326,7 @@ void draw_candle(Image& image, const FlameScene& scene, const FlameStyle& style,
                  std::span<const Lamp> others) {
   const Body body = body_of(scene, style);
   draw_wax(image, body, Shader(body, style, own, others, scene.seed));
-  draw_wick(image, wick, own, style.ambient);
+  draw_wick(image, wick, own, kAmbient);
 }
 
 }  // namespace wisp::drawing

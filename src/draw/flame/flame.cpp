@@ -14,17 +14,6 @@ namespace wisp {
 
 using namespace drawing;
 
-namespace {
-
-void expose(LightField& field, float exposure) {
-  if (exposure == 1) return;
-  for (Plane* plane : {&field.red, &field.green, &field.blue}) {
-    for (float& value : plane->values) value *= exposure;
-  }
-}
-
-}  // namespace
-
 void show_state(const LitState& state, FlameScene& scene) {
   const auto seconds = [](std::chrono::nanoseconds age) {
     return age == kNever ? kLongAgo : std::chrono::duration<float>(age).count();
@@ -50,39 +39,12 @@ void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& 
   if (image.empty() || flames.empty()) return;
   const FlameStyle style = clamped(asked);
   std::vector<Candle> candles;
-  for (const Flame& flame : flames) candles.push_back(prepared(flame, style, image.width(), image.height()));
+  for (const Flame& flame : flames) candles.push_back(prepared(flame, image.width(), image.height()));
   draw_behind(image, candles, style);
   LightField field(image.width(), image.height());
   for (const Candle& candle : candles) add_own_light(field, candle, style);
   if (style.glow > 0) add_halo(field, glow_rings(style, largest_unit(candles)));
-  expose(field, style.exposure);
   add_light(image, field);
-}
-
-void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene, const FlameStyle& style) {
-  const Flame flame{outline, scene};
-  draw_flames(image, std::span(&flame, 1), style);
-}
-
-void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& asked) {
-  if (image.empty()) return;
-  const FlameStyle style = clamped(asked);
-  std::vector<Stand> stands;
-  for (const Flame& flame : flames) stands.push_back(stand_of(flame.scene, style, lamp_of(flame)));
-  Room room(image.width(), image.height());
-  LightField codes = room.lit(stands);
-  const Tone& tone = Tone::get();
-  for (Plane* plane : {&codes.red, &codes.green, &codes.blue}) {
-    for (float& value : plane->values) value = tone.code(value);
-  }
-  std::vector<float> scratch(static_cast<std::size_t>(codes.width()) + 2),
-      dither(static_cast<std::size_t>(image.width()));
-  Row row(image.width());
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) dither[static_cast<std::size_t>(x)] = rounding_at(x, y);
-    spread(codes, Between(y, codes.height()), scratch, row, image.width());
-    write_codes(row, dither.data(), image.row(y).data(), 0, image.width());
-  }
 }
 
 FlameScene framed(int width, int height) {

@@ -21,7 +21,6 @@ FlameScene clamped(FlameScene scene) {
   scene.base.x = clamped(scene.base.x, -1e5F, 1e5F);
   scene.base.y = clamped(scene.base.y, -1e5F, 1e5F);
   scene.pixels_per_unit = clamped(scene.pixels_per_unit, 1, 10000);
-  scene.brightness = clamped(scene.brightness, 0, 4);
   scene.seconds_since_lit = clamped(scene.seconds_since_lit, 0, kLongAgo);
   scene.seconds_since_out = clamped(scene.seconds_since_out, 0, kLongAgo);
   if (scene.size) scene.size = clamped(*scene.size, 0, 1);
@@ -36,20 +35,18 @@ struct Stage {
 };
 
 // Mood of a flame that has grown to the share `grown`.
-FlameMood re_igniting(float brightness, float grown) {
-  return {brightness * (0.5F + 0.5F * grown), 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)};
-}
+FlameMood re_igniting(float grown) { return {0.5F + 0.5F * grown, 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)}; }
 
 Stage stage_of(const FlameScene& scene) {
   Stage stage;
   if (burns(scene)) {
     const float grown = scene.size.value_or(smooth_step(0, kReIgnition, scene.seconds_since_lit));
-    stage.mood = re_igniting(scene.brightness, grown);
+    stage.mood = re_igniting(grown);
     if (!scene.size) stage.scale = 0.22F + 0.78F * grown;
     return stage;
   }
   const float gone = 1 - scene.size.value_or(1 - smooth_step(0, kDecay, scene.seconds_since_out));
-  stage.mood = {scene.brightness * (1 - gone), 1 - gone};
+  stage.mood = {1 - gone, 1 - gone};
   if (!scene.size) stage.scale = 1 - 0.55F * gone;
   return stage;
 }
@@ -67,10 +64,10 @@ Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
 // transitions.
 class SootRamp {
  public:
-  explicit SootRamp(const FlameStyle& style) {
-    const Light rim = emission_of(style.rim);
-    const Light body = emission_of(style.body);
-    const Light core = emission_of(style.core);
+  SootRamp() {
+    const Light rim = emission_of(kRim);
+    const Light body = emission_of(kBody);
+    const Light core = emission_of(kCore);
     for (int k = 0; k <= kSteps; ++k) {
       const float v = static_cast<float>(k) / kSteps;
       const float to_rim = smooth_step(0.0F, 0.42F, v);
@@ -116,11 +113,10 @@ float mantle(float t, float thick) {
 
 // Adds the flame's light to the field. `shade` dims it where the wick stands in it, 0 … 1, over the shape's box; an
 // empty plane dims nothing.
-void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const FlameStyle& style,
-                     const Plane& shade) {
+void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const Plane& shade) {
   if (shape.empty() || shape.thickest <= 0) return;
-  const SootRamp ramp(style);
-  const Light blue = emission_of(style.base);
+  const SootRamp ramp;
+  const Light blue = emission_of(kBase);
   const float per_reach = 1 / std::max(1e-3F, shape.reach);
   for (int y = 0; y < shape.box.height; ++y) {
     for (int x = 0; x < shape.box.width; ++x) {
@@ -186,43 +182,29 @@ std::vector<Lamp> lamps_but(std::span<const Candle> candles, std::size_t own) {
 }  // namespace
 
 FlameStyle clamped(FlameStyle style) {
-  style.exposure = clamped(style.exposure, 0, 8);
   style.glow = clamped(style.glow, 0, 4);
   style.glow_reach = clamped(style.glow_reach, 0.25F, 4);
   style.candle_width = clamped(style.candle_width, 0.05F, 4);
-  style.candle_height = clamped(style.candle_height, 0.05F, 20);
-  style.wick_gap = clamped(style.wick_gap, 0, 1);
-  style.wick_height = clamped(style.wick_height, 0, 1);
-  style.ambient = clamped(style.ambient, 0, 1);
   return style;
 }
 
-Candle prepared(const Flame& flame, const FlameStyle& style, int width, int height) {
+Candle prepared(const Flame& flame, int width, int height) {
   Candle candle;
   candle.scene = clamped(flame.scene);
   const Stage stage = stage_of(candle.scene);
   candle.mood = stage.mood;
-  candle.wick = make_wick(candle.scene, style, width, height);
+  candle.wick = make_wick(candle.scene, width, height);
   if (stage.mood.brightness <= 0) return candle;
-  const float cap = std::max(0.03F, 0.55F * style.wick_gap);
+  const float cap = std::max(0.03F, 0.55F * kWickGap);
   candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
   candle.mood.soot *= sooting(candle.shape);
   candle.lamp = lamp_of(candle.shape, candle.mood);
   return candle;
 }
 
-Lamp lamp_of(const Flame& flame) {
-  const FlameScene scene = clamped(flame.scene);
-  Stage stage = stage_of(scene);
-  if (stage.mood.brightness <= 0) return {};
-  const FlameShape shape = measured_shape(flame.outline, scene, stage.scale);
-  stage.mood.soot *= sooting(shape);
-  return lamp_of(shape, stage.mood);
-}
-
 std::array<HaloRing, 4> glow_rings(const FlameStyle& style, float unit) {
-  const Light halo = Tone::get().linear(style.halo);
-  const Light rim = Tone::get().linear(style.rim);
+  const Light halo = Tone::get().linear(kHalo);
+  const Light rim = Tone::get().linear(kRim);
   const float reach = unit * style.glow_reach;
   return {{{0.022F * reach, 0.24F * style.glow * halo},
            {0.085F * reach, 0.17F * style.glow * halo},
@@ -246,7 +228,7 @@ void draw_behind(Image& image, std::span<const Candle> candles, const FlameStyle
 }
 
 void add_own_light(LightField& field, const Candle& candle, const FlameStyle& style) {
-  add_flame_light(field, candle.shape, candle.mood, style, style.candle ? wick_shade(candle) : Plane());
+  add_flame_light(field, candle.shape, candle.mood, style.candle ? wick_shade(candle) : Plane());
   if (style.candle) add_ember(field, candle);
 }
 

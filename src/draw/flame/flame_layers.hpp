@@ -18,6 +18,18 @@
 
 namespace wisp::drawing {
 
+inline constexpr Colour kCore{255, 248, 224};  ///< the bright middle, where the glow is thickest
+inline constexpr Colour kBody{255, 196, 74};   ///< soot at about 1800 K seen through a camera
+inline constexpr Colour kRim{255, 134, 30};  ///< the translucent outer layer and the tip, where soot is thin and cooler
+inline constexpr Colour kBase{84, 168, 255};  ///< the blue of burning gas without soot, around the base
+inline constexpr Colour kHalo{255, 140, 52};  ///< light scattered in the air and the lens around the flame
+
+// Lengths are in model units.
+inline constexpr float kCandleHeight = 0.95F;  ///< what does not fit is cut off by the picture
+inline constexpr float kWickGap = 0.12F;       ///< from the candle's top to the flame's base
+inline constexpr float kWickHeight = 0.24F;    ///< from the candle's top to the wick's end
+inline constexpr float kAmbient = 0.06F;       ///< light of the room on the candle: it stays visible without a flame
+
 /// One channel of floats over a grid.
 struct Plane {
   Plane() = default;
@@ -92,9 +104,6 @@ struct FlameShape {
   bool empty() const { return box.width == 0; }
 };
 
-/// Returns the measures of an outline without rasterising it: base, middle, reach, height and area.
-FlameShape measured_shape(std::span<const Point> outline, const FlameScene& scene, float scale);
-
 /// Rasterises an outline (model units), scaled by `scale` about its base. Points that are not finite are left out; the
 /// base is drawn as a drop around the wick, down to `cap` units under the base's middle.
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
@@ -117,7 +126,7 @@ struct Wick {
   bool empty() const { return box.width == 0; }
 };
 
-Wick make_wick(const FlameScene& scene, const FlameStyle& style, int width, int height);
+Wick make_wick(const FlameScene& scene, int width, int height);
 
 /// The wick's coverage at a pixel of the picture; 0 outside its box.
 float wick_at(const Wick& wick, int x, int y);
@@ -152,11 +161,8 @@ struct Candle {
 /// Returns the style with its fields clamped to their ranges.
 FlameStyle clamped(FlameStyle style);
 
-/// Lays a flame over a picture of that size. Precondition: the style is in its ranges.
-Candle prepared(const Flame& flame, const FlameStyle& style, int width, int height);
-
-/// Returns the flame as a light source without rasterising it.
-Lamp lamp_of(const Flame& flame);
+/// Lays a flame over a picture of that size.
+Candle prepared(const Flame& flame, int width, int height);
 
 /// Returns the pixels of the largest model unit among the candles, at least 1.
 float largest_unit(std::span<const Candle> candles);

@@ -232,7 +232,9 @@ void fill_thickness(FlameShape& shape, std::span<const Point> pixels, const Boun
 
 }  // namespace
 
-FlameShape measured_shape(std::span<const Point> outline, const FlameScene& scene, float scale) {
+FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
+                       int height) {
+  constexpr float kMinArea = 1e-5F;
   FlameShape shape;
   std::vector<Point> points = finite_points(outline);
   if (points.size() < 3) return shape;
@@ -241,17 +243,7 @@ FlameShape measured_shape(std::span<const Point> outline, const FlameScene& scen
   shape.reach = scene.pixels_per_unit * shape.height;
   shape.base = to_pixel(scene, shape.base);
   shape.middle = to_pixel(scene, shape.middle);
-  return shape;
-}
-
-FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
-                       int height) {
-  FlameShape shape = measured_shape(outline, scene, scale);
-  constexpr float kMinArea = 1e-5F;
   if (shape.area < kMinArea) return shape;
-
-  std::vector<Point> points = finite_points(outline);
-  for (Point& p : points) p = {scale * p.x, scale * p.y};
   close_base(points, cap);
   std::ranges::transform(points, points.begin(), [&](Point p) { return to_pixel(scene, p); });
   const float unit = scene.pixels_per_unit;

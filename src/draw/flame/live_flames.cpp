@@ -198,7 +198,7 @@ void LiveFlames::State::make_codes() {
       const float *from = light.row(y), *behind_it = there.row(y);
       float* to = code.row(y);
       for (int x = 0; x < light.width; ++x) {
-        to[x] = tone.code(1 - (1 - behind_it[x]) * transmitted(style.exposure * from[x]));
+        to[x] = tone.code(1 - (1 - behind_it[x]) * transmitted(from[x]));
       }
     };
     fill(glow.red, room_light->red, codes.red);
@@ -227,7 +227,7 @@ void LiveFlames::State::show_row(Image& image, int y) {
   const auto lit_pixel = [&](int x) {
     const auto channel = [&](int k, int shift) {
       const float there = tone.linear(pixels[x] >> shift & 0xFFU);
-      const float light = style.exposure * (flame[k][x] + light_row[k][x]);
+      const float light = flame[k][x] + light_row[k][x];
       return static_cast<std::uint32_t>(
           std::min(255.0F, tone.code(1 - (1 - there) * transmitted(light)) + dither.row(y)[x]));
     };
@@ -258,7 +258,7 @@ void LiveFlames::draw(Image& image, std::span<const Flame> flames) {
   for (const PixelBox& box : state.lit) clear(state.own, box);
   state.lit.clear();
   std::vector<Candle> candles;
-  for (const Flame& flame : flames) candles.push_back(prepared(flame, state.style, state.width(), state.height()));
+  for (const Flame& flame : flames) candles.push_back(prepared(flame, state.width(), state.height()));
   state.draw_room(candles);
   image = state.behind;
   draw_behind(image, candles, state.style);

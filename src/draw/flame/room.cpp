@@ -109,7 +109,7 @@ void spread(const LightField& grid, const Between& y, std::vector<float>& scratc
   spread_channel(grid.blue, y, scratch, row.channels[2].data(), width);
 }
 
-// A loop that compilers make wide.
+// Without branches, so that compilers vectorise the loop.
 void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last) {
   const float *red = codes[0], *green = codes[1], *blue = codes[2];
   for (int x = first; x < last; ++x) {
@@ -121,10 +121,10 @@ void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int 
 }
 
 Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lamp) {
-  const float height = style.candle ? style.candle_height : 0;
+  const float height = style.candle ? kCandleHeight : 0;
   const float unit = scene.pixels_per_unit;
   return {.lamp = lamp,
-          .foot = {scene.base.x, scene.base.y + (style.wick_gap + style.candle_height) * unit},
+          .foot = {scene.base.x, scene.base.y + (kWickGap + kCandleHeight) * unit},
           .unit = unit,
           .half = 0.5F * style.candle_width,
           .height = height};

@@ -1,6 +1,10 @@
 #include "draw/leaf/leaf_view.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "draw/tone.hpp"
 
 namespace wisp::drawing {
 
@@ -40,7 +44,12 @@ namespace {
 
 constexpr Light kLamp{1.25F, 1.18F, 1.06F};
 constexpr Light kSky{0.42F, 0.45F, 0.50F};
-constexpr Light kFloor{0.30F, 0.27F, 0.23F};
+constexpr float kDimmed = 0.6F;  // to the leaf's own colour, since lamp and sky together are brighter than white
+constexpr float kShine = 0.09F;  // of the lamp, on the upper side
+constexpr int kTeeth = 19;
+constexpr float kStalk = 0.24F;               // of the blade's length
+constexpr float kStalkWidth = 0.016F;         // likewise
+constexpr int kLeafRows = 120, kSamples = 4;  // of the picture; of a pixel, along each side
 
 Light mixed(Light a, Light b, float share) { return (1 - share) * a + share * b; }
 
@@ -66,51 +75,6 @@ float blotch(float u, float v) {
          3;
 }
 
-}  // namespace
-
-LeafSurface::LeafSurface(const LeafStyle& style, Vec3 towards_lamp) : lamp_(towards_lamp) {
-  const Tone& tone = Tone::get();
-  upper_ = tone.linear(style.upper);
-  margin_ = tone.linear(style.margin);
-  under_ = tone.linear(style.under);
-  vein_ = tone.linear(style.vein);
-}
-
-Light LeafSurface::reflectance(float u, float v, bool upper) const {
-  if (u < 0) return mixed(vein_, margin_, 0.45F);
-  const float edge = smooth_step(0.25F, 1.05F, std::abs(v) + 0.35F * std::abs(u - 0.45F) + 0.14F * blotch(u, v));
-  const float vein = vein_at(u, v);
-  if (upper) return mixed(mixed(upper_, margin_, edge), vein_, 0.75F * vein);
-  // Below, veins stand out as ridges and the colour of the other side shows faintly.
-  return mixed(mixed(under_, mixed(upper_, margin_, edge), 0.20F + 0.22F * edge), 0.55F * mixed(under_, margin_, 0.35F),
-               0.8F * vein);
-}
-
-Light LeafSurface::seen(float u, float v, Vec3 normal, Vec3 to_eye) const {
-  const bool upper = dot(normal, to_eye) >= 0;
-  const Vec3 facing = upper ? normal : -1.0F * normal;
-  const Light own = reflectance(u, v, upper);
-  const float falls = dot(facing, lamp_);
-  const float sky = 0.5F + 0.5F * facing.z;
-  Light light = own * (std::max(falls, 0.0F) * kLamp + sky * kSky + (1 - sky) * kFloor);
-  // What falls on the far side comes through, warmer by what the leaf has swallowed.
-  if (falls < 0) {
-    const Light through = mixed(upper_, margin_, 0.35F);
-    light = light + (-falls * 0.3F * (1 - 0.7F * vein_at(u, v))) * (through * kLamp);
-  }
-  if (!upper) return light;
-  const float shine = dot(facing, unit(lamp_ + to_eye));
-  const float spot = std::pow(std::max(shine, 0.0F), 28.0F);
-  return light + (0.09F * spot) * kLamp;
-}
-
-namespace {
-
-constexpr int kAlong = 56, kAcross = 20;
-constexpr int kTeeth = 19;
-constexpr float kStalk = 0.24F;        // of the blade's length
-constexpr float kStalkWidth = 0.016F;  // likewise
-
 // Half width over the blade, 0 … 1: rounded at the base, drawn out at the tip.
 float half_width(float u) {
   const float base = std::pow(u, 0.62F), tip = std::pow(1 - u, 0.95F);
@@ -118,84 +82,72 @@ float half_width(float u) {
   return std::min(1.0F, base * tip / (kWidest * (0.75F + 0.25F * std::min(1.0F, (1 - u) * 5))));
 }
 
-// Height over the leaf's plane, in lengths of the blade, for a place in halves of its length and width.
-float bulge(float x, float y, float curl) {
-  const float rib = std::sqrt(y * y + 0.01F);
-  const float fold = 0.10F * rib;                                        // halves fold up along the midrib
-  const float arch = -0.06F * x * x;                                     // base and tip hang
-  const float tip = x > 0.35F ? -0.13F * (x - 0.35F) * (x - 0.35F) : 0;  // the tip more
-  const float wave = 0.022F * y * std::abs(y) * std::sin(7.5F * x + 1.1F * (y > 0 ? 1.0F : -1.0F));
-  const float twist = 0.035F * x * y;
-  return curl * (fold + arch + tip + wave + twist);
+// A place on a leaf: along the midrib, 0 base … 1 tip (below 0: the stalk), and across, −1 … 1.
+struct LeafPlace {
+  float u = 0, v = 0;
+};
+
+// What of the leaf is at x and y in halves of the blade's length and width; nothing beside it. `slim` is its width over
+// its length.
+std::optional<LeafPlace> place_at(float x, float y, float slim) {
+  const float u = (x + 1) / 2;
+  if (u >= 0) {
+    const float v = y / half_width(std::min(u, 1.0F));
+    // Teeth point to the tip: each rises slowly and falls at once.
+    const float tooth = u * kTeeth - std::floor(u * kTeeth);
+    if (u > 1 || !(std::abs(v) <= 1 - 0.045F * (1 - tooth))) return {};
+    return LeafPlace{u, v};
+  }
+  const float s = -u / kStalk, v = (y * slim - 0.06F * s * s) / (kStalkWidth * (1 + 0.6F * s * s));
+  if (s > 1 || std::abs(v) > 1) return {};
+  return LeafPlace{-s, v};
 }
 
-// The blade's surface over (u, v).
-struct Blade {
-  float half_length, half_wide, curl;
+// The colours of a leaf as light.
+struct LeafColours {
+  Light upper, margin, under, vein;
 
-  Vec3 operator()(float u, float v) const {
-    const float x = 2 * u - 1, y = v * half_width(u);
-    return {half_length * x, half_wide * y, 2 * half_length * bulge(x, y, curl)};
-  }
-
-  Vec3 normal(float u, float v) const {
-    // From the height's slopes over the plane, which also hold at the tips, where the grid closes to a point.
-    const float x = 2 * u - 1, y = v * half_width(u), h = 1e-2F;
-    const float along = (bulge(x + h, y, curl) - bulge(x - h, y, curl)) * half_length / (h * half_length);
-    const float across = (bulge(x, y + h, curl) - bulge(x, y - h, curl)) * half_length / (h * half_wide);
-    return unit({-along, -across, 1});
+  Light at(LeafPlace place, bool above) const {
+    const auto [u, v] = place;
+    if (u < 0) return mixed(vein, margin, 0.45F);
+    const float edge = smooth_step(0.25F, 1.05F, std::abs(v) + 0.35F * std::abs(u - 0.45F) + 0.14F * blotch(u, v));
+    const float veined = vein_at(u, v);
+    if (above) return mixed(mixed(upper, margin, edge), vein, 0.75F * veined);
+    // Below, veins stand out as ridges and the colour of the other side shows faintly.
+    return mixed(mixed(under, mixed(upper, margin, edge), 0.20F + 0.22F * edge), 0.55F * mixed(under, margin, 0.35F),
+                 0.8F * veined);
   }
 };
 
-void add_grid_triangles(LeafMesh& mesh, int first, int rows, int columns) {
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < columns; ++j) {
-      const int a = first + i * (columns + 1) + j, b = a + columns + 1;
-      mesh.triangles.push_back({a, b, a + 1});
-      mesh.triangles.push_back({a + 1, b, b + 1});
-    }
-  }
-}
-
-void add_stalk(LeafMesh& mesh, const Blade& blade) {
-  constexpr int kPieces = 10;
-  const int first = static_cast<int>(mesh.vertices.size());
-  const float half = kStalkWidth * blade.half_length;
-  const Vec3 root = blade(0, 0);
-  const float sag = blade.curl * 0.35F * blade.half_length;
-  for (int i = 0; i <= kPieces; ++i) {
-    const float s = static_cast<float>(i) / kPieces;
-    const Vec3 middle =
-        root + Vec3{-2 * kStalk * blade.half_length * s, 0.06F * blade.half_length * s * s, -sag * s * s};
-    for (const float side : {-1.0F, 1.0F})
-      mesh.vertices.push_back({middle + Vec3{0, side * half * (1 + 0.6F * s * s), 0}, {0, 0, 1}, -s, side});
-  }
-  add_grid_triangles(mesh, first, kPieces, 1);
-}
-
 }  // namespace
 
-bool on_blade(float u, float v) {
-  if (u < 0) return true;
-  // Teeth point to the tip: each rises slowly and falls at once.
-  const float tooth = u * kTeeth - std::floor(u * kTeeth);
-  return std::abs(v) <= 1 - 0.045F * (1 - tooth);
-}
-
-LeafMesh leaf_mesh(const LeafStyle& style) {
-  const float scale = std::clamp(style.scale, 0.1F, 20.0F);
-  const Blade blade{scale * std::clamp(style.length, 0.001F, 100.0F) / 2,
-                    scale * std::clamp(style.width, 0.001F, 100.0F) / 2, std::clamp(style.curl, 0.0F, 3.0F)};
-  LeafMesh mesh;
-  for (int i = 0; i <= kAlong; ++i) {
-    for (int j = 0; j <= kAcross; ++j) {
-      const float u = static_cast<float>(i) / kAlong, v = 2 * static_cast<float>(j) / kAcross - 1;
-      mesh.vertices.push_back({blade(u, v), blade.normal(u, v), u, v});
+Texture painted_side(const LeafStyle& style, bool upper) {
+  const Tone& tone = Tone::get();
+  const LeafColours colours{tone.linear(style.upper), tone.linear(style.margin), tone.linear(style.under),
+                            tone.linear(style.vein)};
+  const float slim = style.width / style.length;
+  Texture::Level picture{kLeafPixels, kLeafRows, {}};
+  for (int pixel = 0; pixel < kLeafPixels * kLeafRows; ++pixel) {
+    Light sum;
+    float count = 0;
+    for (int sample = 0; sample < kSamples * kSamples; ++sample) {
+      const auto share = [](int place, int part, int of) {
+        return (static_cast<float>(place) + (static_cast<float>(part) + 0.5F) / kSamples) / static_cast<float>(of);
+      };
+      const float right = share(pixel % kLeafPixels, sample % kSamples, kLeafPixels);
+      const float down = share(pixel / kLeafPixels, sample / kSamples, kLeafRows);
+      const auto place = place_at(kLeafLeft + right * (kLeafRight - kLeafLeft), kLeafSide * (1 - 2 * down), slim);
+      if (!place) continue;
+      sum = sum + colours.at(*place, upper) * (kLamp + kSky) + (upper ? kShine : 0) * kLamp;
+      ++count;
     }
+    const float cover = count / (kSamples * kSamples);
+    const Light light = kDimmed / std::max(count, 1.0F) * sum;
+    const auto code = [&](float value) { return static_cast<std::uint32_t>(cover * tone.code(value) + 0.5F); };
+    picture.pixels.push_back(static_cast<std::uint32_t>(255 * cover + 0.5F) << 24 | code(light.red) << 16 |
+                             code(light.green) << 8 | code(light.blue));
   }
-  add_grid_triangles(mesh, 0, kAlong, kAcross);
-  add_stalk(mesh, blade);
-  return mesh;
+  return texture_of(std::move(picture));
 }
 
 }  // namespace wisp::drawing

@@ -1,11 +1,10 @@
 #pragma once
-// How a leaf is drawn: vectors in the room and the camera; its shape; its surface; its samples.
+// How a leaf is drawn: vectors in the room, the camera, and the picture of a leaf's side.
 
 #include <array>
 #include <cmath>
-#include <vector>
 
-#include "draw/tone.hpp"
+#include "draw/textured.hpp"
 #include "wisp/draw/leaf.hpp"
 
 namespace wisp::drawing {
@@ -60,73 +59,12 @@ class LeafView {
   float middle_x_ = 0, middle_y_ = 0;
 };
 
-// A leaf's shape: a blade with a pointed tip and toothed margins, curled as leaves dry, and its stalk.
+/// A leaf's picture reaches from kLeafLeft to kLeafRight along the midrib, in halves of the blade's length from its
+/// middle, and as far as kLeafSide to both sides, in halves of its width: the stalk reaches beyond the base.
+inline constexpr float kLeafLeft = -1.52F, kLeafRight = 1.06F, kLeafSide = 1.12F;
+inline constexpr int kLeafPixels = 192;  ///< along it, of the largest size
 
-/// A corner of the surface.
-struct LeafVertex {
-  Vec3 place;          ///< in the leaf's axes, metres
-  Vec3 normal;         ///< out of the upper side
-  float u = 0, v = 0;  ///< along the midrib, 0 base … 1 tip (below 0: the stalk), and across, −1 … 1
-};
-
-struct LeafMesh {
-  std::vector<LeafVertex> vertices;
-  std::vector<std::array<int, 3>> triangles;
-};
-
-/// Fields of the style are clamped to their ranges.
-LeafMesh leaf_mesh(const LeafStyle& style);
-
-/// Whether the blade reaches to v at u: its margin has teeth.
-bool on_blade(float u, float v);
-
-// The colour of a place on a leaf, before and after light falls on it.
-
-/// A leaf's colours as light, fetched once.
-class LeafSurface {
- public:
-  LeafSurface(const LeafStyle& style, Vec3 towards_lamp);
-
-  /// Light that a place sends to the eye. `normal` is that of the upper side, `to_eye` the way back; both of length 1.
-  Light seen(float u, float v, Vec3 normal, Vec3 to_eye) const;
-
- private:
-  Light reflectance(float u, float v, bool upper) const;
-
-  Light upper_, margin_, under_, vein_;
-  Vec3 lamp_;
-};
-
-// A leaf's triangles as samples of the picture: which are covered, by what part of the leaf, and by what light.
-
-/// Light over a part of the picture, with how much of each pixel it covers.
-struct LeafPatch {
-  int x = 0, y = 0;  ///< its corner in the picture
-  int width = 0, height = 0;
-  std::vector<Light> light;  ///< premultiplied by the cover
-  std::vector<float> cover;  ///< 0 … 1
-
-  bool empty() const { return width <= 0 || height <= 0; }
-};
-
-inline constexpr float kLampRadius = 0.10F;  ///< of the lamp over its distance: how soft shadows are
-inline constexpr float kDarkest = 0.62F;     ///< of the floor's light that a shadow takes away
-
-/// Whether a leaf is somewhere, and turned somehow.
-bool is_drawable(const LeafPose& pose);
-
-/// A mesh placed in the room.
-struct PlacedLeaf {
-  Vec3 position;
-  Turn turn;
-};
-
-/// The leaf as the camera sees it, cut to the picture; empty where nothing of it is in view.
-LeafPatch leaf_patch(const LeafMesh& mesh, const PlacedLeaf& leaf, const LeafSurface& surface, const LeafView& view,
-                     int width, int height);
-
-/// Its shadow on the floor z = 0: only the cover is filled, with `margin` empty pixels around it for a blur.
-LeafPatch shadow_patch(const LeafMesh& mesh, const PlacedLeaf& leaf, Vec3 towards_lamp, const LeafView& view, int width,
-                       int height, int margin);
+/// One side of a flat leaf under a lamp straight above it. Row 0 is where the leaf's y is largest.
+Texture painted_side(const LeafStyle& style, bool upper);
 
 }  // namespace wisp::drawing

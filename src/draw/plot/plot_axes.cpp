@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "draw/cairo.hpp"
-#include "draw/text.hpp"
+#include "draw/cairo.hpp"
 
 namespace wisp::drawing {
 namespace {

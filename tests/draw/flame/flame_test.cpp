@@ -190,14 +190,12 @@ TEST(Flame, AbsurdScenesAndStylesAreHeldToTheirRanges) {
     drawn(outline, odd);
     odd = scene();
     odd.pixels_per_unit = value;
-    odd.brightness = value;
     odd.wind = value;
     odd.seconds_since_out = value;
     odd.seconds_since_lit = value;
     drawn(outline, odd);
     FlameStyle style;
-    style.exposure = style.glow = style.glow_reach = style.ambient = value;
-    style.candle_width = style.candle_height = style.wick_gap = style.wick_height = value;
+    style.glow = style.glow_reach = style.candle_width = value;
     drawn(outline, scene(), style);
   }
   Image empty;
@@ -361,17 +359,6 @@ TEST(Flame, AnOutlineThatShrinksByItselfIsDrawnAsItIs) {
   at.seconds_since_out = kLongAgo;
   at.size = 1.0F;
   EXPECT_TRUE(drawn(drop_outline(), at) == drawn(drop_outline(), scene()));
-}
-
-TEST(Flame, BrightnessScalesItsLight) {
-  FlameScene at = scene();
-  double last = 0;
-  for (const float brightness : {0.0F, 0.4F, 1.0F, 1.6F}) {
-    at.brightness = brightness;
-    const double here = total_brightness(drawn(drop_outline(), at));
-    EXPECT_GT(here, last) << "brightness " << brightness;
-    last = here;
-  }
 }
 
 TEST(Flame, LightsTheSideOfADarkNeighbourThatFacesIt) {

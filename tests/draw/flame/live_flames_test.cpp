@@ -57,13 +57,12 @@ TEST(LiveFlames, AreThePictureOfDrawFlames) {
   }
 }
 
-TEST(LiveFlames, AreSoWithSmokeEmberAndExposure) {
+TEST(LiveFlames, AreSoWithSmokeAndEmber) {
   const auto calm = drop_outline();
   FlameScene out = scene_at(140, 150);
   out.seconds_since_out = 1.2F;
   const std::vector<Flame> flames{{calm, out}, {calm, scene_at(290, 150)}};
-  const FlameStyle style{.exposure = 1.7F};
-  EXPECT_EQ(differing(drawn_live(flames, style), drawn_once(flames, style), 3), 0);
+  EXPECT_EQ(differing(drawn_live(flames), drawn_once(flames), 3), 0);
 }
 
 TEST(LiveFlames, AreSoAtThePicturesEdge) {
