@@ -91,7 +91,7 @@ TEST_F(Guide, EverySentenceOfNotUsableHasItsRow) {
       {"judge/arx_verdict.cpp",
        {"rows are too few for ", "to make the estimate stable a coefficient was moved by ", "in the same sample",
         "the recording shows no cause", "played in single precision", "is predicted no better than by its"}},
-      {"judge/arx_judge.cpp", {"the data cannot tell all coefficients", "the model is unstable"}},
+      {"fit/arx_report.cpp", {"the data cannot tell all coefficients", "the model is unstable"}},
       {"search/delay_estimate.cpp", {"no delay is supported"}}};
   const std::string kinds = source_text("include/wisp/learn/advice.hpp");
   const auto causes = kinds.substr(0, kinds.find("kClock"));

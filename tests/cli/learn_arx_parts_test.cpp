@@ -90,7 +90,8 @@ TEST_F(LearnArxParts, HoweverTheRowsAreCutTheModelIsTheSame) {
 }
 
 TEST_F(LearnArxParts, RangesAndSeveralRecordingsAreCutAlike) {
-  const std::string more = at("system.csv") + " --range 101:3001 --offset estimate";
+  std::ofstream(at("second.csv")) << file_text(at("system.csv")) << "3,1,2,3\n";
+  const std::string more = at("second.csv") + " --range 101:3001 --offset estimate";
   const auto want = in_one(more);
   const Said said =
       wisp("learn arx --merge" + write_parts(3, more) + " -o " + at("merged.wisp") + " --offset estimate --json");
@@ -143,7 +144,7 @@ TEST_F(LearnArxParts, ADamagedPartIsNamedAndNothingIsWritten) {
   bytes[8] = 9;
   std::ofstream(at("1.part"), std::ios::binary) << bytes;
   EXPECT_THAT(wisp("learn arx --merge" + parts + " -o " + at("m.wisp")).err,
-              HasSubstr("1.part: this part of a fit has format version 9, expected 3"));
+              HasSubstr("1.part: this part of a fit has format version 9, expected 4"));
 
   const Said table = wisp("learn arx --merge " + at("system.csv") + " -o " + at("m.wisp"));
   EXPECT_THAT(table.err, HasSubstr("system.csv: this is not a part of a fit"));

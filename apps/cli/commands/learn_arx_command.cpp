@@ -4,19 +4,151 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
 
+#include "command.hpp"
 #include "commands/commands.hpp"
 #include "flags/arx_flags.hpp"
 #include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/arx_figures.hpp"
-#include "reports/arx_parts.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
+#include "wisp/base/file.hpp"
 #include "wisp/learn/learn.hpp"
+#include "wisp/learn/parts.hpp"
 
 namespace wisp::cli {
 namespace {
+
+// --part "2/8", the second of eight, of the rows of --range.
+Result<TableShare> table_share(const Arguments& arguments) {
+  const std::string& text = arguments.text("part");
+  const Error bad{"--part: found \"" + text + "\", expected K/N with 1 <= K <= N, such as 2/8"};
+  TableShare share;
+  const char* const end = text.data() + text.size();
+  const auto [slash, code] = std::from_chars(text.data(), end, share.index);
+  if (code != std::errc() || slash == end || *slash != '/') return bad;
+  const auto [rest, count_code] = std::from_chars(slash + 1, end, share.count);
+  if (count_code != std::errc() || rest != end || share.index < 1 || share.index > share.count) return bad;
+  --share.index;
+  if (!arguments.has("range")) return share;
+  const SampleRange range = arguments.samples("range");
+  share.first = range.first - 1;
+  share.rows = range.last - range.first + 1;
+  return share;
+}
+
+Result<ArxPart> read_part(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  auto part = ArxPart::from_bytes(*bytes);
+  if (!part) return Error{path + ": " + part.error().message};
+  return part;
+}
+
+Result<void> take(const std::string& path, const TableShare& share, const Arguments& arguments, ArxPart& part) {
+  if (is_matlab(path)) {
+    const auto whole = read_table(path, arguments);
+    if (!whole) return whole.error();
+    return part.add(*whole, share);
+  }
+  const auto options = csv_options(arguments);
+  if (!options) return options.error();
+  return part.add(std::filesystem::path(path), *options, share);
+}
+
+// --partial, --part, --merge, --expect.
+std::vector<Flag> arx_part_flags() {
+  std::vector<Flag> flags{
+      {"partial", Kind::kOutput, "P", "",
+       "write a part of a fit instead of a model: the products of these rows, a small file however many they are"},
+      {"part", Kind::kText, "K/N", "1/1", "with --partial: take the K-th of N equal shares of every recording's rows"},
+      {"merge", Kind::kSwitch, "", "",
+       "what is named are parts written with --partial, in any order; they say what the channels and orders are"},
+      {"expect", Kind::kInteger, "N", "", "with --merge: how many parts there must be, so that none is forgotten"},
+  };
+  flags[1].with = "partial";
+  flags[3].with = "merge";
+  return flags;
+}
+
+// A recording, what is held out of it, and the room that reading keeps: up to 46 bytes a sample (measured), beside
+// what the program has anyway.
+// Whether learning from the named recordings at once would take more than --memory.
+bool too_large(const Arguments& arguments) {
+  constexpr double kMebibyte = 1 << 20, kProgram = 24, kBytesASample = 46;
+  const auto channels = static_cast<double>(arguments.names("inputs").size() + arguments.names("outputs").size());
+  double rows = 0;
+  for (const std::string& path : arguments.positionals()) {
+    std::error_code code;
+    const auto size = std::filesystem::file_size(path, code);
+    if (code) continue;
+    std::string first(std::size_t{1} << 16, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    stream.read(first.data(), std::ssize(first));
+    const auto read = static_cast<double>(stream.gcount());
+    const auto lines = static_cast<double>(std::count(first.begin(), first.end(), '\n'));
+    rows += static_cast<double>(size) / (is_matlab(path) || lines < 2 ? 8 * channels : read / lines);
+  }
+  return kProgram + kBytesASample * channels * rows / kMebibyte > arguments.integer("memory");
+}
+
+// The named tables, or the share of --part of each, at bounded memory. --range chooses their rows; MATLAB files are
+// read whole; a bad one is the error, or left out with --skip-bad.
+Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
+  const auto share = table_share(arguments);
+  if (!share) return share.error();
+  auto part = ArxPart::create(recipe);
+  if (!part) return part;
+  for (const std::string& path : arguments.positionals()) {
+    const auto taken = take(path, *share, arguments, *part);
+    if (!taken && !leave_out(path, taken.error(), arguments, terminal)) return taken.error();
+  }
+  if (part->sources().empty()) return Error{"none of the recordings can be used"};
+  return part;
+}
+
+// What the named part files know together. Errors: a file that cannot be read, is not a part, was damaged, or is of
+// another model than the first; each is named.
+Result<ArxPart> merged_parts(const Arguments& arguments) {
+  const auto& paths = arguments.positionals();
+  auto whole = read_part(paths.front());
+  if (!whole) return whole;
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    const auto part = read_part(paths[k]);
+    if (!part) return part.error();
+    if (auto ok = whole->merge(*part); !ok) {
+      return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
+    }
+  }
+  if (arguments.has("expect") && static_cast<std::size_t>(arguments.integer("expect")) != whole->jobs()) {
+    return Error{"found " + std::to_string(whole->jobs()) + " parts, expected " + arguments.text("expect") +
+                 ": did every job end well, and are all parts named?"};
+  }
+  return whole;
+}
+
+// Writes what the recordings (or, with --merge, the parts) have to say to the file of --partial, whole or not at all.
+// Errors: as part_of_tables and merged_parts, and where the file cannot be written.
+Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
+  const auto part = arguments.on("merge") ? merged_parts(arguments) : part_of_tables(recipe, arguments, terminal);
+  if (!part) return part.error();
+  const std::string& path = arguments.text("partial");
+  const auto bytes = part->bytes();
+  if (auto ok = write_file(path, bytes); !ok) return ok;
+  terminal.add("partial", path);
+  terminal.add("rows", part->rows());
+  terminal.add("bytes", bytes.size());
+  terminal.add("parts", part->jobs());
+  const auto sources = part->sources();
+  terminal.add("sources", ReportList(sources.begin(), sources.end()));
+  terminal.say("wrote " + path + ": " + std::to_string(part->rows()) + " rows in " + std::to_string(bytes.size()) +
+               " bytes; wisp learn arx --merge makes a model of all parts");
+  return {};
+}
 
 Error bad_grid(std::string_view text) {
   return {"--search: found \"" + std::string(text) + "\", expected such as na=1:10,nb=1:10,nk=0:3, up to 4096"};
@@ -184,7 +316,7 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
   if (arguments.on("merge")) {
     const auto merged = merged_parts(arguments);
     if (!merged) return merged.error();
-    return merged->part.finish(recipe, merged->sources, terminal.progress());
+    return merged->finish(recipe, terminal.progress());
   }
   // A search, a preparation, open delays and free runs need the recordings in memory, however large they are.
   const bool whole = arguments.has("search") || arguments.has("prepare") || !recipe.nk;
@@ -193,7 +325,7 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
   }
   const auto all = part_of_tables(recipe, arguments, terminal);
   if (!all) return all.error();
-  return all->part.finish(recipe, all->sources, terminal.progress());
+  return all->finish(recipe, terminal.progress());
 }
 
 Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {

@@ -206,7 +206,7 @@ constexpr auto fields_of(const FlickerRecipe&) {
             "what the model steps at; faster recordings are averaged down to the nearest whole part of their rate",
             {nullptr, "", 10, 1000}),
       field("modes", &R::modes, "degrees of restlessness", {"modes", "K", 2, 8}),
-      field("order", &R::order, "lags in every mode", {"order", "N", 1, 8}),
+      field("order", &R::order, "lags in every mode", {nullptr, "", 1, 8}),
       field("seed", &R::seed, "of the play that shocks are matched by", {"seed", "N"}));
 }
 

@@ -47,7 +47,8 @@ class ArxPart {
   ~ArxPart();
 
   /// Adds a share of a recording; where that fails nothing of it is added.
-  /// Errors: a channel that it has not, another rate than before, infinite samples, rows beyond its end.
+  /// Errors: a channel that it has not, another rate than before, infinite samples, rows beyond its end, rows that were
+  /// added before.
   Result<void> add(const Recording& recording, const TableShare& share = {});
 
   /// The same of a CSV file, read a stretch at a time, in the same memory however long it is.
@@ -64,22 +65,18 @@ class ArxPart {
   std::size_t jobs() const;
   std::vector<std::string> sources() const;
 
-  /// Orders of the model.
-  const ArxOrders& orders() const;
-
   /// As bytes, the same on every machine, with a hash.
   std::vector<std::byte> bytes() const;
 
   /// From bytes. Errors: not a part, cut short, changed, of another version, or not meaningful.
   static Result<ArxPart> from_bytes(std::span<const std::byte> bytes);
 
-  /// The fit of all that was taken in, as learn() makes it; `sources` are the names that the model remembers. Of the
-  /// recipe only name, offset, ridge, radius, keep_unstable and responses count here. Free simulation is judged where
-  /// all that was taken in are CSV files, which are read once more for it; residuals are not tested.
+  /// The fit of all that was taken in, as learn() makes it. Of the recipe only name, offset, kernel, radius,
+  /// keep_unstable and responses count here. Free simulation is judged where all that was taken in are CSV files, which
+  /// are read once more for it; residuals are not tested.
   /// Errors: too few rows, rows of a recording's shares that are in no part, a file that cannot be read again,
   /// kStopped.
-  Result<Fit> finish(const ArxRecipe& recipe, const std::vector<std::string>& sources,
-                     const Progress& progress = {}) const;
+  Result<Fit> finish(const ArxRecipe& recipe, const Progress& progress = {}) const;
 
  private:
   struct State;

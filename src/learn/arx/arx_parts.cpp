@@ -1,29 +1,35 @@
-#include "wisp/learn/parts.hpp"
-
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "base/hash.hpp"
+#include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/fit/arx_errors.hpp"
+#include "learn/arx/fit/arx_estimate.hpp"
 #include "learn/arx/fit/arx_report.hpp"
-#include "learn/arx/fit/triangular_factor.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
-#include "learn/arx/judge/prediction_tally.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/learn_arx.hpp"
-#include "learn/arx/plain_model.hpp"
+#include "learn/arx/part_state.hpp"
 #include "learn/arx/report/report_values.hpp"
-#include "learn/arx/rows/seen_rows.hpp"
+#include "learn/numeric/constants.hpp"
+#include "wisp/learn/parts.hpp"
 
 namespace wisp {
+namespace arx {
 namespace {
 
 constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kRowsAtATime = 65536;  // of a table, in memory
 
 // A CSV file that was taken in whole or in its range.
 struct Table {
   std::filesystem::path path;
   CsvOptions options;
-  TableShare share;
+  std::size_t first = 0, rows = kAllRows;
+
+  std::string name() const { return path.string(); }
 };
 
 // A CSV file being read, standing at the first row of its range.
@@ -33,42 +39,26 @@ struct OpenTable {
 };
 
 Result<OpenTable> open_table(const Table& table) {
-  const std::string name = table.path.string();
   OpenTable open{std::make_unique<std::ifstream>(table.path, std::ios::binary), nullptr};
   if (!*open.stream || std::filesystem::is_directory(table.path)) {
-    return Error{name + ": cannot be opened as a table; is the name right?"};
+    return Error{table.name() + ": cannot be opened as a table; is the name right?"};
   }
-  auto reader = CsvReader::open(*open.stream, name, table.options);
+  auto reader = CsvReader::open(*open.stream, table.name(), table.options);
   if (!reader) return reader.error();
   open.reader = std::make_unique<CsvReader>(std::move(*reader));
-  if (const auto skipped = open.reader->skip(table.share.first); !skipped) return skipped.error();
+  if (const auto skipped = open.reader->skip(table.first); !skipped) return skipped.error();
   return open;
 }
 
 Error beyond(const std::string& name, const TableShare& share) {
-  return {name + ": rows " + std::to_string(share.first + 1) + ":" + std::to_string(share.first + share.rows) +
+  return {name + ": rows " + rows_text(share.first, share.first + share.rows) +
           " were requested, which reach beyond its end"};
 }
 
-// How many rows the table's range has. A reading of its own, which looks for ends of lines only.
-Result<std::size_t> count_rows(const Table& table) {
-  const auto open = open_table(table);
-  if (!open) return open.error();
-  const auto rows = open->reader->skip(table.share.rows);
-  if (!rows) return rows.error();
-  const std::string name = table.path.string();
-  if (table.share.rows != kAllRows && *rows < table.share.rows) return beyond(name, table.share);
-  if (*rows == 0) return Error{name + ": has a header but no rows"};
-  return *rows;
-}
-
-// Which rows of a recording a share is of.
-SeenRows seen_of(const std::string& source, std::uint64_t hash, std::uint64_t rows, const TableShare& share,
-                 const PartRows& part) {
-  const bool all = share.count == 1 && share.rows == kAllRows && rows == kAllRows;
-  const std::uint64_t last = all ? kToTheEnd : share.first + rows;
-  const std::uint64_t end = all || part.end >= rows ? last : share.first + part.end;
-  return {source, hash, share.first, last, share.first + part.begin, end};
+// The rows of a share of `rows`, shared out evenly.
+RowPart share_of(std::size_t rows, const TableShare& share) {
+  const auto start = [&](std::size_t k) { return k * (rows / share.count) + std::min(k, rows % share.count); };
+  return {start(share.index), start(share.index + 1), share.index + 1 == share.count};
 }
 
 // Of a file's bytes, read once more: two parts know by it that they are of one recording, wherever it lies.
@@ -83,43 +73,122 @@ Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
   return hash;
 }
 
-// Of the samples of a model's channels.
-std::uint64_t hash_of_samples(const Recording& recording, const ChannelChoice& channels) {
-  std::uint64_t hash = hash_bytes({});
-  for (const auto* names : {&channels.outputs, &channels.inputs}) {
-    for (const std::string& name : *names) {
-      const auto channel = find_channel(recording, name);
-      if (channel) hash = hash_bytes(std::as_bytes(std::span(recording.channels[*channel].samples)), hash);
-    }
+// The mean of the samples that are there; NaN where none is.
+double mean_of(std::span<const double> samples) {
+  double sum = 0, count = 0;
+  for (double sample : samples) {
+    if (!std::isnan(sample)) sum += sample, ++count;
   }
-  return hash;
+  return count > 0 ? sum / count : kMissing;
 }
 
-bool driven(const ArxOrders& orders) {
-  const auto nb = orders.nb.values();
-  return std::any_of(nb.begin(), nb.end(), [](int order) { return order > 0; });
+// Takes in rows of a recording, with what came before them in their episode as history.
+// Errors: a channel that the recording has not, another rate than before, infinite samples.
+Result<void> take_rows(const Recording& recording, const RowPart& part, PartState& state) {
+  auto signals = find_signals({&recording, 1}, state.names);
+  if (!signals) return signals.error();
+  state.rate_hz = recording.rate_hz;
+  for (std::size_t c = 0; c < state.channels.size(); ++c) {
+    PartChannel& channel = state.channels[c];
+    const auto samples = signals->samples[0][c].subspan(part.begin, part.end - part.begin);
+    if (std::any_of(samples.begin(), samples.end(), [](double sample) { return std::isinf(sample); })) {
+      return Error{"channel '" + signals->names[c] + "' holds an infinite sample"};
+    }
+    if (std::isnan(channel.reference)) channel.reference = mean_of(samples);
+    if (channel.span.unit.empty()) {
+      channel.span.unit = recording.channels[*find_channel(recording, signals->names[c])].unit;
+    }
+    signals->offset[c] = std::isnan(channel.reference) ? 0.0 : channel.reference;
+    for (double sample : samples) channel.add(sample);
+  }
+  const LagLayout layout = make_design(state.orders, ArxOffset::kMean).layout;
+  const RowPlan plan = plan_part(*signals, layout, state.orders.history(), part);
+  if (plan.rows > 0) reduce_rows(state.triangle, triangle_by_qr(*signals, plan, layout));
+  state.rows += plan.rows;
+  state.episodes_used += plan.episodes_used;
+  state.episodes_skipped += plan.episodes_skipped;
+  state.rows_left_out += plan.rows_left_out;
+  return {};
 }
 
-// Which rows of which recordings the model knows.
-void add_coverage(const FactorNotes& notes, ReportSection& section) {
-  if (notes.jobs < 2) return;
-  arx::add(section, "parts", static_cast<std::int64_t>(notes.jobs), "parts that were merged");
-  ReportTable table{"covered", "rows taken in", {{"source", "recording"}, {"rows", "rows"}}, {}};
-  for (const SeenRows& seen : notes.seen) table.rows.push_back({seen.source, rows_text(seen.begin, seen.end)});
-  section.tables.push_back(std::move(table));
+// Takes in rows of a table, counted from where the reader stands, a stretch at a time. Returns how many there are.
+Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState& state) {
+  // One row more than the history, so that an episode that goes on is never taken for one that is too short.
+  const auto kept = static_cast<std::size_t>(state.orders.history()) + 1;
+  const std::size_t before = std::min(kept, part.begin);
+  Recording window = reader.header();
+  if (const auto passed = reader.skip(part.begin - before); !passed) return passed.error();
+  if (const auto history = reader.read(window, before); !history) return history.error();
+  for (std::size_t at = part.begin;;) {
+    const std::size_t known = window.rows();
+    const auto read = reader.read(window, std::min(kRowsAtATime, part.end - at));
+    if (!read) return read.error();
+    at += *read;
+    const bool over = *read == 0;
+    if (auto ok = take_rows(window, {known, window.rows(), over && (part.last || at < part.end)}, state); !ok) {
+      return ok.error();
+    }
+    if (over) return at - part.begin;
+    window = slice(window, window.rows() - std::min(kept, window.rows()), window.rows());
+  }
+}
+
+// Operating point and scales, as gather_signals() finds them. Errors: a channel without samples.
+Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
+  FitFacts facts;
+  facts.options = options;
+  facts.outputs = state.orders.outputs();
+  facts.names = state.names.outputs;
+  facts.names.insert(facts.names.end(), state.names.inputs.begin(), state.names.inputs.end());
+  for (std::size_t c = 0; c < facts.names.size(); ++c) {
+    const PartChannel& channel = state.channels[c];
+    if (channel.samples == 0) return Error{"channel '" + facts.names[c] + "' has no sample that is not missing"};
+    if (auto ok = check_size(facts.names[c], channel.span); !ok) return ok.error();
+    const ChannelPoint point = operating_point({channel.sum, channel.square, static_cast<std::size_t>(channel.samples)},
+                                               channel.reference, options.offset);
+    facts.offset.push_back(point.offset);
+    facts.scale.push_back(point.scale);
+  }
+  facts.rows = state.rows;
+  facts.first_sample = state.orders.history();
+  facts.episodes_used = state.episodes_used;
+  facts.episodes_skipped = state.episodes_skipped;
+  facts.rows_left_out = state.rows_left_out;
+  return facts;
+}
+
+// The fit of all that was taken in, as fit_arx() makes it, but for free simulation.
+Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
+  if (auto ok = check_options(options, state.names); !ok) return ok.error();
+  const ArxDesign design = make_design(options.orders, options.offset, options.kernel != ArxKernel::kNone);
+  RowPlan plan;
+  plan.rows = state.rows;
+  plan.first_sample = state.orders.history();
+  if (auto ok = check_rows(plan, design); !ok) return ok.error();
+  const auto facts = facts_of(state, options);
+  if (!facts) return facts.error();
+  std::vector<double> shift;
+  for (std::size_t c = 0; c < facts->offset.size(); ++c) {
+    shift.push_back(state.channels[c].reference - facts->offset[c]);
+  }
+  Eigen::MatrixXd triangle = state.triangle;
+  shift_columns(state.orders, shift, facts->scale, triangle);
+  ArxFit fit = report_fit(*facts, design,
+                          estimate_from_triangle(triangle, facts->scale, design, {options.covariance, options.kernel}));
+  judge_fit(*facts, fit.summary);
+  return fit;
 }
 
 // Simulates the model over the tables, a stretch at a time and each from its measured start, and adds what that says to
 // the fit's summary.
 Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoice& channels, const Progress& progress,
                             ArxFit& fit) {
-  constexpr std::size_t kRowsAtATime = 65536;
   Tally tally(fit.model.orders.outputs());
   for (const Table& table : tables) {
-    if (auto ok = arx::check_progress(progress, "simulating", 0); !ok) return ok;
+    if (auto ok = check_progress(progress, "simulating", 0); !ok) return ok;
     const auto open = open_table(table);
     if (!open) return open.error();
-    for (std::size_t left = table.share.rows;;) {
+    for (std::size_t left = table.rows;;) {
       Recording window = open->reader->header();
       const auto read = open->reader->read(window, std::min(kRowsAtATime, left));
       if (!read) return read.error();
@@ -140,19 +209,19 @@ Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoic
 }
 
 }  // namespace
+}  // namespace arx
 
-struct ArxPart::State {
-  TriangularFactor factor;
-  TriangularFactor empty;       // what each recording begins with, so that a bad one leaves no trace
-  std::vector<Table> tables{};  // that were taken in whole
-  bool only_tables = true;      // nothing else was taken in
+using arx::PartState;
 
-  Result<void> merge(const TriangularFactor& more, const SeenRows& seen) {
-    auto all = joined(factor.notes().seen, {copy_of(seen, factor.notes().seen)});
-    if (!all) return Error{seen.source + ": " + all.error().message};
-    if (auto ok = factor.merge(more); !ok) return Error{seen.source + ": " + ok.error().message};
-    factor.set_notes({factor.notes().jobs, std::move(*all)});
-    return {};
+struct ArxPart::State : PartState {
+  std::vector<arx::Table> tables{};  // that were taken in whole
+  bool only_tables = true;           // nothing else was taken in
+
+  // What was just read of a recording, which takes all of it or nothing.
+  Result<void> take(const std::string& source, PartState&& part, const arx::SeenRows& read) {
+    part.seen = {read};
+    auto ok = merge(part);
+    return ok ? std::move(ok) : Error{source + ": " + ok.error().message};
   }
 };
 
@@ -167,111 +236,115 @@ Result<ArxPart> ArxPart::create(const ArxRecipe& recipe) {
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   auto orders = arx::orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
   if (!orders) return orders.error();
-  auto factor = TriangularFactor::create({channels, std::move(*orders)});
-  if (!factor) return factor.error();
-  return ArxPart(std::make_unique<State>(State{*factor, *factor}));
+  return ArxPart(std::make_unique<State>(State{{channels, std::move(*orders)}}));
 }
 
 Result<void> ArxPart::add(const Recording& recording, const TableShare& share) {
-  const std::size_t end = share.rows == kAllRows ? recording.rows() : share.first + share.rows;
-  if (share.first >= recording.rows() || end > recording.rows()) return beyond(recording.source, share);
-  const Recording ranged = slice(recording, share.first, end);
-  TriangularFactor factor = state_->empty;
-  const PartRows part = part_rows(ranged.rows(), share.index, share.count);
-  if (auto ok = factor.add(ranged, part); !ok) return ok;
-  const std::uint64_t hash = hash_of_samples(recording, factor.options().channels);
-  if (auto ok = state_->merge(factor, seen_of(recording.source, hash, ranged.rows(), share, part)); !ok) return ok;
+  const std::size_t end = share.rows == arx::kAllRows ? recording.rows() : share.first + share.rows;
+  if (share.first >= recording.rows() || end > recording.rows()) return arx::beyond(recording.source, share);
+  PartState own(state_->names, state_->orders);
+  const RowPart part = arx::share_of(end - share.first, share);
+  if (auto ok = arx::take_rows(slice(recording, share.first, end), part, own); !ok) return ok;
+  std::uint64_t hash = hash_bytes({});
+  for (const auto* names : {&own.names.outputs, &own.names.inputs}) {
+    for (const std::string& name : *names) {
+      hash = hash_bytes(std::as_bytes(std::span(recording.channels[*find_channel(recording, name)].samples)), hash);
+    }
+  }
   state_->only_tables = false;
-  return {};
+  const std::string name = std::filesystem::path(recording.source).filename().string();
+  return state_->take(recording.source, std::move(own),
+                      {name, hash, share.first, end, share.first + part.begin, share.first + part.end});
 }
 
 Result<void> ArxPart::add(const std::filesystem::path& path, const CsvOptions& options, const TableShare& share) {
-  const Table table{path, options, share};
-  PartRows part;
-  std::uint64_t rows = kAllRows;
-  if (share.count > 1 || share.first > 0 || share.rows != kAllRows) {
-    const auto counted = count_rows(table);
+  const arx::Table table{path, options, share.first, share.rows};
+  RowPart part{0, share.rows, true};
+  std::size_t rows = share.rows;
+  if (share.count > 1) {  // a reading of its own, which looks for ends of lines only
+    const auto counting = arx::open_table(table);
+    if (!counting) return counting.error();
+    const auto counted = counting->reader->skip(share.rows);
     if (!counted) return counted.error();
     rows = *counted;
-    part = part_rows(*counted, share.index, share.count);
+    part = arx::share_of(rows, share);
   }
-  const auto open = open_table(table);
+  const auto open = arx::open_table(table);
   if (!open) return open.error();
-  TriangularFactor factor = state_->empty;
-  const bool last = share.index + 1 == share.count;
-  if (auto ok = factor.add(*open->reader, part, last ? std::min(part.end, share.rows) : kAllRows); !ok) return ok;
-  const auto hash = hash_of_file(path);
+  PartState own(state_->names, state_->orders);
+  const auto read = arx::take_table(*open->reader, part, own);
+  if (!read) return read.error();
+  if (share.count == 1) rows = part.end = *read;
+  if (share.rows != arx::kAllRows && rows < share.rows) return arx::beyond(table.name(), share);
+  if (rows == 0) return Error{table.name() + ": has a header but no rows"};
+  const auto hash = arx::hash_of_file(path);
   if (!hash) return hash.error();
-  const SeenRows seen = seen_of(path.filename().string(), *hash, rows, share, part);
-  if (auto ok = state_->merge(factor, seen); !ok) return ok;
+  const arx::SeenRows seen{path.filename().string(), *hash, share.first, share.first + rows, share.first + part.begin,
+                           share.first + part.end};
+  if (auto ok = state_->take(table.name(), std::move(own), seen); !ok) return ok;
   state_->tables.push_back(table);
   state_->only_tables &= share.count == 1;
   return {};
 }
 
 Result<void> ArxPart::merge(const ArxPart& other) {
-  const FactorNotes &own = state_->factor.notes(), &more_notes = other.state_->factor.notes();
-  TriangularFactor whole = state_->factor;
-  if (auto ok = whole.merge(other.state_->factor); !ok) return ok;
-  auto seen = joined(own.seen, more_notes.seen);
-  if (!seen) return seen.error();
-  whole.set_notes({own.jobs + more_notes.jobs, std::move(*seen)});
-  state_->factor = std::move(whole);
-  state_->only_tables &= other.state_->only_tables;
-  const auto& more = other.state_->tables;
-  state_->tables.insert(state_->tables.end(), more.begin(), more.end());
+  const State& more = *other.state_;
+  if (auto ok = state_->merge(more); !ok) return ok;
+  state_->jobs += more.jobs;
+  state_->only_tables &= more.only_tables;
+  state_->tables.insert(state_->tables.end(), more.tables.begin(), more.tables.end());
   return {};
 }
 
-std::size_t ArxPart::rows() const { return state_->factor.rows(); }
+std::size_t ArxPart::rows() const { return state_->rows; }
 
-std::size_t ArxPart::jobs() const { return static_cast<std::size_t>(state_->factor.notes().jobs); }
+std::size_t ArxPart::jobs() const { return state_->jobs; }
 
 std::vector<std::string> ArxPart::sources() const {
   std::vector<std::string> names;
-  for (const SeenRows& seen : state_->factor.notes().seen) {
+  for (const arx::SeenRows& seen : state_->seen) {
     if (std::find(names.begin(), names.end(), seen.source) == names.end()) names.push_back(seen.source);
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-const ArxOrders& ArxPart::orders() const { return state_->factor.options().orders; }
-
-std::vector<std::byte> ArxPart::bytes() const { return state_->factor.bytes(); }
+std::vector<std::byte> ArxPart::bytes() const { return state_->bytes(); }
 
 Result<ArxPart> ArxPart::from_bytes(std::span<const std::byte> bytes) {
-  auto factor = TriangularFactor::from_bytes(bytes);
-  if (!factor) return factor.error();
-  auto empty = TriangularFactor::create(factor->options());
-  if (!empty) return empty.error();
-  return ArxPart(std::make_unique<State>(State{std::move(*factor), std::move(*empty), {}, false}));
+  auto state = PartState::from_bytes(bytes);
+  if (!state) return state.error();
+  return ArxPart(std::make_unique<State>(State{std::move(*state), {}, false}));
 }
 
-Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const std::vector<std::string>& sources,
-                            const Progress& progress) const {
-  const TriangularFactor& factor = state_->factor;
-  const ChannelChoice& channels = factor.options().channels;
-  const FactorNotes& notes = factor.notes();
-  if (auto ok = check_complete(notes.seen); !ok) return ok.error();
-  const auto spans = factor.spans();
-  for (std::size_t c = 0; c < spans.size(); ++c) {
-    const std::size_t outputs = channels.outputs.size();
-    const std::string& name = c < outputs ? channels.outputs[c] : channels.inputs[c - outputs];
-    if (auto ok = arx::check_size(name, spans[c]); !ok) return ok.error();
-  }
+Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) const {
+  const PartState& state = *state_;
+  const auto rows = arx::covered(state.seen);
+  if (!rows) return rows.error();
   if (auto ok = arx::check_progress(progress, "fitting", 0); !ok) return ok.error();
-  auto fitted = factor.finish(arx::fit_options(recipe, factor.options().orders));
+  auto fitted = arx::fit_of(state, arx::fit_options(recipe, state.orders));
   if (!fitted) return fitted.error();
-  const bool simulated = state_->only_tables && driven(fitted->model.orders);
+  const auto nb = state.orders.nb.values();
+  const bool driven = std::any_of(nb.begin(), nb.end(), [](int order) { return order > 0; });
+  const bool simulated = state_->only_tables && driven;
   if (simulated) {
-    if (auto ok = judge_free_run(state_->tables, channels, progress, *fitted); !ok) return ok.error();
+    if (auto ok = arx::judge_free_run(state_->tables, state.names, progress, *fitted); !ok) return ok.error();
   }
-  arx::judge_use({channels, factor.options().orders}, fitted->summary);
-  Fit fit = arx::finish(*fitted, recipe, channels, {factor.rate_hz(), factor.spans(), sources});
-  add_coverage(notes, fit.report.sections.back());
-  if (!simulated && driven(fitted->model.orders)) {
-    arx::add_line(fit.report.sections.back(), "free simulation",
+  arx::judge_use({state.names, state.orders}, fitted->summary);
+  arx::Sources sources{.rate_hz = state.rate_hz, .files = this->sources()};
+  for (const arx::PartChannel& channel : state.channels) sources.spans.push_back(channel.span);
+  Fit fit = arx::finish(*fitted, recipe, state.names, sources);
+  ReportSection& section = fit.report.sections.back();
+  if (state.jobs > 1) {
+    arx::add(section, "parts", static_cast<std::int64_t>(state.jobs), "parts that were merged");
+    ReportTable table{"covered", "rows taken in", {{"source", "recording"}, {"rows", "rows"}}, {}};
+    for (const arx::SeenRows& seen : *rows) {
+      table.rows.push_back({seen.source, arx::rows_text(seen.begin, seen.end)});
+    }
+    section.tables.push_back(std::move(table));
+  }
+  if (!simulated && driven) {
+    arx::add_line(section, "free simulation",
                   "not judged: parts hold no rows to simulate; validate the model on a recording");
   }
   return fit;

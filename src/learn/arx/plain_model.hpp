@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/fit/triangular_factor.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
@@ -13,6 +12,12 @@
 #include "wisp/record/recording.hpp"
 
 namespace wisp::arx {
+
+/// What a channel did over the samples that were learned from.
+struct ChannelSpan {
+  std::string unit;
+  double lowest = 0, highest = 0;  ///< 0 where it has no sample
+};
 
 /// What a model needs to know of what it was learned from.
 struct Sources {

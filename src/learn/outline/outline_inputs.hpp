@@ -17,8 +17,8 @@
 
 namespace wisp {
 
-/// The recordings with their inputs as loud at 1 as in the loudest of them. Whatever does not say how loud it was stays
-/// as it is. Errors: as one_rms().
+/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, that of the loudest
+/// one. Inputs whose loudness is not recorded are left unchanged. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
 /// The factor for each recording's first heard input; empty where some recording does not say how loud it was, or where

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <functional>
 
-#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/model/arx.hpp"
 
 namespace wisp {
 

@@ -7,7 +7,6 @@
 
 #include "learn/arx/fit/arx_errors.hpp"
 #include "learn/arx/judge/free_run.hpp"
-#include "learn/arx/judge/prediction_tally.hpp"
 
 namespace wisp {
 namespace {
@@ -70,44 +69,24 @@ class StepErrors {
   Eigen::MatrixXd sum_;
 };
 
-// Figures of all finite numbers of steps.
-class Tallies {
- public:
-  Tallies(const ArxModel& model, const Signals& signals, const FigureOptions& options, int first_sample)
-      : signals_(signals), at_(1 + *std::max_element(options.steps.begin(), options.steps.end()), -1) {
-    for (int steps : options.steps) {
-      if (steps == kFreeRun || at_[steps] >= 0) continue;
-      at_[steps] = static_cast<int>(tallies_.size());
-      tallies_.emplace_back(signals.outputs);
-    }
-    const int most = static_cast<int>(at_.size()) - 1;
-    if (most < 1) return;
-    StepErrors errors(model, signals, most);
-    for (const RowRun& run : plan_rows(signals, layout_of_model(model), first_sample).runs) {
-      errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) { add(run, k, first, block); });
-    }
+// The errors of predictions of one finite number of steps.
+Tally steps_tally(const ArxModel& model, const Signals& signals, int steps, int first_sample) {
+  Tally tally(signals.outputs);
+  StepErrors errors(model, signals, steps);
+  for (const RowRun& run : plan_rows(signals, layout_of_model(model), first_sample).runs) {
+    errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) {
+      const std::size_t start = run.begin + static_cast<std::size_t>(k) - 1;
+      const auto skip = static_cast<Eigen::Index>(start > first ? start - first : 0), rows = block.rows() - skip;
+      if (k < steps || rows <= 0) return;
+      tally.add_errors(block.bottomRows(rows));
+      for (int i = 0; i < signals.outputs; ++i) {
+        const double* measured = signals.samples[run.recording][i].data() + first + skip;
+        tally.add_output(i, (Eigen::Map<const Eigen::ArrayXd>(measured, rows) - signals.offset[i]).matrix());
+      }
+    });
   }
-
-  const Tally& operator[](int steps) const { return tallies_[at_[steps]]; }
-
- private:
-  void add(const RowRun& run, int k, std::size_t first, const Eigen::MatrixXd& block) {
-    if (at_[k] < 0) return;
-    const std::size_t start = run.begin + static_cast<std::size_t>(k) - 1;
-    const auto skip = static_cast<Eigen::Index>(start > first ? start - first : 0);
-    if (skip >= block.rows()) return;
-    const Eigen::Index rows = block.rows() - skip;
-    tallies_[at_[k]].add_errors(block.bottomRows(rows));
-    for (int i = 0; i < signals_.outputs; ++i) {
-      const double* measured = signals_.samples[run.recording][i].data() + first + skip;
-      tallies_[at_[k]].add_output(i, (Eigen::Map<const Eigen::ArrayXd>(measured, rows) - signals_.offset[i]).matrix());
-    }
-  }
-
-  const Signals& signals_;
-  std::vector<int> at_;
-  std::vector<Tally> tallies_;
-};
+  return tally;
+}
 
 std::vector<std::vector<double>> nothing_predicted(const Signals& signals) {
   const std::vector<double> series(signals.samples[0].front().size(), std::numeric_limits<double>::quiet_NaN());
@@ -160,11 +139,10 @@ Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const S
                                                   const FigureOptions& options) {
   if (auto ok = check_figures(model, options); !ok) return ok.error();
   const int first_sample = options.first_sample.value_or(model.orders.history());
-  const Tallies tallies(model, signals, options, first_sample);
   std::vector<PredictionFigures> out;
   for (int steps : options.steps) {
-    const Tally tally =
-        steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample}) : tallies[steps];
+    const Tally tally = steps == kFreeRun ? free_run_tally(model, signals, {options.initial, first_sample})
+                                          : steps_tally(model, signals, steps, first_sample);
     if (tally.rows() == 0) {
       return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
                    std::to_string(model.orders.history()) + " samples" +
@@ -198,6 +176,77 @@ std::vector<std::vector<double>> prediction_sd(const ArxModel& model, std::span<
     for (int i = 0; i < ny; ++i) sd[i].push_back(std::sqrt(variance[i]));
   }
   return sd;
+}
+
+namespace {
+
+// Moves the rows without missing samples to the front. Returns how many they are.
+Eigen::Index drop_missing(Eigen::Index rows, Eigen::MatrixXd& measured, Eigen::MatrixXd& errors) {
+  if (!errors.topRows(rows).hasNaN()) return rows;
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < rows; ++t) {
+    if (errors.row(t).hasNaN()) continue;
+    measured.row(count) = measured.row(t);
+    errors.row(count) = errors.row(t);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+void Tally::add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors) {
+  rows_ += static_cast<std::size_t>(errors.rows());
+  for (std::size_t i = 0; i < square_.size(); ++i) {
+    square_[i] += errors.col(static_cast<Eigen::Index>(i)).squaredNorm();
+  }
+  for (std::size_t g = 0; g < norm_.size(); ++g) {
+    norm_[g] += errors.middleCols(static_cast<Eigen::Index>(g) * group_, group_).rowwise().norm().sum();
+  }
+}
+
+void Tally::add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations) {
+  y_[i] += deviations.sum();
+  y_square_[i] += deviations.squaredNorm();
+}
+
+PredictionFigures Tally::figures(int steps) const {
+  PredictionFigures out;
+  out.steps = steps;
+  out.rows = rows_;
+  const double n = static_cast<double>(rows_);
+  for (std::size_t i = 0; i < square_.size(); ++i) {
+    out.mean_square.push_back(square_[i] / n);
+    const double variance = y_square_[i] / n - (y_[i] / n) * (y_[i] / n);
+    out.fit_percent.push_back(variance > 0 ? 100 * (1 - std::sqrt(out.mean_square[i] / variance)) : 0);
+  }
+  for (double sum : norm_) out.j.push_back(sum / n);
+  return out;
+}
+
+void Tally::add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
+                          const double* values) {
+  const auto count = static_cast<Eigen::Index>(rows);
+  const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
+  Eigen::MatrixXd measured(count, signals.outputs);
+  for (int i = 0; i < signals.outputs; ++i) {
+    const double* samples = signals.samples[recording][i].data() + first;
+    measured.col(i) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
+  }
+  Eigen::MatrixXd errors = measured - simulated.transpose();
+  const Eigen::Index whole = drop_missing(count, measured, errors);
+  add_errors(errors.topRows(whole));
+  for (int i = 0; i < signals.outputs; ++i) add_output(i, measured.col(i).head(whole));
+}
+
+Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start) {
+  Tally tally(signals.outputs);
+  for (std::size_t r = 0; r < signals.samples.size(); ++r) {
+    free_run(model, signals, r, start, [&](std::size_t first, std::size_t rows, const double* values) {
+      tally.add_simulated(signals, r, first, rows, values);
+    });
+  }
+  return tally;
 }
 
 }  // namespace wisp

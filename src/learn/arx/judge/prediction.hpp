@@ -6,12 +6,15 @@
 // inputs up to t; its error is Σ F_j e(t−j) over j < k, F the impulse response of the noise, which is how it is
 // computed.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "learn/arx/judge/free_run.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
@@ -39,7 +42,7 @@ struct PredictionFigures {
   std::size_t rows = 0;             ///< rows that were predicted and measured
   std::vector<double> mean_square;  ///< of the error, per output, its unit²
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over those rows, per output; 0 where y is constant
-  std::vector<double> j;  ///< J_k: mean norm of the error, per group of outputs: of one here
+  std::vector<double> j;  ///< J_k: mean size of the error, per output
 };
 
 /// Which figures.
@@ -50,8 +53,7 @@ struct FigureOptions {
                                     ///< unset: the model's history
 };
 
-/// The error of predictions over all recordings together, for every number of steps. All numbers of steps are computed
-/// in one pass over the data.
+/// The error of predictions over all recordings together, for every number of steps.
 /// Errors: as predict, and where nothing can be predicted.
 Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
                                                           const ChannelChoice& channels,
@@ -64,5 +66,45 @@ Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model,
 /// Precondition: steps >= 1.
 std::vector<std::vector<double>> prediction_sd(const ArxModel& model, std::span<const double> noise_covariance,
                                                int steps);
+
+/// Sums over the rows for one number of steps.
+class Tally {
+ public:
+  /// `group`: consecutive outputs whose error is one vector.
+  explicit Tally(int outputs, int group = 1)
+      : group_(group), square_(outputs), y_(outputs), y_square_(outputs), norm_(outputs / group) {}
+
+  std::size_t rows() const { return rows_; }
+
+  /// One column an output, one row a time; none may be NaN.
+  void add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors);
+
+  /// Adds measured deviations of output i.
+  void add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations);
+
+  /// Adds the errors of simulated rows [first, first + rows) of a recording: `values` are the simulated deviations, row
+  /// after row. Rows where an output was not measured do not count.
+  void add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
+                     const double* values);
+
+  PredictionFigures figures(int steps) const;
+
+ private:
+  int group_;
+  std::size_t rows_ = 0;
+  std::vector<double> square_;
+  std::vector<double> y_;
+  std::vector<double> y_square_;
+  std::vector<double> norm_;
+};
+
+/// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
+///
+/// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
+Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start);
+
+/// What prediction_figures computes.
+Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
+                                                  const FigureOptions& options);
 
 }  // namespace wisp

@@ -9,7 +9,7 @@
 
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/fit/arx_report.hpp"
-#include "learn/arx/judge/prediction_tally.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "learn/arx/search/search_fit.hpp"
