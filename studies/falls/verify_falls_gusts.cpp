@@ -31,7 +31,7 @@ void print(const char* what, double fit, const GustDirection& direction) {
 
 GustPlay played(const Model& model, int gusts, int clones, std::uint64_t seed) {
   const LeafPairs pairs = pairs_of(gusts, clones, seed);
-  auto play = play_gusts(model, pairs.windy, pairs.calm, {.scenes = 0});
+  auto play = play_gusts(model, *gust_pairs(pairs.windy, pairs.calm), 0, 1);
   if (!play) give_up(play.error());
   return std::move(*play);
 }
@@ -73,7 +73,7 @@ void updrafts(const Model& model, Bounds& bounds) {
 void gusts(Bounds& bounds) {
   std::printf("\nGusts, learned from 400 of them, 32 clones each\n");
   const LeafPairs told = pairs_of(400, 32, 1);
-  const auto learned = learn_gusts(told.windy, told.calm, 0);
+  const auto learned = learn_gusts(*gust_pairs(told.windy, told.calm), 400);
   if (!learned) give_up(learned.error());
   Model model = learned_leaf().fit.model;
   std::get<ChainModel>(model.dynamics).gust = learned->response;

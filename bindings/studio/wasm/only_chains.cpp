@@ -27,14 +27,12 @@ std::string text_of(const Preparation&) { return {}; }
 
 namespace chain {
 
-Result<GustFit> learn_gusts(const Recording&, const Recording&, double) {
+Result<GustPairs> gust_pairs(const Recording&, const Recording&) {
   return left_out("pairs of a windy recording and its calm twin");
 }
-Result<GustPlay> play_gusts(const Model&, const Recording&, const Recording&, const GustPlayOptions&) {
-  return left_out("pairs of a windy recording and its calm twin");
-}
-// Nothing comes to these: what they report of fails.
-ReportSection gusts_section(const GustFigures&) { return {}; }
+// Nothing comes to these.
+Result<GustFit> learn_gusts(const GustPairs&, std::size_t) { return Error{}; }
+Result<GustPlay> play_gusts(const Model&, const GustPairs&, std::size_t, std::uint64_t) { return Error{}; }
 ReportSection gusts_section(const GustPlayFigures&) { return {}; }
 ReportSection scene_section(const GustScene&, std::size_t) { return {}; }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "base/statistics.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "learn/numeric/constants.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -17,6 +19,8 @@ constexpr double kPercentile = 0.99;
 constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
 constexpr std::size_t kMaxWindows = 500;  // a side
 constexpr int kSynthesizedPerReal = 2;    // falls
+constexpr double kLongWindowSeconds = 2;
+constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // no eye sees less
 
 struct Jumps {
   std::vector<double> position;
@@ -151,26 +155,60 @@ FallFigures figures_of(const Motion& motion, std::span<const Segment> segments) 
   return figures;
 }
 
-// Energy distance of two sets of series through windows of one length.
-double energy_of(std::span<const Stretch> reference, std::span<const Stretch> other, std::size_t rows) {
-  FeatureWindows x = thinned(series_windows(reference, rows), kMaxWindows);
-  FeatureWindows y = thinned(series_windows(other, rows), kMaxWindows);
-  if (x.size() == 0 || y.size() == 0) return kMissing;
+// Energy distance of windows, of at most so many a side.
+double energy_of(const FeatureWindows& reference, const FeatureWindows& other) {
+  FeatureWindows x = thinned(reference, kMaxWindows);
+  FeatureWindows y = thinned(other, kMaxWindows);
+  if (x.size() < 2 || y.size() < 2) return kMissing;
   standardise(x, y);
   return energy_distance(x, y);
 }
 
 // Between what two halves of the real falls differ by (every other fall to a side; a single one is cut in time) and
-// what their rows in random order do.
-Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::size_t rows, std::uint64_t seed) {
+// what their rows in random order do. `windows_of`: of series.
+template <typename Windows>
+Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::uint64_t seed,
+                 const Windows& windows_of) {
   Halves halves;
   if (real.size() == 1) halves = halves_of(real);
   for (std::size_t k = 0; real.size() > 1 && k < real.size(); ++k) {
     (k % 2 == 0 ? halves.first : halves.second).push_back(real[k]);
   }
-  const auto apart = [&](std::span<const Stretch> a, std::span<const Stretch> b) { return energy_of(a, b, rows); };
+  const auto apart = [&](std::span<const Stretch> a, std::span<const Stretch> b) {
+    return energy_of(windows_of(a), windows_of(b));
+  };
   return {apart(real, made), apart(halves.first, halves.second), apart(real, shuffled(real, seed))};
 }
+
+// What an eye follows: descent and speed over ground, and of poses the height of the normal, velocities and spins in
+// the body's axes; with noise of the size that no eye sees.
+std::vector<Stretch> signals_of(const Motion& motion, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto noise = [&] { return std::sqrt(12.0) * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
+  std::vector<Stretch> out;
+  for (const MotionPiece& piece : motion.pieces) {
+    const bool pose = motion.has_orientation;
+    Stretch& own = out.emplace_back(Stretch{pose ? std::size_t{9} : std::size_t{2}, {}});
+    std::vector<double> before(own.channels);
+    for (std::size_t row = 0; row < piece.rows(); ++row) {
+      std::vector<double> values{piece.velocity[row][2], std::hypot(piece.velocity[row][0], piece.velocity[row][1])};
+      if (pose) {
+        const Quad& q = piece.orientation[row];
+        for (const Triple& x : {in_body_axes(q, piece.velocity[row]), in_body_axes(q, piece.spin[row])})
+          values.insert(values.end(), x.begin(), x.end());
+        values.push_back(std::abs(in_world_axes(q, {0, 0, 1})[2]));
+      }
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const double unseen = (k < 5 ? kUnseenMetres : kUnseenRadians) * noise();
+        own.values.push_back(values[k] + (k < 8 ? motion.rate_hz * (unseen - before[k]) : unseen));
+        before[k] = unseen;
+      }
+    }
+  }
+  return out;
+}
+
+std::size_t long_rows(double rate_hz) { return static_cast<std::size_t>(std::lround(kLongWindowSeconds * rate_hz)); }
 
 }  // namespace
 
@@ -267,11 +305,14 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   out.window_seconds = static_cast<double>(rows) / model.rate_hz;
   const auto seen_series = motion_series(*seen, cut->segments);
   const auto played_series = motion_series(*played, played_segments);
-  out.energy_distance = compared(seen_series, played_series, std::max<std::size_t>(2, rows), options.seed);
+  const auto over = [&](std::size_t length) {
+    return compared(seen_series, played_series, options.seed,
+                    [length](std::span<const Stretch> series) { return series_windows(series, length); });
+  };
+  out.energy_distance = over(std::max<std::size_t>(2, rows));
   out.windows = std::min(series_windows(seen_series, std::max<std::size_t>(2, rows)).size(), kMaxWindows);
-  const auto long_rows = static_cast<std::size_t>(std::lround(kLongWindowSeconds * model.rate_hz));
-  out.long_energy_distance = compared(seen_series, played_series, long_rows, options.seed);
-  out.seconds = seconds_fidelity(*seen, *played, kMaxWindows, options.seed);
+  out.long_energy_distance = over(long_rows(model.rate_hz));
+  out.spectra = spectra_apart(*seen, *played, options.seed);
   out.join_defect = join_defect(*seen, cut->segments, *played, made->joins);
   return out;
 }
@@ -297,6 +338,12 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
     before = now;
   }
   return static_cast<double>(longest) / model.rate_hz;
+}
+
+Bounded spectra_apart(const Motion& real, const Motion& synthesized, std::uint64_t seed) {
+  const std::size_t rows = long_rows(real.rate_hz);
+  return compared(signals_of(real, 1), signals_of(synthesized, 2), seed,
+                  [rows](std::span<const Stretch> series) { return spectral_windows(series, rows, rows); });
 }
 
 }  // namespace wisp::chain

@@ -15,7 +15,7 @@ constexpr double kMaxShareOfCeiling = 0.5;  // a distance above it is nearer to 
 std::array<std::pair<const char*, const Bounded*>, 3> measures_of(const ChainFidelity& fidelity) {
   return {{{"over half a second", &fidelity.energy_distance},
            {"over two seconds", &fidelity.long_energy_distance},
-           {"by spectra", &fidelity.seconds.spectra}}};
+           {"by spectra", &fidelity.spectra}}};
 }
 
 // Entries with a value, a label (empty: for programs only), a unit and a meaning.
@@ -49,45 +49,10 @@ void add_jumps(const std::string& id, const std::string& what, double share, dou
 }
 
 void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& meaning,
-                 const std::string& ceiling, Entries& entries) {
+                 Entries& entries) {
   entries.add(id + ".value", measure.value, label, "", meaning);
   entries.add(id + ".floor", measure.floor, "  floor", "", "two halves of the recorded falls");
-  entries.add(id + ".ceiling", measure.ceiling, "  ceiling", "", ceiling);
-}
-
-void add_extremes(const std::string& which, const FallExtremes& falls, const std::string& label, Entries& entries) {
-  const std::string id = "fidelity." + which + ".";
-  const char* percentiles[] = {"0.1", "1", "99", "99.9"};
-  const char* names[] = {"0_1", "1", "99", "99_9"};  // a dot in an id opens a section
-  for (std::size_t k = 0; k < 4; ++k) {
-    entries.add(id + "vertical_speed.percentile_" + names[k], falls.vertical_speed[k],
-                k < 2 ? label + "vertical speed, percentile " + percentiles[k] : "", "m/s");
-  }
-  for (std::size_t k = 0; k < 2; ++k) {
-    entries.add(id + "acceleration.percentile_" + names[2 + k], falls.acceleration[k],
-                label + "acceleration, percentile " + percentiles[2 + k], "m/s²");
-  }
-  const char* lags[] = {"0_5", "1", "2"};
-  for (std::size_t k = 0; k < 3; ++k) {
-    entries.add(id + "mean_squared_displacement.seconds_" + lags[k], falls.spread[k],
-                k == 2 ? label + "mean squared displacement in 2 s" : "", "m²");
-  }
-}
-
-// What half a second does not show.
-void add_seconds(const ChainFidelity& fidelity, Entries& entries) {
-  const std::string shuffled = "recorded rows in random order";
-  add_bounded("fidelity.two_seconds", fidelity.long_energy_distance, "energy distance over 2 s",
-              "of windows of two seconds", shuffled, entries);
-  add_bounded("fidelity.spectra", fidelity.seconds.spectra, "energy distance of spectra",
-              "of log powers over two seconds, but for what is below 0.3 mm and 0.2°", shuffled, entries);
-  add_bounded("fidelity.tails", fidelity.seconds.tails, "tails off by",
-              "share of the worst percentile of vertical speed (0.1, 1) and acceleration (99, 99.9)",
-              "a normal distribution of the same mean and deviation", entries);
-  add_bounded("fidelity.spread", fidelity.seconds.spread, "spread in 2 s off by",
-              "share of the recorded mean squared displacement over ground", "recorded steps in random order", entries);
-  add_extremes("real", fidelity.seconds.real, "recorded ", entries);
-  add_extremes("synthesized", fidelity.seconds.synthesized, "synthesized ", entries);
+  entries.add(id + ".ceiling", measure.ceiling, "  ceiling", "", "recorded rows in random order");
 }
 
 ReportList row_of(const std::vector<double>& values, std::size_t row, std::size_t columns) {
@@ -132,13 +97,14 @@ ReportSection segments_section(const ChainSummary& summary) {
 ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientation) {
   ReportSection section{"Fidelity: synthesized falls against recorded ones"};
   Entries entries(section);
-  const Bounded& energy = fidelity.energy_distance;
-  entries.add("fidelity.energy_distance.value", energy.value, "energy distance", "", "0: one distribution, to 1");
-  entries.add("fidelity.energy_distance.floor", energy.floor, "  floor", "", "two halves of the recorded falls");
-  entries.add("fidelity.energy_distance.ceiling", energy.ceiling, "  ceiling", "", "recorded rows in random order");
+  add_bounded("fidelity.energy_distance", fidelity.energy_distance, "energy distance", "0: one distribution, to 1",
+              entries);
   section.entries.push_back({"fidelity.windows", fidelity.windows, "windows", "", {}, "a side"});
   entries.add("fidelity.window_seconds", fidelity.window_seconds, "length of a window", "s");
-  add_seconds(fidelity, entries);
+  add_bounded("fidelity.two_seconds", fidelity.long_energy_distance, "energy distance over 2 s",
+              "of windows of two seconds", entries);
+  add_bounded("fidelity.spectra", fidelity.spectra, "energy distance of spectra",
+              "of log powers over two seconds, but for what is below 0.3 mm and 0.2°", entries);
   add_falls("real", fidelity.real, "recorded ", has_orientation, entries);
   add_falls("synthesized", fidelity.synthesized, "synthesized ", has_orientation, entries);
   const JoinDefect& defect = fidelity.join_defect;

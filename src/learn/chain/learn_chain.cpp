@@ -93,10 +93,12 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
 }
 
 // The response to gusts, from a windy recording and its calm twin.
-Result<void> take_gusts(std::span<const Recording> paired, Fit& fit) {
+Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, Fit& fit) {
   if (paired.empty()) return {};
-  const Recording &windy = paired[0], &calm = paired[1];
-  auto gusts = learn_gusts(windy, calm);
+  const auto pairs = gust_pairs(paired[0], paired[1]);
+  if (!pairs) return pairs.error();
+  const std::size_t told = pairs->gusts() * 3 / 5;  // the others judge
+  auto gusts = learn_gusts(*pairs, told);
   if (!gusts) return gusts.error();
   std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
   fit.model.inputs = std::move(gusts->inputs);
@@ -105,14 +107,15 @@ Result<void> take_gusts(std::span<const Recording> paired, Fit& fit) {
   for (const Recording& one : paired) {
     training.sources.push_back(std::filesystem::path(one.source).filename().string());
   }
-  const GustFigures& figures = gusts->figures;
   if (const auto sound = check(fit.model); !sound) {
-    return Error{windy.source + ": " + sound.error().message + " from more gusts than its " +
-                 std::to_string(figures.gusts_learned)};
+    return Error{pairs->source + ": " + sound.error().message + " from more gusts than its " + std::to_string(told)};
   }
-  fit.report.sections.push_back(gusts_section(figures));
-  training.figures.push_back({"gust_fit_percent", figures.fit_percent});
-  training.figures.push_back({"gust_direction_degrees", figures.direction_degrees});
+  const auto play = play_gusts(fit.model, *pairs, told, seed);
+  if (!play) return play.error();
+  fit.report.sections.push_back(gusts_section(play->figures));
+  fit.report.sections.back().entries.push_back({"gusts.learned", told, "gusts learned from", ""});
+  training.figures.push_back({"gust_fit_percent", play->figures.fit_percent});
+  training.figures.push_back({"gust_direction_degrees", play->figures.direction.median});
   return {};
 }
 
@@ -140,7 +143,7 @@ Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe
   if (!go_on(progress, "judging falls", 0)) return Error{std::string(kStopped)};
   chain::judge(*found, sized, fit);
   if (!go_on(progress, "learning gusts", 0)) return Error{std::string(kStopped)};
-  if (auto ok = chain::take_gusts(data->paired, fit); !ok) return ok.error();
+  if (auto ok = chain::take_gusts(data->paired, recipe.seed, fit); !ok) return ok.error();
   Usable& usable = fit.model.training.usable;
   if (const auto why = refused_by_capture(data->falls)) usable = {false, *why};
   fit.report.verdict = {usable.verdict, usable.reason};

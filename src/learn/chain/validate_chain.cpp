@@ -158,7 +158,9 @@ Result<Report> validate_falls(const Model& model, std::span<const Recording> fal
 }
 
 Result<Report> validate_gusts(const Model& model, const Recording& windy, const Recording& calm, std::uint64_t seed) {
-  const auto play = play_gusts(model, windy, calm, {.seed = seed});
+  const auto pairs = gust_pairs(windy, calm);
+  if (!pairs) return pairs.error();
+  const auto play = play_gusts(model, *pairs, 0, seed);
   if (!play) return play.error();
   Report report;
   report.sections = {counts_of(windy.rows()), gusts_section(play->figures)};

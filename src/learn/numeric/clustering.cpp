@@ -10,6 +10,12 @@
 namespace wisp {
 namespace {
 
+constexpr int kStarts = 10;      // the best of them is taken
+constexpr int kMaxRounds = 300;  // of each
+// A round that moves the centroids by less than this share of the variance is the last of a start; the best of them is
+// then run on until no row changes sides.
+constexpr double kTolerance = 1e-4;
+
 struct Rows {
   const double* values;
   std::size_t count;
@@ -131,8 +137,8 @@ double move_centroids(const Rows& rows, KMeans& found) {
 }
 
 // From its centroids on, until a round moves them by no more than `least`.
-void alternate(const Rows& rows, int most_rounds, double least, KMeans& found) {
-  while (found.rounds < most_rounds) {
+void alternate(const Rows& rows, double least, KMeans& found) {
+  while (found.rounds < kMaxRounds) {
     ++found.rounds;
     assign(rows, found);
     if (move_centroids(rows, found) <= least) break;
@@ -145,7 +151,7 @@ KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance
   KMeans found{.columns = rows.columns, .centroids = start_centroids(rows, options.clusters, random)};
   found.cluster.resize(rows.count);
   found.sizes.resize(static_cast<std::size_t>(options.clusters));
-  alternate(rows, options.max_iterations, options.tolerance * variance, found);
+  alternate(rows, kTolerance * variance, found);
   return found;
 }
 
@@ -174,9 +180,6 @@ Result<void> check_options(std::size_t rows, const KMeansOptions& options) {
     return Error{"there are " + std::to_string(rows) + " rows for " + std::to_string(options.clusters) +
                  " clusters, expected at least as many rows: ask for fewer clusters"};
   }
-  if (options.restarts < 1 || options.max_iterations < 1 || !(options.tolerance >= 0)) {
-    return Error{"restarts, rounds or tolerance of k-means are out of range"};
-  }
   return {};
 }
 
@@ -187,13 +190,13 @@ Result<KMeans> k_means(std::span<const double> values, std::size_t columns, cons
   if (auto ok = check_options(rows.count, options); !ok) return ok.error();
   const double variance = mean_variance(rows);
   std::vector<KMeans> found;
-  for (int start = 0; start < options.restarts; ++start) {
+  for (int start = 0; start < kStarts; ++start) {
     const std::uint64_t seed = options.seed * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(start);
     found.push_back(one_start(rows, options, variance, seed));
   }
   const auto less = [](const KMeans& a, const KMeans& b) { return a.inertia < b.inertia; };
   KMeans best = std::move(*std::min_element(found.begin(), found.end(), less));
-  alternate(rows, options.max_iterations, 0, best);  // until no row changes sides: only the best start is worth it
+  alternate(rows, 0, best);  // until no row changes sides: only the best start is worth it
   return best;
 }
 

@@ -14,11 +14,7 @@
 namespace wisp {
 
 struct KMeansOptions {
-  int clusters = 6;          ///< 1 … rows
-  int restarts = 10;         ///< ≥ 1; the best of them is taken
-  int max_iterations = 300;  ///< ≥ 1, of each
-  double tolerance = 1e-4;   ///< ≥ 0: a round that moves the centroids by less than this share of the variance is the
-                             ///< last of a start; the best of them is then run on until no row changes sides
+  int clusters = 6;  ///< 1 … rows
   std::uint64_t seed = 1;
 };
 
@@ -32,7 +28,7 @@ struct KMeans {
 };
 
 /// Rows lie one after the other. A cluster that loses its last row is given the row farthest from its centroid.
-/// Errors: no rows, more clusters than rows, an option out of range.
+/// Errors: no rows, more clusters than rows, a number of clusters that is out of range.
 ///
 /// Precondition: rows.size() is a multiple of columns, which is not 0, and all are finite.
 Result<KMeans> k_means(std::span<const double> rows, std::size_t columns, const KMeansOptions& options);

@@ -60,17 +60,10 @@ TEST(KMeans, FindsClustersThatAreThere) {
   EXPECT_GT(silhouette(rows, 3, *found), 0.7);
 }
 
-TEST(KMeans, EveryRowIsMeasuredToItsOwnCentroid) {
-  // Clouds that run into each other, so that rows change sides for long; run to the very end.
-  const auto rows = corners(200, 1.6);
-  const auto found = k_means(rows, 3, {.clusters = 6, .restarts = 1, .tolerance = 0});
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(plain_inertia(rows, found->centroids), found->inertia, 1e-9 * found->inertia);
-}
-
 TEST(KMeans, TheBestStartIsRunUntilNothingChangesSides) {
+  // Clouds that run into each other, so that rows change sides for long.
   const auto rows = corners(200, 1.6);
-  const auto found = k_means(rows, 3, {.clusters = 6, .restarts = 3, .tolerance = 0.1});
+  const auto found = k_means(rows, 3, {.clusters = 6});
   ASSERT_TRUE(found);
   EXPECT_NEAR(plain_inertia(rows, found->centroids), found->inertia, 1e-9 * found->inertia);
 }
@@ -90,7 +83,6 @@ TEST(KMeans, MoreClustersThanRowsIsAnError) {
   EXPECT_THAT(found.error().message, testing::HasSubstr("2 rows for 3 clusters"));
   EXPECT_FALSE(k_means({}, 3, {.clusters = 1}));
   EXPECT_FALSE(k_means(rows, 3, {.clusters = 0}));
-  EXPECT_FALSE(k_means(rows, 3, {.clusters = 1, .restarts = 0}));
 }
 
 }  // namespace

@@ -52,19 +52,19 @@ void add_way(const std::vector<Triple>& way, const std::vector<bool>& blows, boo
   if (drawing) add_break(out);
 }
 
-std::vector<Triple> mean_of(const std::vector<std::vector<Triple>>& ways) {
+using Places = std::vector<std::vector<Triple>>;  // of every clone, a row each
+
+std::vector<Triple> mean_of(const Places& ways) {
   std::vector<Triple> mean(ways.front().size());
   for (const auto& way : ways) {
     for (std::size_t row = 0; row < mean.size(); ++row) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        mean[row][axis] += (way[row][axis] - way.front()[axis]) / static_cast<double>(ways.size());
-      }
+      for (std::size_t axis = 0; axis < 3; ++axis) mean[row][axis] += way[row][axis] / static_cast<double>(ways.size());
     }
   }
   return mean;
 }
 
-void add_side(const std::string& id, const std::vector<std::vector<Triple>>& ways, const std::vector<Triple>& calm,
+void add_side(const std::string& id, const Places& ways, const std::vector<Triple>& calm,
               const std::vector<bool>& blows, ReportSection& section) {
   const auto series = [&](const char* what, const char* label) {
     return ReportSeries{id + "." + what, label, "x, cm", "y, cm", {}, {}};
@@ -116,7 +116,7 @@ BodyMoment moment_of(const MotionPiece& piece, std::size_t row) {
 }
 
 // Where every clone is, a row of its way.
-void take_places(const Bank& bank, std::vector<std::vector<Triple>>& ways) {
+void take_places(const Bank& bank, Places& ways) {
   const auto count = static_cast<std::size_t>(bank.output_count());
   std::vector<float> outputs(ways.size() * count);
   bank.outputs(outputs);
@@ -126,14 +126,14 @@ void take_places(const Bank& bank, std::vector<std::vector<Triple>>& ways) {
 }
 
 struct Ways {
-  std::vector<std::vector<Triple>> windy;
-  std::vector<std::vector<Triple>> calm;
+  Places windy;
+  Places calm;
   double left = 0;  // m/s, the most that a clone's two lives still differ by later
 };
 
 // A gust on the clones of one fall, from its onset to the span's end, and a while without wind.
 Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSpan& span) {
-  Ways ways{std::vector<std::vector<Triple>>(pairs.clones), std::vector<std::vector<Triple>>(pairs.clones)};
+  Ways ways{Places(pairs.clones), Places(pairs.clones)};
   const std::size_t first = gust * pairs.clones;
   for (std::size_t k = 0; k < pairs.clones; ++k) {
     const BodyMoment body = moment_of(pairs.calm.pieces[first + k], span.onset);
@@ -166,20 +166,12 @@ Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSp
   return ways;
 }
 
-Triple mean_at(const std::vector<std::vector<Triple>>& ways, std::size_t row) {
-  Triple mean{};
-  for (const auto& way : ways) {
-    for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += way[row][axis] / static_cast<double>(ways.size());
-  }
-  return mean;
-}
-
 // What the wind did to the mean of a play, since the onset.
 std::vector<Triple> displacements(const Ways& ways) {
-  std::vector<Triple> out(ways.windy.front().size());
+  std::vector<Triple> out = mean_of(ways.windy);
+  const std::vector<Triple> calm = mean_of(ways.calm);
   for (std::size_t row = 0; row < out.size(); ++row) {
-    const Triple windy = mean_at(ways.windy, row), calm = mean_at(ways.calm, row);
-    for (std::size_t axis = 0; axis < 3; ++axis) out[row][axis] = windy[axis] - calm[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) out[row][axis] -= calm[row][axis];
   }
   return out;
 }
@@ -192,6 +184,25 @@ struct Angles {
 
   GustDirection direction() const { return {median(all), mean(all), mean(clear)}; }
 };
+
+// Sums of squares that a fit is made of.
+struct FitSums {
+  double error = 0, size = 0;
+
+  void add(const Triple& found, const Triple& expected) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      error += std::pow(found[axis] - expected[axis], 2);
+      size += expected[axis] * expected[axis];
+    }
+  }
+  double fit_percent() const { return 100 * (1 - std::sqrt(error / size)); }
+};
+
+// The angle over ground between two displacements.
+double degrees_between(const Triple& a, const Triple& b) {
+  const double across = a[0] * b[1] - a[1] * b[0], along = a[0] * b[0] + a[1] * b[1];
+  return std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0);
+}
 
 // Everything that is summed over gusts.
 struct Tally {
@@ -223,7 +234,7 @@ void judge_halves(const GustPairs& pairs, std::size_t gust, const GustSpan& span
 
 GustScene scene_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, Ways ways) {
   GustScene scene{.gust = gust};
-  std::vector<std::vector<Triple>> calm;
+  Places calm;
   for (std::size_t k = gust * pairs.clones; k < (gust + 1) * pairs.clones; ++k) {
     const auto part = [&](const MotionPiece& piece) {
       const auto begin = piece.position.begin();
@@ -233,24 +244,25 @@ GustScene scene_of(const GustPairs& pairs, std::size_t gust, const GustSpan& spa
     calm.push_back(part(pairs.calm.pieces[k]));
   }
   for (std::size_t row = 0; row < span.rows(); ++row) {
-    scene.recorded_calm.push_back(mean_at(calm, row));
-    scene.played_calm.push_back(mean_at(ways.calm, row));
     const Triple wind = pairs.wind_at(gust * pairs.clones, span.onset + row);
     const Triple& most = scene.strongest;
     const double speed = std::hypot(wind[0], wind[1], wind[2]);
     scene.blows.push_back(speed > 1e-3);
     if (speed > std::hypot(most[0], most[1], most[2])) scene.strongest = wind;
   }
+  scene.recorded_calm = mean_of(calm);
+  scene.played_calm = mean_of(ways.calm);
   scene.played = std::move(ways.windy);
   return scene;
 }
 
 // At even shares of all gusts by how far they carry.
-std::vector<GustScene> chosen(std::vector<std::pair<double, GustScene>>& scenes, std::size_t count) {
+std::vector<GustScene> chosen(std::vector<std::pair<double, GustScene>>& scenes) {
+  constexpr std::size_t kScenes = 2;
   std::stable_sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<GustScene> out;
-  for (std::size_t k = 0; k < std::min(count, scenes.size()); ++k) {
-    out.push_back(std::move(scenes[(2 * k + 1) * scenes.size() / (2 * count)].second));
+  for (std::size_t k = 0; k < std::min(kScenes, scenes.size()); ++k) {
+    out.push_back(std::move(scenes[(2 * k + 1) * scenes.size() / (2 * kScenes)].second));
   }
   return out;
 }
@@ -268,33 +280,21 @@ GustPlayFigures figures_of(const Tally& tally, GustPlayFigures figures) {
   return figures;
 }
 
-Result<void> check(const Model& model, const GustPairs& pairs, const std::string& source) {
+Result<void> check(const Model& model, const GustPairs& pairs) {
   const auto* chain = std::get_if<ChainModel>(&model.dynamics);
   if (!chain || !chain->gust) {
-    return Error{source +
+    return Error{pairs.source +
                  ": has gusts, but the model has no response to them; learn it with a windy recording and its "
                  "calm twin"};
   }
   if (std::abs(pairs.windy.rate_hz - model.rate_hz) > 1e-6 * model.rate_hz) {
-    return Error{source + ": has " + std::to_string(pairs.windy.rate_hz) + " rows a second, the model " +
+    return Error{pairs.source + ": has " + std::to_string(pairs.windy.rate_hz) + " rows a second, the model " +
                  std::to_string(model.rate_hz) + ": resample the recording"};
   }
   return {};
 }
 
 }  // namespace
-
-ReportSection gusts_section(const GustFigures& figures) {
-  ReportSection section{"Gusts: the response against those held out"};
-  section.entries = {
-      {"gusts.learned", figures.gusts_learned, "gusts learned from", ""},
-      {"gusts.judged", figures.gusts_judged, "gusts held out", ""},
-      {"gusts.fit_percent", figures.fit_percent, "displacement fits by", "%", {}, "mean over clones"},
-      {"gusts.velocity_fit_percent", figures.velocity_fit_percent, "velocity fits by", "%"},
-      {"gusts.direction_degrees", figures.direction_degrees, "direction off by, median", "degrees"},
-      {"gusts.direction_degrees_mean", figures.direction_degrees_mean, "direction off by, mean", "degrees"}};
-  return section;
-}
 
 ReportSection gusts_section(const GustPlayFigures& figures) {
   ReportSection section{"Gusts, played from where each calm fall is at the onset"};
@@ -331,36 +331,33 @@ ReportSection scene_section(const GustScene& scene, std::size_t number) {
   return section;
 }
 
-Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Recording& calm,
-                            const GustPlayOptions& options) {
-  const auto pairs = gust_pairs(windy, calm);
-  if (!pairs) return pairs.error();
-  if (auto ok = check(model, *pairs, windy.source); !ok) return ok.error();
-  auto blown = full_bank(model, pairs->clones, options.seed), still = full_bank(model, pairs->clones, options.seed);
+Result<GustPlay> play_gusts(const Model& model, const GustPairs& pairs, std::size_t first, std::uint64_t seed) {
+  if (auto ok = check(model, pairs); !ok) return ok.error();
+  auto blown = full_bank(model, pairs.clones, seed), still = full_bank(model, pairs.clones, seed);
   if (!blown) return blown.error();
   if (!still) return still.error();
   Twins twins{std::move(*blown), std::move(*still)};
   Tally tally;
-  GustPlayFigures figures{.clones = pairs->clones};
+  GustPlayFigures figures{.clones = pairs.clones};
   std::vector<std::pair<double, GustScene>> scenes;
-  for (std::size_t gust = 0; gust < pairs->gusts(); ++gust) {
-    const GustSpan span = span_of(*pairs, gust);
+  for (std::size_t gust = first; gust < pairs.gusts(); ++gust) {
+    const GustSpan span = span_of(pairs, gust);
     if (span.rows() < 3) continue;
-    const GustEnsemble recorded = ensemble_of(*pairs, gust, span);
-    Ways ways = played(twins, *pairs, gust, span);
+    const GustEnsemble recorded = ensemble_of(pairs, gust, span);
+    Ways ways = played(twins, pairs, gust, span);
     const auto place = displacements(ways);
     const double carried = length_over_ground(recorded.displacement.back());
     const bool clear = carried > kClearErrors * recorded.displacement_error;
-    judge(recorded, place, pairs->windy.rate_hz, clear, tally);
-    if (pairs->clones >= 4) judge_halves(*pairs, gust, span, clear, tally);
+    judge(recorded, place, pairs.windy.rate_hz, clear, tally);
+    if (pairs.clones >= 4) judge_halves(pairs, gust, span, clear, tally);
     ++figures.gusts;
     figures.left_after = std::max(figures.left_after, ways.left);
     figures.largest_displacement = std::max(figures.largest_displacement, length_over_ground(place.back()));
     figures.largest_recorded_displacement = std::max(figures.largest_recorded_displacement, carried);
-    if (options.scenes > 0) scenes.emplace_back(carried, scene_of(*pairs, gust, span, std::move(ways)));
+    scenes.emplace_back(carried, scene_of(pairs, gust, span, std::move(ways)));
   }
-  if (figures.gusts == 0) return Error{windy.source + ": no wind blows in it, expected gusts"};
-  return GustPlay{figures_of(tally, figures), chosen(scenes, options.scenes)};
+  if (figures.gusts == 0) return Error{pairs.source + ": no wind blows in the gusts that are to be judged"};
+  return GustPlay{figures_of(tally, figures), chosen(scenes)};
 }
 
 }  // namespace wisp::chain

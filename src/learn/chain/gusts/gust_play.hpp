@@ -8,20 +8,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "learn/chain/gusts/gust_play.hpp"
 #include "learn/chain/gusts/gust_response.hpp"
 #include "learn/chain/motion/motion.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
-#include "wisp/record/recording.hpp"
 
 namespace wisp::chain {
-
-struct GustPlayOptions {
-  std::size_t scenes = 2;  ///< gusts kept for a figure: at even shares of them all by how far they carry
-  std::uint64_t seed = 1;
-};
 
 /// Angles over ground between mean displacements at the end, degrees.
 struct GustDirection {
@@ -60,18 +53,13 @@ struct GustScene {
 
 struct GustPlay {
   GustPlayFigures figures;
-  std::vector<GustScene> scenes;
+  std::vector<GustScene> scenes;  ///< for a figure: at even shares of all gusts by how far they carry
 };
 
-/// Plays every gust of a windy recording on the model, clone by clone, with and without its wind.
-/// Errors: the model is not a chain with a response to gusts; as learn_gusts(); rates that differ.
-Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Recording& calm,
-                            const GustPlayOptions& options = {});
+/// Plays the gusts of a windy recording from `first` on, clone by clone, with and without their wind.
+/// Errors: the model is not a chain with a response to gusts; rates that differ; none of them blows.
+Result<GustPlay> play_gusts(const Model& model, const GustPairs& pairs, std::size_t first, std::uint64_t seed);
 
-/// Of gusts that were held out.
-ReportSection gusts_section(const GustFigures& figures);
-
-/// Of gusts that the model played.
 ReportSection gusts_section(const GustPlayFigures& figures);
 
 /// Tracks of a scene from above, in centimetres from each clone's own onset, where the wind blows and where it does

@@ -6,8 +6,6 @@
 #include <span>
 #include <string>
 
-#include "base/statistics.hpp"
-
 namespace wisp::chain {
 namespace {
 
@@ -56,8 +54,9 @@ Result<std::array<const std::vector<double>*, 3>> wind_channels(const Recording&
 
 constexpr int kRefinements = 24;
 constexpr double kNudge = 1e-5;
-// What the air carries moves with a steady wind: only a response that follows its gusts this much better does not.
-constexpr double kMuchBetter = 0.8;  // of the squared error
+// A body that the air carries ends up moving with a steady wind. A response without that constraint is taken only where
+// its squared error over the gusts is below this share of the constrained one's.
+constexpr double kMuchBetter = 0.8;
 
 using Axis = GustResponse::Axis;
 using Ensemble = GustEnsemble;
@@ -172,27 +171,6 @@ GustResponse fitted(std::span<const Ensemble> gusts) {
   return free.error < kMuchBetter * carried.error ? free.response : carried.response;
 }
 
-struct Judgement {
-  FitSums velocity, displacement;
-  std::vector<double> angles;
-};
-
-void judge(const Ensemble& gust, const GustResponse& response, double rate_hz, Judgement& out, GustFigures& figures) {
-  const auto change = simulated(gust, response);
-  Triple place{};
-  for (std::size_t t = 0; t < gust.change.size(); ++t) {
-    const Triple& now = change[t];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // As the bank does it: a step's change of velocity moves the step after it.
-      if (t > 0) place[axis] += now[axis] / rate_hz;
-      figures.largest_change = std::max(figures.largest_change, std::abs(now[axis]));
-    }
-    out.velocity.add(now, gust.change[t]);
-    out.displacement.add(place, gust.displacement[t]);
-  }
-  out.angles.push_back(degrees_between(gust.displacement.back(), place));
-}
-
 std::vector<Input> inputs_of(const std::array<const std::vector<double>*, 3>& wind) {
   double most = 0;
   for (const auto* channel : wind) {
@@ -227,7 +205,7 @@ Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm) {
                  std::to_string(still->pieces.size()) + " episodes, expected as many of each, " +
                  std::to_string(clones) + " for each of at least 4 gusts"};
   }
-  return GustPairs{std::move(*blown), std::move(*still), *wind, clones};
+  return GustPairs{std::move(*blown), std::move(*still), *wind, clones, windy.source};
 }
 
 GustSpan span_of(const GustPairs& pairs, std::size_t gust) {
@@ -277,47 +255,14 @@ GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpa
   return mean;
 }
 
-void FitSums::add(const Triple& found, const Triple& expected) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    error += std::pow(found[axis] - expected[axis], 2);
-    size += expected[axis] * expected[axis];
-  }
-}
-
-double FitSums::fit_percent() const { return 100 * (1 - std::sqrt(error / size)); }
-
-double degrees_between(const Triple& a, const Triple& b) {
-  const double across = a[0] * b[1] - a[1] * b[0], along = a[0] * b[0] + a[1] * b[1];
-  return std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0);
-}
-
-Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, double holdout) {
-  const auto pairs = gust_pairs(windy, calm);
-  if (!pairs) return pairs.error();
+Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts) {
   std::vector<Ensemble> ensembles;
-  for (std::size_t k = 0; k < pairs->gusts(); ++k) {
-    const GustSpan span = span_of(*pairs, k);
-    if (span.rows() > 2) ensembles.push_back(ensemble_of(*pairs, k, span));
+  for (std::size_t k = 0; k < gusts; ++k) {
+    const GustSpan span = span_of(pairs, k);
+    if (span.rows() > 2) ensembles.push_back(ensemble_of(pairs, k, span));
   }
-  if (ensembles.size() < 4) return Error{windy.source + ": has fewer than 4 gusts of wind, expected more"};
-  const auto learned = std::clamp<std::size_t>(
-      static_cast<std::size_t>(static_cast<double>(ensembles.size()) * (1 - holdout)), 2, ensembles.size());
-  const auto told = std::span<const Ensemble>(ensembles).first(learned);
-  auto judged = std::span<const Ensemble>(ensembles).subspan(learned);
-  if (judged.empty()) judged = told;
-
-  GustFit fit;
-  fit.response = fitted(told);
-  fit.inputs = inputs_of(pairs->wind);
-  fit.figures.gusts_learned = told.size();
-  fit.figures.gusts_judged = judged.size();
-  Judgement found;
-  for (const Ensemble& gust : judged) judge(gust, fit.response, pairs->windy.rate_hz, found, fit.figures);
-  fit.figures.fit_percent = found.displacement.fit_percent();
-  fit.figures.velocity_fit_percent = found.velocity.fit_percent();
-  fit.figures.direction_degrees = median(found.angles);
-  fit.figures.direction_degrees_mean = mean(found.angles);
-  return fit;
+  if (ensembles.size() < 2) return Error{pairs.source + ": has fewer than 2 gusts of wind to learn from, expected more"};
+  return GustFit{fitted(ensembles), inputs_of(pairs.wind)};
 }
 
 }  // namespace wisp::chain

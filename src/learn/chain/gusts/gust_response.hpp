@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "learn/chain/motion/motion.hpp"
@@ -23,12 +24,13 @@ struct GustPairs {
   Motion calm;
   std::array<const std::vector<double>*, 3> wind{};  ///< samples of the windy recording, which must outlive this
   std::size_t clones = 1;
+  std::string source;  ///< the windy recording's
 
   std::size_t gusts() const { return windy.pieces.size() / clones; }
   Triple wind_at(std::size_t piece, std::size_t row) const;
 };
 
-/// `clones` comes from the attribute of that name, 1 where it is missing.
+/// Both share the value of `pair`; `clones` says how many episodes in a row belong to one gust (1 where it is missing).
 /// Errors: as motion_of(); no wind channels; episodes that do not match; fewer than 4 gusts.
 Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm);
 
@@ -53,37 +55,12 @@ struct GustEnsemble {
 GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, std::size_t first = 0,
                          std::size_t stride = 1);
 
-/// Sums of squares that fits are made of.
-struct FitSums {
-  double error = 0;
-  double size = 0;
-  void add(const Triple& found, const Triple& expected);
-  double fit_percent() const;
-};
-
-/// The angle over ground between two displacements, degrees.
-double degrees_between(const Triple& a, const Triple& b);
-
-/// How the learned response follows the gusts that were held out.
-struct GustFigures {
-  std::size_t gusts_learned = 0;
-  std::size_t gusts_judged = 0;
-  double fit_percent = 0;             ///< of the mean displacement over the gust and after it
-  double velocity_fit_percent = 0;    ///< of the mean change of velocity
-  double direction_degrees = 0;       ///< median angle over ground between displacements at the end
-  double direction_degrees_mean = 0;  ///< its mean: small displacements have any direction
-  double largest_change = 0;          ///< metres a second, of the simulated response
-};
-
 struct GustFit {
   GustResponse response;
   std::vector<Input> inputs;  ///< wind.x, wind.y, wind.z with the range that was seen
-  GustFigures figures;
 };
 
-/// Both recordings share the value of `pair`; `clones` says how many episodes in a row belong to one gust (1 where it
-/// is missing). The calm one has the same episodes. Errors: as motion_of(); no wind channels; episodes that do not
-/// match; fewer than 4 gusts. `holdout` is the share of the gusts, the last ones, kept for judging, 0 … 0.9.
-Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, double holdout = 0.4);
+/// Learns from the first so many gusts. Errors: fewer than 2 of them blow.
+Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts);
 
 }  // namespace wisp::chain
