@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -120,5 +121,12 @@ std::string first_steps();
 
 /// Help about the command or the group of commands that these words name, else about the program.
 std::string help(std::string words);
+
+/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known
+/// and something else is wrong.
+std::string wrong_words(std::span<const std::string> words);
+
+/// Errors: an output or one of its further files is also an input, or its extension is of another kind of file.
+Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

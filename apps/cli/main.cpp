@@ -10,11 +10,9 @@
 #include <memory>
 
 #include "command.hpp"
-#include "outputs.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/learn/recipe_fields.hpp"
-#include "wrong_words.hpp"
 
 namespace wisp::cli {
 namespace {

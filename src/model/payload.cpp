@@ -5,9 +5,6 @@
 #include <cstring>
 #include <string>
 
-#include "model/chain_payload.hpp"
-#include "wisp_generated.h"
-
 namespace wisp {
 namespace {
 

@@ -84,7 +84,7 @@ std::optional<double> number_of(const Cell& cell, char separator) {
 }
 
 PlainNumber plain_number(std::string_view text) {
-  // Powers of ten that a double holds exactly; so it does whole numbers up to 2^53.
+  // A double holds these powers of ten exactly, and whole numbers up to 2^53.
   static constexpr double kTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
   constexpr std::uint64_t kMaxExact = std::uint64_t{1} << 53;

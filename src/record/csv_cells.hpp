@@ -65,8 +65,8 @@ bool is_missing(const Cell& cell);
 /// where it is not one. Too small for a double is zero, too large is infinite.
 std::optional<double> number_of(const Cell& cell, char separator);
 
-/// Decimal digits with or without a sign, a point and an exponent, as far as few digits allow to say the nearest double
-/// in one multiplication or division.
+/// A number of decimal digits, with or without a sign, a point and an exponent, that has so few digits that one exact
+/// multiplication or division gives the nearest double.
 struct PlainNumber {
   double value = 0;
   std::size_t length = 0;  ///< 0: there is none, or it has too many digits

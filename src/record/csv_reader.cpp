@@ -101,8 +101,8 @@ Result<std::size_t> CsvReader::skip(std::size_t max_rows) {
   return count;
 }
 
-// A row of nothing but plain numbers, as nearly all are: their values and whether they have a point are taken at sight.
-// False where anything else is in it; nothing was taken then.
+// The fast path, which nearly all rows take: appends a row that holds nothing but plain numbers. Returns false, with
+// nothing appended, where the row holds anything else.
 bool CsvReader::State::take_plain_row(Recording& recording, double& seconds) {
   const std::string_view line = csv::trimmed(lines.text());
   const std::size_t count = columns.size();

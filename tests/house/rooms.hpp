@@ -35,7 +35,6 @@ inline const std::vector<Rooms>& rooms() {
         {"chain", 7},
         {"markov", 7},
         {"flame", 8},
-        {"leaf", 8},
         {"flicker", 8},
         {"", 9},
         // Folders that are to move to the rooms above.

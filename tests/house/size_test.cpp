@@ -19,17 +19,17 @@ using ::testing::IsEmpty;
 // Ceilings, to be lowered as the house gets smaller.
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
-constexpr int kPublicHeaders = 58;
-constexpr int kLinesTogether = 75'759;
-constexpr int kLinesOfLearn = 22'146;
-constexpr int kFlagsTogether = 87;
+constexpr int kPublicHeaders = 56;
+constexpr int kLinesTogether = 74'421;
+constexpr int kLinesOfLearn = 21'569;
+constexpr int kFlagsTogether = 85;
 constexpr std::size_t kFlagsOfACommand = 20;
 // Commands that have more flags than they should.
 const std::map<std::string, std::size_t> kTooManyFlags{{"wisp learn arx", 28},
-                                                       {"wisp learn chain", 26},
-                                                       {"wisp learn leaf", 26},
-                                                       {"wisp validate", 28},
-                                                       {"wisp report", 25}};
+                                                       {"wisp learn chain", 25},
+                                                       {"wisp learn leaf", 25},
+                                                       {"wisp validate", 27},
+                                                       {"wisp report", 24}};
 
 std::string manual() { return read_text(std::filesystem::path(WISP_SOURCE_DIR) / "docs/reference/cli.md"); }
 

@@ -70,14 +70,8 @@ std::vector<Flag> motion_flags() {
   return {
       {"position", Kind::kNames, "X,Y,Z", "", "columns of the position, where they are not called pos.x, pos.y, pos.z"},
       {"orientation", Kind::kNames, "A,B,C,D", "",
-       "columns of the quaternion, where they are not called q.w, q.x, q.y, q.z"},
+       "columns of the quaternion, w first, where they are not called q.w, q.x, q.y, q.z"},
       {"up", Kind::kChoice, "y|z", "z", "which axis is up", {"y", "z"}},
-      {"quaternion",
-       Kind::kChoice,
-       "wxyz|xyzw",
-       "wxyz",
-       "the order of the columns that --orientation names",
-       {"wxyz", "xyzw"}},
       {"units", Kind::kChoice, "m|cm|mm", "m", "of positions", {"m", "cm", "mm"}},
   };
 }
@@ -110,9 +104,6 @@ Result<Recording> as_motion(Recording recording, const Arguments& arguments) {
   if (auto ok = rename(arguments, "orientation", kOrientation, recording); !ok) return ok.error();
   const auto position = samples_of(recording, kPosition);
   const auto orientation = samples_of(recording, kOrientation);
-  if (orientation && arguments.has("orientation") && arguments.text("quaternion") == "xyzw") {
-    for (std::size_t k = 0; k < 3; ++k) std::swap(*(*orientation)[3 - k], *(*orientation)[2 - k]);
-  }
   if (position && arguments.has("units")) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (double& x : *(*position)[axis]) x *= metres_in(arguments.text("units"));

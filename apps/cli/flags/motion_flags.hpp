@@ -10,7 +10,7 @@
 
 namespace wisp::cli {
 
-/// --up, --quaternion, --units, --position and --orientation.
+/// --up, --units, --position and --orientation.
 std::vector<Flag> motion_flags();
 
 /// The columns that --position and --orientation name; none where they are not given.

@@ -6,7 +6,8 @@
 namespace wisp {
 namespace {
 
-// What clips and sounds are kept in. FFmpeg knows more, among it playlists and scripts that make it open other files.
+// The container formats that are opened. FFmpeg knows more, among them playlists and scripts that make it open other
+// files.
 constexpr const char* kContainers =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,mpegvideo,flv,asf,ogg,nut,ivf,gif,apng,yuv4mpegpipe,h264,"
     "hevc,wav,w64,aiff,caf,flac,mp3,aac,au";

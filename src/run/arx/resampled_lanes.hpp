@@ -492,8 +492,8 @@ class ResampledLanes {
     return arrive(life, lane, heard, rows.place[which], word);
   }
 
-  // The place that a jump to one of the tree leads to: its mirror image where the past was turned about. In the round
-  // its direction is turned about, and what is played across is mirrored by chance.
+  // The place to play from after a jump to a place of the search tree: its mirror image where the past was mirrored
+  // before the search. In the round the direction is mirrored instead, and the components across by chance.
   std::uint32_t arrive(const Life& life, int lane, const Heard& heard, std::uint32_t place, std::uint32_t word) {
     if (program_.across == 0) return place ^ (heard.right[lane] ? 1 : 0);
     const Real side(place % 2 != 0 ? -1.0f : 1.0f);

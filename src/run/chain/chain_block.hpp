@@ -161,7 +161,8 @@ class ChainBlock {
  private:
   static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
 
-  // The stored rows that the lanes are at; a saved bank that was made to harm may say that one rests beyond the last.
+  // Finds the stored rows that the lanes are at. Rows are clamped: a damaged or hostile saved bank may name one beyond
+  // the last.
   void find_rows(const Reals<N>& at, ChainCourse<N>& course) const {
     typename N::Word own[kLanes];
     store(whole(smaller(at, number(segments_.steps))), own);

@@ -40,7 +40,7 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   const groups = new Map<string, Curve[]>();
   for (const curve of curves) {
     const key = plotKey(curve);
-    // Twice from two reports: once is enough.
+    // Two reports may hold the same curve: it is drawn once.
     if (key === null || groups.get(key)?.some(({ id }) => id === curve.id) === true) continue;
     groups.set(key, [...(groups.get(key) ?? []), curve]);
   }
