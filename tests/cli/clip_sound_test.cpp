@@ -87,10 +87,8 @@ class ClipSound : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   void write_clip(const std::string& name, const Microphone& microphone) {
-    auto film = VideoWriter::create(at(name), {.width = kWidth,
-                                               .height = kHeight,
-                                               .rate_hz = kRate,
-                                               .sound_rate_hz = microphone.rate_hz});
+    auto film = VideoWriter::create(
+        at(name), {.width = kWidth, .height = kHeight, .rate_hz = kRate, .sound_rate_hz = microphone.rate_hz});
     ASSERT_TRUE(film) << film.error().message;
     for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k)));
     if (microphone.rate_hz > 0) {

@@ -179,15 +179,17 @@ class Side {
       : options_(options),
         columns_(columns),
         caption_(panel.caption),
-        painter_(options.width, options.height, leaf_camera_from_side(1.1F * options.fall_metres), options.style),
+        painter_(2 * options.width, 2 * options.height, leaf_camera_from_side(1.1F * options.fall_metres),
+                 options.style),
         film_(*panel.recording, columns_, options_) {}
   Side(const Side&) = delete;
   Side& operator=(const Side&) = delete;
 
   void draw(double seconds, Image& frame, int left) {
-    painter_.draw(image_, film_.at(seconds));
-    if (!caption_.empty()) draw_label(image_, caption_, Corner::kTopLeft);
-    for (int y = 0; y < image_.height(); ++y) std::ranges::copy(image_.row(y), frame.row(y).begin() + left);
+    painter_.draw(twice_, film_.at(seconds));  // edges of leaves are as hard as pixels
+    Image image = resized(twice_, options_.width, options_.height);
+    if (!caption_.empty()) draw_label(image, caption_, Corner::kTopLeft);
+    for (int y = 0; y < image.height(); ++y) std::ranges::copy(image.row(y), frame.row(y).begin() + left);
   }
 
  private:
@@ -195,7 +197,7 @@ class Side {
   PoseColumns columns_;
   std::string caption_;
   LeafFlock painter_;
-  Image image_;
+  Image twice_;
   Film film_;  // refers to options_ and columns_
 };
 

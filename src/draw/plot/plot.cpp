@@ -9,7 +9,6 @@
 
 #include "draw/cairo.hpp"
 #include "draw/plot/plot_parts.hpp"
-#include "draw/cairo.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "draw/cairo.hpp"
-#include "draw/cairo.hpp"
 
 namespace wisp::drawing {
 namespace {

@@ -261,7 +261,8 @@ Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts) {
     const GustSpan span = span_of(pairs, k);
     if (span.rows() > 2) ensembles.push_back(ensemble_of(pairs, k, span));
   }
-  if (ensembles.size() < 2) return Error{pairs.source + ": has fewer than 2 gusts of wind to learn from, expected more"};
+  if (ensembles.size() < 2)
+    return Error{pairs.source + ": has fewer than 2 gusts of wind to learn from, expected more"};
   return GustFit{fitted(ensembles), inputs_of(pairs.wind)};
 }
 
