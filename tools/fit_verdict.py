@@ -21,16 +21,16 @@ from scipy.optimize import minimize
 
 # A fact's knots in the order of outline_verdict.cpp, from its worst value to where more is no better: what people's films and
 # scenes have on either side of a verdict lies between them.
-FACTS = {"movement": (0.003, 0.008, 0.016, 0.03, 0.06), "over_noise": (1, 2, 4, 8, 16),          "wander": (6, 3, 1.5, 0.8, 0.3), "still": (0.6, 0.45, 0.3, 0.15, 0),          "steadiness": (0.48, 0.54, 0.6, 0.7, 0.8), "taper": (0, 0.2, 0.32, 0.42, 0.52), "narrowing": (0.05, 0.2, 0.3, 0.4, 0.5),
+FACTS = {"movement": (0.003, 0.008, 0.016, 0.03, 0.06), "over_noise": (1, 2, 4, 8, 16),          "wander": (6, 3, 1.5, 0.8, 0.3), "still": (0.6, 0.45, 0.3, 0.15, 0),          "steadiness": (0.48, 0.54, 0.6, 0.7, 0.8), "taper": (0, 0.2, 0.32, 0.42, 0.52), 
          "light": (0.75, 0.85, 0.9, 0.94, 0.97), "contrast": (10, 25, 50, 80, 120), "width": (1.3, 1, 0.8, 0.65, 0.5),
-         "ragged": (0.6, 0.4, 0.2, 0.1, 0), "misfit": (0.35, 0.2, 0.1, 0.04, 0),
+         "misfit": (0.35, 0.2, 0.1, 0.04, 0),
          "lean": (80, 60, 45, 25, 10), "lost": (0.3, 0.15, 0.08, 0.04, 0),
          "repeated": (0.5, 0.35, 0.25, 0.15, 0.05), "elsewhere": (0.4, 0.2, 0.1, 0.05, 0), "missing": (0.2, 0.08, 0.04, 0.02, 0),
          "jumps": (0.15, 0.06, 0.03, 0.01, 0), "border": (0.4, 0.15, 0.06, 0.03, 0), "height": (6, 9, 12, 18, 30),
          "tracked": (10, 15, 20, 30, 50)}
-FLAME = list(FACTS)[:13]  # what tells a flame from something else
+FLAME = list(FACTS)[:11]  # what tells a flame from something else
 # What no right outline may have, whatever else it has: every sixth right capture stands once more with each at its second knot.
-MUST = ["still", "taper", "narrowing", "width", "ragged", "misfit", "lean", "lost", "repeated", "elsewhere", "missing", "jumps", "border", "height",
+MUST = ["still", "taper", "width", "misfit", "lean", "lost", "repeated", "elsewhere", "missing", "jumps", "border", "height",
         "tracked"]
 KNOTS = 5
 PENALTY = 0.0015  # on the sum of weights, of the mean loss

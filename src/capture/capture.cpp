@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "capture/capture_clip.hpp"
 #include "capture/clip/clip_ear.hpp"
 #include "capture/clip/views/view_join.hpp"
+#include "capture/vision/outline_verdict.hpp"
 #include "record/number_text.hpp"
 #include "record/verdict.hpp"
 #include "wisp/capture/media/sound.hpp"
@@ -62,16 +65,23 @@ double light_of(const Picture& picture, const Region& region, std::vector<std::u
   return sum / static_cast<double>(pixels.size());
 }
 
-Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, bool sound,
+struct Look {
+  bool sound = true;
+  int turn = 0;               // quarters, clockwise
+  FilmFacts* film = nullptr;  // where to write what the film is like
+};
+
+Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, const Look& look,
                          const Progress& progress) {
-  auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames});
+  auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames, .turn = look.turn});
   if (!reader) return reader.error();
   const VideoInfo& info = reader->info();
   auto live =
-      LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images || !sound}, options);
+      LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images || !look.sound}, options);
   if (!live) return live.error();
   if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
-  if (sound && !info.images) {
+  if (look.film) *look.film = live->picture().film();
+  if (look.sound && !info.images) {
     const auto heard = hear_sound(path, [&](const SoundFormat& format, double begin, std::span<const float> samples) {
       return live->hear(format, begin - reader->info().begin, samples);
     });
@@ -99,34 +109,67 @@ std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t 
                     first + static_cast<std::int64_t>(best_begin + best) - 1};
 }
 
-// Which flag would make a refused film usable, as a clause; empty where none would. Nobody films again for what a flag
-// cures.
-std::string other_look(const std::filesystem::path& path, ClipCapture options, const Recording* refused,
-                       const Progress& progress) {
-  if (options.flame == 0 || options.dark) return "";
-  const auto usable = [&](const ClipCapture& other) {
-    const auto captured = look_at(path, other, false, progress);
+// The longest scene of a film that is cut, in the film's frames; nothing where it is not.
+std::optional<FrameRange> longest_scene(const FilmFacts& film, std::int64_t first) {
+  std::optional<FrameRange> best;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k <= film.cuts.size() && !film.cuts.empty(); ++k) {
+    const std::size_t end = k < film.cuts.size() ? film.cuts[k] : film.pictures;
+    const FrameRange scene{first + static_cast<std::int64_t>(begin), first + static_cast<std::int64_t>(end) - 1};
+    if (!best || scene.last - scene.first > best->last - best->first) best = scene;
+    begin = end;
+  }
+  return best;
+}
+
+// What would make a refused film usable: a sentence in the place of the reason, or a clause behind it; both empty where
+// nothing would. Nobody films again for what a flag or a turn cures.
+struct Cure {
+  std::string reason;
+  std::string advice;
+};
+
+Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Result<Captured>& refused,
+             const FilmFacts& film, const Progress& progress) {
+  constexpr std::int64_t kEnoughFrames = 120;
+  constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
+                                     "the film is upside down; rotate it by 180 degrees",
+                                     "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
+  if (options.flame == 0 || options.dark || film_reason(film)) return {};
+  const auto usable = [&](const ClipCapture& other, int turn = 0) {
+    const auto captured = look_at(path, other, {.sound = false, .turn = turn}, progress);
     return captured && captured->report.verdict->usable;
   };
+  const auto frames = [](const FrameRange& of) { return std::to_string(of.first) + ":" + std::to_string(of.last); };
+  const std::int64_t first = options.frames ? options.frames->first : 1;
   ClipCapture other = options;
-  if (refused) other.frames = longest_part(*refused, options.frames ? options.frames->first : 1);
+  other.frames = longest_scene(film, first);
+  if (other.frames && usable(other)) return {"the film is cut; give one scene of it: --frames " + frames(*other.frames), ""};
+  if (refused) other.frames = longest_part(refused->recording, first);
   if (refused && other.frames && usable(other))
-    return "; a part of it is usable: --frames " + std::to_string(other.frames->first) + ":" +
-           std::to_string(other.frames->last);
+    return {"", "; a part of it is usable: --frames " + frames(*other.frames)};
+  other.frames = {first, first - 1 + std::min(kEnoughFrames, static_cast<std::int64_t>(film.pictures))};
+  for (const int turn : {2, 1, 3}) {
+    if (usable(other, turn)) return {kTurned[turn], ""};
+  }
   options.flame = 0;
-  return usable(options) ? "; something that moves can be followed, flame or not: --flame 0" : "";
+  return {"", usable(options) ? "; something that moves can be followed, flame or not: --flame 0" : ""};
 }
 
 }  // namespace
 
 Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress) {
-  auto captured = look_at(path, options, true, progress);
+  FilmFacts film;
+  auto captured = look_at(path, options, {.film = &film}, progress);
   if (captured ? captured->report.verdict->usable : captured.error().message.find("no flame") == std::string::npos)
     return captured;
-  const std::string advice = other_look(path, options, captured ? &captured->recording : nullptr, progress);
-  if (advice.empty()) return captured;
-  if (!captured) return Error{captured.error().message + advice};
-  set_verdict(captured->recording, false, captured->report.verdict->reason += advice);
+  const Cure cure = cure_of(path, options, captured, film, progress);
+  if (!captured) {
+    return Error{cure.reason.empty() ? captured.error().message + cure.advice : path.string() + ": " + cure.reason};
+  }
+  std::string& reason = captured->report.verdict->reason;
+  reason = cure.reason.empty() ? reason + cure.advice : cure.reason;
+  set_verdict(captured->recording, false, reason);
   return captured;
 }
 
@@ -160,12 +203,29 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   return wind;
 }
 
+namespace {
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  if (std::filesystem::equivalent(a, b, none)) return true;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
+}
+
+}  // namespace
+
 Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
                                ClipCapture options, const Progress& progress) {
   if (auto ok = check_azimuths(azimuths, std::vector<std::string>(films.begin(), films.end())); !ok) return ok.error();
   if (options.frames) return Error{"frames are of one film, and of several the time that all have is taken"};
   std::vector<FilmedView> views;
   for (std::size_t k = 0; k < films.size(); ++k) {
+    const auto again = std::find_if(films.begin(), films.begin() + static_cast<std::ptrdiff_t>(k),
+                                    [&](const auto& other) { return same_file(other, films[k]); });
+    if (again != films.begin() + static_cast<std::ptrdiff_t>(k))
+      return Error{films[k].string() + ": is the same film as " + again->string() +
+                   "; give a film of the same time from another side"};
     auto film = capture(films[k], options, progress);
     if (!film) return film.error();
     if (!options.curve) options.curve = curve_of(film->recording);

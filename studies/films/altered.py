@@ -116,4 +116,5 @@ def main():
                       f"{'usable' if usable else 'not usable'}: {reason}", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -130,6 +130,10 @@ TEST_F(Guide, TwoPhonesFilmAFlameInTheRound) {
   EXPECT_NEAR(joined.json()["views"][1]["begins"], 0, 0.02);
   for (const auto& blow : joined.json()["blows"]) EXPECT_NEAR(blow["azimuth"], 45, 8) << blow;
   EXPECT_EQ(wisp("info " + at("candle.wisp") + " --json").json()["view"]["in_the_round"], "symmetry");
+  const Said twice =
+      wisp("capture flame " + at("front.mp4") + " " + at("front.mp4") + " --angles 0,90 -o " + at("no.csv"));
+  EXPECT_NE(twice.status, 0);
+  EXPECT_THAT(twice.err, testing::HasSubstr("is the same film"));
   const Said alone = wisp("capture flame " + at("front.mp4") + " --angles 0,90 -o " + at("no.csv"));
   EXPECT_NE(alone.status, 0);
   EXPECT_THAT(alone.err, testing::HasSubstr("expected at least two films"));

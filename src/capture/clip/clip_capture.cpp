@@ -149,7 +149,6 @@ ReportSection outline_section(const CaptureReport& picture) {
       {"points", picture.points, "control points", ""},
       {"threshold", picture.threshold, "threshold", "", {}, "brightness at the edge, 0 black to 255 white"},
       {"channel", std::string(channel_name(picture.channel)), "colour channel", ""},
-      {"separation", picture.separation, "separation", "", {}, "of thing and ground, 0 to 1"},
       {"residual_px", picture.residual, "distance of edge from curve", "px", {}, "root mean square"},
       {"knots_placed", picture.knots_placed, "", ""}};
   ReportSeries brightness{"brightness",

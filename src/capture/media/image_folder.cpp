@@ -149,6 +149,7 @@ Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const V
   folder.frame_.reset(av_frame_alloc());
   folder.info_.frames = static_cast<std::int64_t>(folder.images_.size());
   folder.info_.images = true;
+  folder.pictures_ = FramePictures(options.turn);
   if (folder.images_.empty()) return folder;
   if (auto decoded = folder.decode(folder.images_.front().path); !decoded) return decoded.error();
   folder.info_.width = folder.frame_->width;
@@ -194,17 +195,6 @@ std::vector<std::string> ImageFolder::warnings() const {
   if (long_gaps_ == 0) return {};
   return {path_.string() + ": " + std::to_string(long_gaps_) + (long_gaps_ == 1 ? " hole" : " holes") +
           " of more than 2 s in the images' numbers taken as 2 s"};
-}
-
-std::vector<OwnedPicture> ImageFolder::glimpses(int count) {
-  std::vector<OwnedPicture> out;
-  for (int k = 1; k <= count && !images_.empty(); ++k) {
-    const std::size_t at = (images_.size() - 1) * static_cast<std::size_t>(k) / static_cast<std::size_t>(count);
-    if (!decode(images_[at].path)) continue;
-    if (frame_->width != info_.width || frame_->height != info_.height) continue;
-    if (const auto picture = pictures_.view(*frame_)) out.emplace_back(*picture);
-  }
-  return out;
 }
 
 Result<std::optional<VideoFrame>> ImageFolder::next() {

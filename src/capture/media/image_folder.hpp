@@ -14,7 +14,6 @@ class ImageFolder {
 
   const VideoInfo& info() const { return info_; }
   Result<std::optional<VideoFrame>> next();
-  std::vector<OwnedPicture> glimpses(int count);
   RgbImage rgb() { return pictures_.rgb(*frame_); }
   std::vector<std::string> warnings() const;
   ClipTimes times() const { return {}; }

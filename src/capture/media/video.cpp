@@ -46,7 +46,8 @@ Result<std::optional<VideoFrame>> VideoReader::next() {
 }
 
 std::vector<OwnedPicture> VideoReader::glimpses(int count) {
-  return std::visit([&](auto& clip) { return clip.glimpses(count); }, source_->held);
+  auto* file = std::get_if<VideoFile>(&source_->held);
+  return file ? file->glimpses(count) : std::vector<OwnedPicture>();
 }
 
 RgbImage VideoReader::rgb() {

@@ -137,7 +137,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   VideoInfo& info = file.info_;
   info.rate_hz = options.rate_hz > 0 ? options.rate_hz : grid_rate(path, track);
   if (!(info.rate_hz > 0)) return Error{path.string() + ": states no frame rate; give it as --rate"};
-  const int turns = quarter_turns(track);
+  const int turns = (quarter_turns(track) + options.turn) % 4;
   const auto aspect = pixel_aspect(path, *file.format_, *file.format_->streams[file.track_]);
   if (!aspect) return aspect.error();
   file.aspect_ = *aspect;

@@ -264,6 +264,16 @@ double liveliness_of(const Candidate& c, const Evidence& evidence) {
 
 }  // namespace
 
+Region usual_place(std::span<const Region> seen) {
+  std::array<std::vector<int>, 4> sides;
+  for (const Region& box : seen) {
+    const std::array<int, 4> now{box.x, box.y, box.right(), box.bottom()};
+    for (std::size_t k = 0; k < 4; ++k) sides[k].push_back(now[k]);
+  }
+  const int left = median(sides[0]), top = median(sides[1]);
+  return {left, top, median(sides[2]) - left, median(sides[3]) - top};
+}
+
 double shared_share(const Region& a, const Region& b) {
   const double shared = intersection(a, b).area();
   return shared == 0 ? 0 : shared / (a.area() + b.area() - shared);

@@ -7,12 +7,12 @@
 #include "base/statistics.hpp"
 #include "capture/vision/candidates.hpp"
 #include "capture/vision/candle_look.hpp"
+#include "capture/vision/film_look.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
-#include "capture/vision/scene_light.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -78,6 +78,7 @@ class OutlineCapture::Stage {
   void glimpse(const Picture& picture) { glimpses_.emplace_back(picture); }
   void lost();
   OutlineSeen seen() const;
+  FilmFacts film() const { return film_.facts(); }
   Result<CapturedOutline> finish();
 
  private:
@@ -95,7 +96,7 @@ class OutlineCapture::Stage {
   void look(const Picture& picture);
   void note(FrameFinding::Kind kind);
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
-  std::string no_flame() const { return options_.flame > 0 && !options_.dark ? "there is no flame in the film: " : ""; }
+  Error no_flame(const std::string& why) const;
   void describe(CapturedOutline& out) const;
 
   OutlineCaptureOptions options_;
@@ -116,7 +117,7 @@ class OutlineCapture::Stage {
   std::optional<Picture> format_;  // the first picture's layout, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
-  SceneLight scene_;
+  FilmLook film_;
   EdgeCloudOptions cloud_options_;
   EdgeCloud cloud_;
   FrameFindings findings_;
@@ -150,6 +151,7 @@ Result<void> OutlineCapture::Stage::accept(const Picture& picture) {
 
 Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
   if (auto accepted = accept(picture); !accepted) return accepted;
+  film_.look(picture);
   if (survey_) {
     look(picture);
     return {};
@@ -201,7 +203,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
     wait_on(survey);
     return {};
   }
-  if (!survey) return complaint(no_flame() + survey.error().message);
+  if (!survey) return no_flame(survey.error().message);
   if (flame && survey->flames < options_.flame) return complaint(too_few(*survey));
   survey_ = std::move(*survey);
   if (survey_->flames > 0) candle_ = look_of_candle(pictures, survey_->home);
@@ -221,6 +223,12 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   held_.shrink_to_fit();
   glimpses_.clear();
   return {};
+}
+
+// That none was found, or what about the film is why.
+Error OutlineCapture::Stage::no_flame(const std::string& why) const {
+  if (options_.flame == 0 || options_.dark) return complaint(why);
+  return complaint(film_reason(film_.facts()).value_or("there is no flame in the film: " + why));
 }
 
 // That there are fewer than `options_.flame`, and where they were counted.
@@ -281,7 +289,7 @@ void OutlineCapture::Stage::look(const Picture& picture) {
   const bool seen = seeker_->seek(picture) && seeker_->edge_points(cloud_options_, cloud_);
   if (seen) {
     const OutlineEstimate& estimate = tracker_->update(cloud_);
-    scene_.remember(picture);
+    film_.remember(picture);
     finding.kind = FrameFinding::Kind::kTracked;
     finding.change = static_cast<float>(seeker_->change());
     finding.brightness = static_cast<float>(seeker_->brightness());
@@ -289,7 +297,7 @@ void OutlineCapture::Stage::look(const Picture& picture) {
     findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
   } else {
     // Something as bright elsewhere counts only before the scene is known: later it may be a lamp, or a lit snuffer.
-    finding.elsewhere = scene_.empty() ? seeker_->elsewhere() : scene_.another(picture);
+    finding.elsewhere = film_.empty() ? seeker_->elsewhere() : film_.another(picture);
     tracker_->forget();
     findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }
@@ -322,8 +330,8 @@ OutlineSeen OutlineCapture::Stage::seen() const {
 void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   CaptureReport& report = out.report;
   report.flames = survey_->flames;
+  report.facts.film = film_.facts();
   report.facts.light = survey_->light;
-  report.facts.narrowing = survey_->taper;
   report.facts.clipped = survey_->clipped;
   report.facts.contrast = survey_->contrast;
   report.facts.steadiness = survey_->steadiness;
@@ -333,7 +341,6 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;
-  report.separation = survey_->separation;
   report.width = width_;
   report.height = height_;
   report.threshold = bright(survey_->level);
@@ -371,9 +378,9 @@ Result<CapturedOutline> OutlineCapture::Stage::finish() {
   describe(out);
   assemble_rows(findings_, options_.points, out.recording, out.report);
   if (out.report.tracked < kMinTracked) {
-    return complaint(no_flame() + "an outline was found in " + std::to_string(out.report.tracked) + " of " +
-                     std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kMinTracked) +
-                     "; try another channel, or a region around the thing");
+    return no_flame("an outline was found in " + std::to_string(out.report.tracked) + " of " +
+                    std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kMinTracked) +
+                    "; try another channel, or a region around the thing");
   }
   if (gather_facts(out.recording, tracker_->table(), out.report)) judge_outline(out.report);
   return out;
@@ -391,6 +398,8 @@ void OutlineCapture::glimpse(const Picture& picture) { stage_->glimpse(picture);
 void OutlineCapture::lost(int count) {
   for (int k = 0; k < count; ++k) stage_->lost();
 }
+
+FilmFacts OutlineCapture::film() const { return stage_->film(); }
 
 OutlineSeen OutlineCapture::seen() const { return stage_->seen(); }
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kMoveShare = 0.35;  // of the height: a base that moves farther in a frame is another one
 constexpr double kJumpRatio = 2.2;   // … and a height that changes so many times
-constexpr double kHullFilled = 0.8;  // of its convex hull: a flame that leans or bends fills more
 constexpr double kOutSeconds = 0.3;  // without a flame until the end: it went out; gaps in films last 0.13 at most
 constexpr int kCurvePoints = 64;
 
@@ -81,36 +80,6 @@ double lean_of(const OutlineRow& shape) {
 double taper_of(const OutlineRow& shape) {
   const double body = width_at(shape, 0.4);
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
-}
-
-double area_of(const std::vector<CurvePoint>& corners) {
-  double twice = 0;
-  for (std::size_t k = 2; k < corners.size(); ++k) twice += turn(corners[0], corners[k - 1], corners[k]);
-  return 0.5 * std::abs(twice);
-}
-
-// A. M. Andrew, Information Processing Letters 9 (1979).
-std::vector<CurvePoint> convex_hull(std::vector<CurvePoint> points) {
-  std::sort(points.begin(), points.end(),
-            [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<CurvePoint> hull;
-  for (const bool back : {false, true}) {
-    const std::size_t begin = hull.size();
-    for (const CurvePoint& p : points) {
-      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    if (!back) std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-double ragged_share(const std::vector<OutlineRow>& shapes) {
-  const auto ragged = std::count_if(shapes.begin(), shapes.end(), [](const OutlineRow& shape) {
-    return area_of(shape.curve) < kHullFilled * area_of(convex_hull(shape.curve));
-  });
-  return static_cast<double>(ragged) / static_cast<double>(shapes.size());
 }
 
 // How much a curve's points move on its base, pixels squared: all of it, and what changes at random from frame to
@@ -211,7 +180,6 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
   facts.taper = median(tapers);
   facts.width = median(widths);
   facts.lean = median(leans);
-  facts.ragged = ragged_share(shapes);
   gather_motion(shapes, facts);
   facts.misfit = report.residual / facts.height;
   facts.jumps = jumps_of(shapes, facts.height);

@@ -1,9 +1,10 @@
 #include "capture/vision/outline_seeker.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
+
+#include "capture/vision/candidates.hpp"
 
 namespace wisp {
 namespace {
@@ -34,21 +35,6 @@ PixelPosition foot(const Region& box, BaseSide side) {
 
 double distance(const PixelPosition& a, const PixelPosition& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-Region usual_of(const std::vector<Region>& seen, const Region& home) {
-  if (seen.empty()) return home;
-  std::array<std::vector<int>, 4> sides;
-  for (const Region& box : seen) {
-    const std::array<int, 4> now{box.x, box.y, box.right(), box.bottom()};
-    for (std::size_t k = 0; k < 4; ++k) sides[k].push_back(now[k]);
-  }
-  // What the thing only now and then runs together with does not count: the middle one of the pictures.
-  for (auto& side : sides) {
-    std::nth_element(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(side.size() / 2), side.end());
-    side.front() = side[side.size() / 2];
-  }
-  return {sides[0][0], sides[1][0], sides[2][0] - sides[0][0], sides[3][0] - sides[1][0]};
-}
-
 }  // namespace
 
 OutlineSeeker::OutlineSeeker(const Survey& survey, const Region& area, BaseSide base, bool dark)
@@ -59,7 +45,7 @@ OutlineSeeker::OutlineSeeker(const Survey& survey, const Region& area, BaseSide 
       area_(area),
       home_(survey.home),
       others_(survey.others),
-      usual_(usual_of(survey.seen, survey.home)),
+      usual_(survey.seen.empty() ? survey.home : usual_place(survey.seen)),
       stands_(survey.stands),
       usual_area_(survey.area),
       base_edge_(wisp::base_edge(usual_, base)),

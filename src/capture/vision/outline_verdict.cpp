@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
+#include "base/verdict.hpp"
 #include "capture/vision/outline_verdict_weights.hpp"
 
 namespace wisp {
@@ -24,29 +26,27 @@ struct FactRow {
 
 constexpr const char* kStill =
     "its edges do not move{still}, as those of a lamp or a lit thing; film a flame in a dark room";
-constexpr const char* kNoTaper =
-    "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark ground";
 constexpr const char* kShape =
     "its shape is not a flame's: it may have run together with what it lights; lower the exposure, so that only the "
     "flame is bright";
 constexpr const char* kGlare =
     "it is clipped flat, {clipped} of it as bright as the camera shows anything, and its shape is not a flame's; lower "
     "the exposure";
+constexpr double kIrregular = 0.15;     // of the frames are lost: that is the cause of what else is wrong
 constexpr double kClippedShape = 0.5;  // a shape of which more is clipped is overexposed, whatever it is
 
-constexpr std::array<FactRow, 21> kFacts{{
+constexpr std::array<FactRow, 19> kFacts{{
     {"movement", Of::kMotion, kStill},
     {"over_noise", Of::kMotion, kStill},
     {"wander", Of::kFlame, "it moves about as a whole, and its shape hardly changes; keep the camera still"},
     {"still", Of::kMotion, kStill},
     {"steadiness", Of::kFlame, "its foot moves as much as its tip; keep the camera still, and only a flame in view"},
-    {"taper", Of::kFlame, kNoTaper},
-    {"narrowing", Of::kFlame, kNoTaper},
+    {"taper", Of::kFlame,
+     "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark ground"},
     {"light", Of::kFlame, "other things in the picture are brighter; choose a region around the flame"},
     {"contrast", Of::kFlame,
      "it is hardly brighter than what is around it, by {} of 255 levels; film a flame before a dark ground"},
     {"width", Of::kFlame, kShape},
-    {"ragged", Of::kFlame, kShape},
     {"misfit", Of::kFlame, kShape},
     {"lean", Of::kFlame, "it lies on its side, {} degrees from upright; the film may be turned: rotate it"},
     {"lost", Of::kFilm, "its frames come irregularly, {%} are missing from the clip; film at a fixed rate"},
@@ -62,6 +62,8 @@ constexpr std::array<FactRow, 21> kFacts{{
     {"tracked", Of::kFilm, "an outline was found in {} frames only; give a longer clip"},
 }};
 static_assert(kVerdictCurves.size() == kFacts.size());
+constexpr std::size_t kLost = 11;
+static_assert(std::string_view(kFacts[kLost].name) == "lost");
 
 // Of the rows in which the flame burns and that have a frame of their own, those without an outline.
 double missing_share(R r) {
@@ -87,11 +89,9 @@ std::array<double, kFacts.size()> values_of(R r) {
           still_share(r),
           f.steadiness,
           f.taper,
-          f.narrowing,
           f.light,
           f.contrast,
           f.width,
-          f.ragged,
           (r.residual - 0.3) * r.points / height,  // beyond pixels; few points cannot follow a flame as well
           f.lean,
           f.lost,
@@ -174,6 +174,11 @@ std::string verdict_sentence(CaptureReport& report) {
   if (report.usable) {
     return "an outline was found in " + percent(1 - missing_share(report)) + " of the frames and moves steadily";
   }
+  // Frames that stand twice, or that are lost, are no cause of a moving camera's.
+  const bool frames = report.facts.lost > kIrregular || report.facts.stands > 1;
+  const auto film = frames || report.flames == 0 ? std::nullopt : film_reason(report.facts.film);
+  if (film) return *film;
+  if (report.likely_flame > 0.5 && report.facts.lost > kIrregular) return sentence_of(kLost, report);
   if (report.likely_flame > 0.5) return reason_of(facts, &WeighedFact::against_right, right, report);
   return reason_of(facts, &WeighedFact::against_flame, flame, report);
 }
@@ -193,6 +198,23 @@ std::vector<WeighedFact> weighed_facts(const CaptureReport& report) {
     out.push_back({kFacts[k].name, values[k], any ? 0 : flame, any ? flame + right : right});
   }
   return out;
+}
+
+std::optional<std::string> film_reason(const FilmFacts& film) {
+  const Criterion criteria[] = {
+      {static_cast<double>(film.pictures), Bound::kAtLeast, 20, "it has {figure} frames only; give a longer clip", 0},
+      {film.brightest, Bound::kAtLeast, 80,
+       "the film is too dark: its brightest point has {figure} of 255 levels, and no flame can be told in it; raise "
+       "the exposure",
+       0},
+      {100 * film.camera, Bound::kAtMost, 2,
+       "the camera moves by {figure} % of the picture from frame to frame, and no flame can be told in it; keep the "
+       "camera still",
+       0},
+      {100 * film.flat, Bound::kAtMost, 20,
+       "the film is too bright: {figure} % of the picture is white, and no flame can be told in it; lower the exposure",
+       0}};
+  return first_missed(criteria);
 }
 
 void judge_outline(CaptureReport& report) {

@@ -7,8 +7,8 @@
 
 namespace wisp {
 
-/// Fills the report's facts and `out_at` from the recording's outlines; those of a still picture (light, narrowing,
-/// contrast, clipped, steadiness) come from the survey. Returns whether there is any outline.
+/// Fills the report's facts and `out_at` from the recording's outlines; those of a still picture (light, contrast,
+/// clipped, steadiness) come from the survey. Returns whether there is any outline.
 ///
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
@@ -16,5 +16,8 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
 /// Fills `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is the fact that weighs most
 /// and without which the verdict would be yes; that there is no flame is asked first.
 void judge_outline(CaptureReport& report);
+
+/// Why no flame can be told in a film, whatever is in it: too short, too dark, moved, too bright.
+std::optional<std::string> film_reason(const FilmFacts& film);
 
 }  // namespace wisp

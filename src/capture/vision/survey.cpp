@@ -18,7 +18,7 @@ constexpr int kLevelStep = 18;         // levels that are tried, 255ths
 constexpr int kHighestLevel = 225;     // above it, where a camera clips, a level cuts through the flame
 constexpr double kLitShare = 0.7;      // a picture counts when its brightest is this share of the upper quartile's
 constexpr double kOtherScene = 64;     // … and differs from the usual picture by less than this, mean over its points
-constexpr double kOneBrightness = 12;  // levels between the clusters, of 255: less is noise of one brightness
+constexpr double kOneBrightness = 16;  // levels above the darkest tenth, of 255: less is noise of one brightness
 constexpr double kAsLikely = 0.35;     // another flame is at least this share as likely as the first
 constexpr double kAsBrightAsBest = 0.9;  // … and as bright
 constexpr double kMoves = 0.05;          // … and changes by this share, as flames do, or by half as much as the first
@@ -152,21 +152,8 @@ std::vector<Candidate> scan(const Grids& grids, const Picture& format, const Sur
   return found;
 }
 
-// Around where a candidate usually is.
-Region usual_place(const Candidate& candidate) {
-  std::vector<double> x, y, right, bottom;
-  for (const Region& box : candidate.seen) {
-    x.push_back(box.x);
-    y.push_back(box.y);
-    right.push_back(box.right());
-    bottom.push_back(box.bottom());
-  }
-  const int left = static_cast<int>(median(x)), top = static_cast<int>(median(y));
-  return {left, top, static_cast<int>(median(right)) - left, static_cast<int>(median(bottom)) - top};
-}
-
 bool same_place(const Candidate& a, const Candidate& b) {
-  return !intersection(usual_place(a), usual_place(b)).empty();
+  return !intersection(usual_place(a.seen), usual_place(b.seen)).empty();
 }
 
 // The likeliest candidate, and others in its channel and at its level that are nearly as likely: flames of one picture
@@ -282,37 +269,22 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
-// Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no
-// more of it. That need not be white: tone curves end below.
+// Share of a thing that is as bright as it gets anywhere: there the camera tells no more of it. That need not be white:
+// tone curves end below.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
   constexpr int kCoding = 5;  // levels: coding errors of a flat area
   if (dark) return 0;
-  const auto grid_of = [&](PixelChannel channel) {
-    return sample_grid(pictures, channel, thing.home, kFineGrid, false);
-  };
-  const PictureGrid own = grid_of(thing.channel);
-  std::vector<PictureGrid> grids;
-  for (const PixelChannel channel : {PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
-    if (has_channel(pictures.front(), channel)) grids.push_back(grid_of(channel));
-  }
-  if (grids.empty()) grids.push_back(own);
-  std::vector<std::vector<double>> inside(grids.size());
+  const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, false),
+                    luma = sample_grid(pictures, PixelChannel::kLuma, thing.home, kFineGrid, false);
+  std::vector<int> inside;
   for (std::size_t k = 0; k < own.pictures.size(); ++k) {
     for (std::size_t at = 0; at < own.size(); ++at) {
-      if (own.pictures[k][at] <= thing.level) continue;
-      for (std::size_t c = 0; c < grids.size(); ++c) inside[c].push_back(grids[c].pictures[k][at]);
+      if (own.pictures[k][at] > thing.level) inside.push_back(luma.pictures[k][at]);
     }
   }
-  const std::size_t count = inside.front().size();
-  if (count == 0) return 0;
-  std::vector<std::uint8_t> flat(count, 1);
-  for (const auto& values : inside) {
-    std::vector<double> sorted = values;
-    const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(9 * count / 10);
-    std::nth_element(sorted.begin(), high, sorted.end());
-    for (std::size_t k = 0; k < count; ++k) flat[k] &= values[k] >= *high - kCoding;
-  }
-  return static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(count);
+  const int high = quantile(inside, 0.9);
+  const auto flat = std::count_if(inside.begin(), inside.end(), [&](int value) { return value >= high - kCoding; });
+  return static_cast<double>(flat) / static_cast<double>(std::max<std::size_t>(inside.size(), 1));
 }
 
 Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {
@@ -331,20 +303,19 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid& grid = *grids.of(thing.channel);
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
-  out.separation = split_histogram(out.histogram).separation;
   return out;
 }
 
+// Whether anything is brighter than the darkest tenth of a picture.
 bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions& options) {
-  for (const PixelChannel channel : kChannels) {
-    if (!wanted(channel, format, options)) continue;
+  return std::any_of(kChannels.begin(), kChannels.end(), [&](PixelChannel channel) {
+    if (!wanted(channel, format, options)) return false;
     const PictureGrid& grid = *grids.of(channel);
-    Histogram histogram{};
-    for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(histogram, grid.view(k), 1);
-    const TwoClusters clusters = split_histogram(histogram);
-    if (clusters.bright_mean - clusters.dark_mean >= kOneBrightness) return true;
-  }
-  return false;
+    for (std::size_t k = 0; k < grid.pictures.size(); ++k) {
+      if (brightest_of(grid.view(k)) - quantile(grid.pictures[k], 0.1) >= kOneBrightness) return true;
+    }
+    return false;
+  });
 }
 
 Error nothing_found(bool dark) {
@@ -369,34 +340,6 @@ void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
   }
 }
 
-TwoClusters split_histogram(const Histogram& histogram) {
-  double count = 0, sum = 0, square_sum = 0;
-  for (int v = 0; v < 256; ++v) {
-    const double n = static_cast<double>(histogram[v]);
-    count += n;
-    sum += n * v;
-    square_sum += n * v * v;
-  }
-  TwoClusters best;
-  if (count == 0) return best;
-  const double mean = sum / count, variance = square_sum / count - mean * mean;
-  best.dark_mean = best.bright_mean = mean;
-  double dark_count = 0, dark_sum = 0, best_between = 0;
-  for (int v = 0; v < 255; ++v) {
-    dark_count += static_cast<double>(histogram[v]);
-    dark_sum += static_cast<double>(histogram[v]) * v;
-    const double bright_count = count - dark_count;
-    if (dark_count == 0 || bright_count == 0) continue;
-    const double dark_mean = dark_sum / dark_count, bright_mean = (sum - dark_sum) / bright_count;
-    const double apart = bright_mean - dark_mean;
-    const double between = dark_count * bright_count / (count * count) * apart * apart;
-    if (between <= best_between) continue;
-    best_between = between;
-    best = {v, between / variance, dark_mean, bright_mean, bright_count / count};
-  }
-  return best;
-}
-
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
   const Region area = options.region.empty() ? pictures.front().frame() : options.region;
   Grids grids = sample_all(pictures, area, kGrid, options);
@@ -419,7 +362,7 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
   if (!flame) return survey;
   survey.flames = static_cast<int>(things.size());
   for (std::size_t k = 0; k < things.size(); ++k) {
-    if (k != which) survey.others.push_back(usual_place(things[k]));
+    if (k != which) survey.others.push_back(usual_place(things[k].seen));
   }
   return survey;
 }

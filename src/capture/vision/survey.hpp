@@ -5,8 +5,7 @@
 // channel are weighed by what a flame does (candidates.hpp), first in the whole picture on a coarse grid, then around
 // each flame on a finer one: region, channel and level are chosen together.
 //
-// Levels are those of N. Otsu, A Threshold Selection Method from Gray-Level Histograms, IEEE Trans. SMC 9(1), 1979, as
-// section 3.1 of the paper asks for one that separates the histogram's two clusters, flame and background.
+// Section 3.1 of the paper asks for one level that separates the histogram's two clusters, flame and background.
 
 #include <optional>
 #include <span>
@@ -24,18 +23,6 @@ namespace wisp {
 /// Precondition: step >= 1.
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step);
 
-/// A histogram cut in two.
-struct TwoClusters {
-  int threshold = 0;        ///< brighter than this is the bright cluster; 0 to 254
-  double separation = 0;    ///< variance between the clusters over the whole variance, 0 (one cluster) to 1
-  double dark_mean = 0;     ///< mean brightness of the dark cluster
-  double bright_mean = 0;   ///< mean brightness of the bright one
-  double bright_share = 0;  ///< share of pixels in the bright cluster
-};
-
-/// Cuts the histogram where its clusters are farthest apart. Separation is 0 where there is only one brightness.
-TwoClusters split_histogram(const Histogram& histogram);
-
 /// What to look for.
 struct SurveyOptions {
   std::optional<PixelChannel> channel;  ///< nothing: all there are
@@ -48,7 +35,6 @@ struct SurveyOptions {
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;               ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
-  double separation = 0;       ///< of the two clusters, 0 to 1
   Histogram histogram{};       ///< of the channel as stored (inverted for dark things), over the pictures that count
   Region home;                 ///< around all places where the thing was seen
   std::vector<Region> seen;    ///< around the thing in each picture in which it was there
@@ -59,7 +45,7 @@ struct Survey {
   double taper = 0;            ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
   double light = 1;            ///< its luma over the brightest there is
   double contrast = 255;       ///< its brightness less that of what is around it, levels
-  double clipped = 0;          ///< share of it that is flat: as bright in every channel as it gets
+  double clipped = 0;          ///< share of it that is flat: as bright as it gets
   int flames = 0;              ///< how many flames there are; 0 where any thing was looked for
   std::vector<Region> others;  ///< the median boxes of the others
 };

@@ -34,9 +34,38 @@ Plane upside_down(int k) {
   return plane;
 }
 
-TEST(SecondLook, WhatIsNoUprightFlameCanBeFollowedAllTheSame) {
+Plane turned(int k) {
+  Plane upright = support::noisy_flame(k);
+  Plane plane(upright.height, upright.width);
+  for (int y = 0; y < upright.height; ++y) {
+    for (int x = 0; x < upright.width; ++x) plane.at(upright.height - 1 - y, x) = upright.at(x, y);
+  }
+  return plane;
+}
+
+TEST(SecondLook, ATurnedFilmSaysHowToTurnIt) {
   EXPECT_THAT(reason_of(60, support::noisy_flame), HasSubstr("usable: "));
-  EXPECT_THAT(reason_of(60, upside_down), HasSubstr("can be followed, flame or not: --flame 0"));
+  EXPECT_THAT(reason_of(60, upside_down), HasSubstr("is upside down; rotate it by 180"));
+  EXPECT_THAT(reason_of(60, turned), HasSubstr("lies on its side; rotate it by 90 degrees counter-clockwise"));
+}
+
+TEST(SecondLook, AFilmInWhichNothingCanBeToldSaysWhy) {
+  const auto dark = [](int k) {
+    Plane plane = support::noisy_flame(k);
+    for (std::uint8_t& pixel : plane.pixels) pixel = static_cast<std::uint8_t>(pixel / 12);
+    return plane;
+  };
+  EXPECT_THAT(reason_of(60, dark), HasSubstr("too dark"));
+  EXPECT_THAT(reason_of(12, support::noisy_flame), HasSubstr("12 frames only; give a longer clip"));
+}
+
+TEST(SecondLook, OfAFilmThatIsCutOneSceneIsNamed) {
+  const auto cut = [](int k) {
+    Plane plane = support::noisy_flame(k);
+    if (k >= 60) plane = Plane(160, 180, 10), plane.fill({0, 40, 60, 140}, static_cast<std::uint8_t>(170 + k % 3));
+    return plane;
+  };
+  EXPECT_THAT(reason_of(100, cut), HasSubstr("--frames 1:60"));
 }
 
 TEST(SecondLook, APartThatIsUsableIsNamed) {

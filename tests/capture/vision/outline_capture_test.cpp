@@ -451,7 +451,7 @@ TEST(OutlineCapture, ThreeFramesAreTooFew) {
 TEST(OutlineCapture, ABlackClipIsAnError) {
   const auto captured = capture(50, [](int) { return Plane(160, 120, 16); });
   ASSERT_FALSE(captured);
-  EXPECT_THAT(captured.error().message, HasSubstr("nothing bright"));
+  EXPECT_THAT(captured.error().message, HasSubstr("the film is too dark"));
 }
 
 TEST(OutlineCapture, AFrameOfAnotherSizeIsAnError) {

@@ -42,7 +42,7 @@ CaptureReport judged(const Outline& outline, double residual = 0.5) {
   report.points = static_cast<int>(outline.size());
   report.residual = residual;
   report.facts.light = 1;
-  report.facts.narrowing = 0.6;
+  report.facts.film.pictures = kRows;
   report.facts.steadiness = 0.9;
   EXPECT_TRUE(gather_facts(recording, SplineTable(uniform_knots(static_cast<int>(outline.size()))), report));
   judge_outline(report);
@@ -54,7 +54,6 @@ const Outline kFlame{{-12, 0}, {-22, 20}, {-20, 60}, {-6, 110}, {6, 110}, {20, 6
 TEST(OutlineVerdict, AFlameThatSwaysIsUsable) {
   const CaptureReport report = judged(kFlame);
   EXPECT_TRUE(report.usable) << report.reason;
-  EXPECT_EQ(report.facts.ragged, 0);
 }
 
 TEST(OutlineVerdict, WhatHasRunTogetherWithTheWaxThatItLightsIsNoFlame) {
@@ -65,7 +64,6 @@ TEST(OutlineVerdict, WhatHasRunTogetherWithTheWaxThatItLightsIsNoFlame) {
   outline[6] = {110, 2};
   const CaptureReport report = judged(outline);
   EXPECT_FALSE(report.usable);
-  EXPECT_EQ(report.facts.ragged, 1);
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 
@@ -74,7 +72,6 @@ TEST(OutlineVerdict, WhatIsAsWideAsHighIsNoFlame) {
   for (CurvePoint& p : outline) p.x *= 2.6;
   const CaptureReport report = judged(outline);
   EXPECT_FALSE(report.usable);
-  EXPECT_EQ(report.facts.ragged, 0);
   EXPECT_GT(report.facts.width, 0.8);
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }

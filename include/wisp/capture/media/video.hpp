@@ -21,6 +21,7 @@ namespace wisp {
 struct VideoOptions {
   double rate_hz = 0;  ///< frames a second; needed for a folder of images, overrides a file's own; 0: none
   std::optional<FrameRange> frames;  ///< nothing: all
+  int turn = 0;    ///< quarters by which pictures are turned clockwise, beyond what the file asks for, 0 to 3
   int threads = 1;                   ///< decoding threads, 1 to 64; more are faster by the clock, not by the processor
 };
 
@@ -71,7 +72,8 @@ class VideoReader {
   Result<std::optional<VideoFrame>> next();
 
   /// Up to `count` pictures spread over the clip's whole length, cheap to come by (a video's key frames); what next()
-  /// gives is not changed. Fewer, or none, where the file cannot be searched.
+  /// gives is not changed. None of a folder of
+  /// images, fewer or none where the file cannot be searched.
   std::vector<OwnedPicture> glimpses(int count);
 
   /// The frame that next() gave last, as RGB.

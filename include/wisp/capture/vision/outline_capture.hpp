@@ -41,6 +41,15 @@ struct DroppedFrame {
   std::string reason;     ///< "fade", "nothing there", "elsewhere", "duplicate", "lost"
 };
 
+/// What a film is like, whatever is in it.
+struct FilmFacts {
+  std::size_t pictures = 0;
+  double brightest = 255;         ///< the brightest point of all pictures, of 255 levels
+  double flat = 0;                ///< share of a picture that is as bright as a camera shows anything, median
+  double camera = 0;              ///< how far the whole picture moves from frame to frame, share of its size, mean
+  std::vector<std::size_t> cuts;  ///< pictures, 0-based and in order, that begin another scene
+};
+
 /// What tells an outline of a flame from one of something else. Shares are of the rows with an outline.
 struct OutlineFacts {
   std::size_t rows = 0;            ///< from the first outline until the flame is out for good
@@ -62,14 +71,13 @@ struct OutlineFacts {
   int stands = 1;                  ///< how many times every frame stands in the clip
   double misfit = 0;               ///< distance of edge points from the curve over the median height, mean
   double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
-  double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
-  double ragged = 0;               ///< share of outlines with deep notches: they fill little of their convex hulls
   double lean = 0;                 ///< from upright, degrees, median: 90 lies on its side
   double width = 0;                ///< across its axis, over its height, median
   double light = 0;                ///< luma over the brightest there is
   double contrast = 255;           ///< its brightness less that of what is around it, levels of 255
-  double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
+  double clipped = 0;              ///< share of it that is flat: as bright as it gets
   double height = 0;               ///< median, pixels
+  FilmFacts film;
 };
 
 /// What happened, in figures.
@@ -83,7 +91,6 @@ struct CaptureReport {
   int points = 0;
   double threshold = 0;  ///< brightness of the level, 0 black to 255 white
   PixelChannel channel = PixelChannel::kLuma;
-  double separation = 0;  ///< of the two clusters, 0 to 1
   Histogram histogram{};  ///< of brightness, 0 black to 255 white
   int width = 0;          ///< of the picture, pixels
   int height = 0;
@@ -131,7 +138,7 @@ struct OutlineSeen {
   Region found;                  ///< its box in the last frame that it was found in, pixels
   PixelChannel channel = PixelChannel::kLuma;
   double threshold = 0;  ///< brightness of the level, 0 black to 255 white
-  double clipped = 0;    ///< share of the thing that is as bright in every channel as it gets
+  double clipped = 0;    ///< share of the thing that is as bright as it gets
   int flames = 0;        ///< how many there are; 0 where no flame was looked for
 };
 
@@ -157,6 +164,9 @@ class OutlineCapture {
 
   /// Notes that the clip lost `count` frames here.
   void lost(int count = 1);
+
+  /// What the film is like so far.
+  FilmFacts film() const;
 
   /// What the frames so far have shown.
   OutlineSeen seen() const;

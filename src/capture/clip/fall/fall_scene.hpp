@@ -24,10 +24,6 @@ struct Wall {
 /// Precondition: every frame that is not empty has width × height pixels, and one is not empty.
 Wall wall_of(std::span<const Frame> frames, int width, int height);
 
-/// By how many small pixels a frame's wall stands off; 0 where it has no marks to tell by. `gain`: how much brighter it
-/// is in this frame.
-double shift_of(const Frame& frame, const Wall& wall, float gain);
-
 /// Something that stands before the wall. Pixels of the small picture, y down.
 struct Thing {
   double x = 0;         ///< its middle

@@ -1,0 +1,109 @@
+#include "capture/vision/film_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/statistics.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kMaxPoints = 96;              // points wide and high, at most
+constexpr std::size_t kBlock = 4;           // points wide and high, of which the mean is compared
+constexpr int kDark = 24;                   // levels: coding errors and a camera's noise lie below
+constexpr double kMaxIsNew = 0.4;           // of the light above them: cuts 0.6 to 1, a snuffed candle 0.2
+constexpr double kMinTotalLight = 3 * 255;  // of all points: less is a spark
+constexpr int kFlat = 250;                  // of 255 levels
+
+// Light of `now` where `before` had none, as a share of it.
+template <class Values>
+double fresh_share(const Values& now, const Values& before, double least) {
+  double light = 0, fresh = 0;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    light += std::max(0.0, static_cast<double>(now[k]) - kDark);
+    fresh += std::max(0.0, static_cast<double>(now[k]) - std::max<double>(before[k], kDark));
+  }
+  return light > least ? fresh / light : 0;
+}
+
+}  // namespace
+
+double step_between(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr int kMaxStep = 8;
+  constexpr double kExplains = 0.7;
+  const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
+  std::vector<double> differs;
+  for (int by = -reach; by <= reach; ++by) {
+    double sum = 0;
+    for (int k = std::max(0, -by); k < std::min(size, size - by); ++k) {
+      sum += std::abs(a[static_cast<std::size_t>(k)] - b[static_cast<std::size_t>(k + by)]);
+    }
+    differs.push_back(sum / (size - std::abs(by)));
+  }
+  const auto best = std::min_element(differs.begin(), differs.end());
+  const auto still = differs.begin() + reach;
+  return *best < kExplains * *still ? static_cast<double>(best - still) / size : 0;
+}
+
+void FilmLook::sample(const Picture& picture) {
+  const int step = std::max(1, (std::max(picture.width, picture.height) + kMaxPoints - 1) / kMaxPoints);
+  const auto points = [step](int pixels) { return static_cast<std::size_t>((pixels + step - 1) / step); };
+  columns_ = points(picture.width);
+  now_.resize(columns_ * points(picture.height));
+  sample_channel(picture, PixelChannel::kLuma, picture.frame(), step, now_.data());
+}
+
+void FilmLook::look(const Picture& picture) {
+  sample(picture);
+  const std::size_t rows = now_.size() / columns_, wide = (columns_ + kBlock - 1) / kBlock;
+  std::vector<double> blocks(wide * ((rows + kBlock - 1) / kBlock)), across(columns_), down(rows);
+  for (std::size_t k = 0; k < now_.size(); ++k) {
+    const std::size_t x = k % columns_, y = k / columns_;
+    const double value = now_[k];
+    blocks[y / kBlock * wide + x / kBlock] += value / (kBlock * kBlock);
+    across[x] += value / static_cast<double>(rows);
+    down[y] += value / static_cast<double>(columns_);
+  }
+  const auto bright = [&](std::uint8_t value) { return brightness(picture, PixelChannel::kLuma, value); };
+  const auto flat = std::count_if(now_.begin(), now_.end(), [&](auto value) { return bright(value) >= kFlat; });
+  flat_.push_back(static_cast<double>(flat) / static_cast<double>(now_.size()));
+  brightest_point_ = std::max(brightest_point_, bright(*std::max_element(now_.begin(), now_.end())));
+  if (!blocks_.empty()) {
+    changes_.push_back(std::min(fresh_share(blocks, blocks_, kDark), fresh_share(blocks_, blocks, kDark)));
+    moved_ += std::hypot(step_between(across_, across), step_between(down_, down));
+  }
+  blocks_ = std::move(blocks);
+  across_ = std::move(across);
+  down_ = std::move(down);
+}
+
+// A cut changes a picture's light far more than its other pictures change from one to the next.
+FilmFacts FilmLook::facts() const {
+  constexpr double kMinCut = 0.25, kBeyondOthers = 3;
+  FilmFacts out{.pictures = flat_.size()};
+  if (changes_.empty()) return out;
+  const double cut = std::max(kMinCut, kBeyondOthers * median(changes_));
+  for (std::size_t k = 0; k < changes_.size(); ++k) {
+    if (changes_[k] > cut) out.cuts.push_back(k + 1);
+  }
+  out.brightest = brightest_point_;
+  out.flat = median(flat_);
+  out.camera = moved_ / static_cast<double>(changes_.size());
+  return out;
+}
+
+void FilmLook::remember(const Picture& picture) {
+  sample(picture);
+  if (brightest_.empty()) brightest_.assign(now_.size(), 0);
+  std::transform(now_.begin(), now_.end(), brightest_.begin(), brightest_.begin(),
+                 [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+}
+
+bool FilmLook::another(const Picture& picture) {
+  if (brightest_.empty()) return false;
+  sample(picture);
+  return fresh_share(now_, brightest_, kMinTotalLight) > kMaxIsNew;
+}
+
+}  // namespace wisp
