@@ -12,7 +12,7 @@
 #include "capture/capture_clip.hpp"
 #include "capture/clip/clip_ear.hpp"
 #include "capture/clip/views/view_join.hpp"
-#include "capture/vision/outline_verdict.hpp"
+#include "capture/vision/film_look.hpp"
 #include "record/number_text.hpp"
 #include "record/verdict.hpp"
 #include "wisp/capture/media/sound.hpp"
@@ -76,8 +76,8 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames, .turn = look.turn});
   if (!reader) return reader.error();
   const VideoInfo& info = reader->info();
-  auto live =
-      LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images || !look.sound}, options);
+  auto live = LiveCapture::create(
+      {.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images || !look.sound}, options);
   if (!live) return live.error();
   if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
   if (look.film) *look.film = live->picture().film();
@@ -144,7 +144,8 @@ Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Resul
   const std::int64_t first = options.frames ? options.frames->first : 1;
   ClipCapture other = options;
   other.frames = longest_scene(film, first);
-  if (other.frames && usable(other)) return {"the film is cut; give one scene of it: --frames " + frames(*other.frames), ""};
+  if (other.frames && usable(other))
+    return {"the film is cut; give one scene of it: --frames " + frames(*other.frames), ""};
   if (refused) other.frames = longest_part(refused->recording, first);
   if (refused && other.frames && usable(other))
     return {"", "; a part of it is usable: --frames " + frames(*other.frames)};

@@ -48,7 +48,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"describe", {{"base"}, {"nlohmann/"}}},
       {"export", {{"base", "model", "run"}, {}}},
       {"learn", {{"base", "model", "run", "sound", "record"}, {"Eigen/"}}},
-      {"capture/vision", {{"base", "model", "record"}, {}}},
+      {"capture/vision", {{"base", "model", "record"}, {}, {"capture/vision/film_look.hpp"}}},
       {"capture/clip",
        {{"base", "model", "sound", "record", "capture/vision"},
         {},

@@ -74,7 +74,8 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence);
 
-/// The median left, upper, right and lower sides of some boxes: what a thing now and then runs together with counts not.
+/// The median left, upper, right and lower sides of some boxes: what a thing now and then runs together with counts
+/// not.
 ///
 /// Precondition: there is one.
 Region usual_place(std::span<const Region> seen);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "base/statistics.hpp"
+#include "base/verdict.hpp"
 
 namespace wisp {
 namespace {
@@ -104,6 +105,23 @@ bool FilmLook::another(const Picture& picture) {
   if (brightest_.empty()) return false;
   sample(picture);
   return fresh_share(now_, brightest_, kMinTotalLight) > kMaxIsNew;
+}
+
+std::optional<std::string> film_reason(const FilmFacts& film) {
+  const Criterion criteria[] = {
+      {static_cast<double>(film.pictures), Bound::kAtLeast, 20, "it has {figure} frames only; give a longer clip", 0},
+      {film.brightest, Bound::kAtLeast, 80,
+       "the film is too dark: its brightest point has {figure} of 255 levels, and no flame can be told in it; raise "
+       "the exposure",
+       0},
+      {100 * film.camera, Bound::kAtMost, 2,
+       "the camera moves by {figure} % of the picture from frame to frame, and no flame can be told in it; keep the "
+       "camera still",
+       0},
+      {100 * film.flat, Bound::kAtMost, 20,
+       "the film is too bright: {figure} % of the picture is white, and no flame can be told in it; lower the exposure",
+       0}};
+  return first_missed(criteria);
 }
 
 }  // namespace wisp

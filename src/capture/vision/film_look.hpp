@@ -5,6 +5,8 @@
 // puts it out is small. Where a film is cut to another scene, its light is where none was before, and the old is gone.
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "wisp/capture/vision/outline_capture.hpp"
@@ -40,8 +42,11 @@ class FilmLook {
   std::vector<double> blocks_, across_, down_;  // means of the last picture's blocks, columns and rows
   std::vector<double> changes_;  // the light that is new or that is gone, whichever is less, from picture to picture
   double brightest_point_ = 0;
-  std::vector<double> flat_;     // share of each picture that is as bright as a camera shows anything
-  double moved_ = 0;             // sum of steps, shares of the picture
+  std::vector<double> flat_;  // share of each picture that is as bright as a camera shows anything
+  double moved_ = 0;          // sum of steps, shares of the picture
 };
+
+/// Why no flame can be told in a film, whatever is in it: too short, too dark, moved, too bright.
+std::optional<std::string> film_reason(const FilmFacts& film);
 
 }  // namespace wisp

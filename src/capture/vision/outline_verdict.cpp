@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "base/verdict.hpp"
+#include "capture/vision/film_look.hpp"
 #include "capture/vision/outline_verdict_weights.hpp"
 
 namespace wisp {
@@ -32,7 +32,7 @@ constexpr const char* kShape =
 constexpr const char* kGlare =
     "it is clipped flat, {clipped} of it as bright as the camera shows anything, and its shape is not a flame's; lower "
     "the exposure";
-constexpr double kIrregular = 0.15;     // of the frames are lost: that is the cause of what else is wrong
+constexpr double kIrregular = 0.15;    // of the frames are lost: that is the cause of what else is wrong
 constexpr double kClippedShape = 0.5;  // a shape of which more is clipped is overexposed, whatever it is
 
 constexpr std::array<FactRow, 19> kFacts{{
@@ -198,23 +198,6 @@ std::vector<WeighedFact> weighed_facts(const CaptureReport& report) {
     out.push_back({kFacts[k].name, values[k], any ? 0 : flame, any ? flame + right : right});
   }
   return out;
-}
-
-std::optional<std::string> film_reason(const FilmFacts& film) {
-  const Criterion criteria[] = {
-      {static_cast<double>(film.pictures), Bound::kAtLeast, 20, "it has {figure} frames only; give a longer clip", 0},
-      {film.brightest, Bound::kAtLeast, 80,
-       "the film is too dark: its brightest point has {figure} of 255 levels, and no flame can be told in it; raise "
-       "the exposure",
-       0},
-      {100 * film.camera, Bound::kAtMost, 2,
-       "the camera moves by {figure} % of the picture from frame to frame, and no flame can be told in it; keep the "
-       "camera still",
-       0},
-      {100 * film.flat, Bound::kAtMost, 20,
-       "the film is too bright: {figure} % of the picture is white, and no flame can be told in it; lower the exposure",
-       0}};
-  return first_missed(criteria);
 }
 
 void judge_outline(CaptureReport& report) {

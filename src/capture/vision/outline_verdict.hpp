@@ -17,7 +17,4 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
 /// and without which the verdict would be yes; that there is no flame is asked first.
 void judge_outline(CaptureReport& report);
 
-/// Why no flame can be told in a film, whatever is in it: too short, too dark, moved, too bright.
-std::optional<std::string> film_reason(const FilmFacts& film);
-
 }  // namespace wisp

@@ -269,22 +269,28 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
-// Share of a thing that is as bright as it gets anywhere: there the camera tells no more of it. That need not be white:
-// tone curves end below.
+// Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no
+// more of it. That need not be white: tone curves end below.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
   constexpr int kCoding = 5;  // levels: coding errors of a flat area
-  if (dark) return 0;
-  const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, false),
-                    luma = sample_grid(pictures, PixelChannel::kLuma, thing.home, kFineGrid, false);
-  std::vector<int> inside;
-  for (std::size_t k = 0; k < own.pictures.size(); ++k) {
-    for (std::size_t at = 0; at < own.size(); ++at) {
-      if (own.pictures[k][at] > thing.level) inside.push_back(luma.pictures[k][at]);
+  const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, dark);
+  std::vector<std::uint8_t> flat;  // of the points of the thing
+  for (const PixelChannel channel : kChannels) {
+    const bool grey = !has_channel(pictures.front(), PixelChannel::kRed);
+    if (grey != (channel == PixelChannel::kLuma)) continue;
+    const PictureGrid grid = sample_grid(pictures, channel, thing.home, kFineGrid, dark);
+    std::vector<int> inside;
+    for (std::size_t k = 0; k < own.pictures.size(); ++k) {
+      for (std::size_t at = 0; at < own.size(); ++at) {
+        if (own.pictures[k][at] > thing.level) inside.push_back(grid.pictures[k][at]);
+      }
     }
+    const int high = quantile(inside, 0.9);
+    flat.resize(inside.size(), 1);
+    for (std::size_t k = 0; k < inside.size(); ++k) flat[k] &= inside[k] >= high - kCoding;
   }
-  const int high = quantile(inside, 0.9);
-  const auto flat = std::count_if(inside.begin(), inside.end(), [&](int value) { return value >= high - kCoding; });
-  return static_cast<double>(flat) / static_cast<double>(std::max<std::size_t>(inside.size(), 1));
+  const auto count = static_cast<double>(std::count(flat.begin(), flat.end(), 1));
+  return dark || flat.empty() ? 0 : count / static_cast<double>(flat.size());
 }
 
 Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {

@@ -45,7 +45,7 @@ struct Survey {
   double taper = 0;            ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
   double light = 1;            ///< its luma over the brightest there is
   double contrast = 255;       ///< its brightness less that of what is around it, levels
-  double clipped = 0;          ///< share of it that is flat: as bright as it gets
+  double clipped = 0;          ///< share of it that is flat: as bright in every channel as it gets
   int flames = 0;              ///< how many flames there are; 0 where any thing was looked for
   std::vector<Region> others;  ///< the median boxes of the others
 };

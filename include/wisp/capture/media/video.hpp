@@ -21,8 +21,8 @@ namespace wisp {
 struct VideoOptions {
   double rate_hz = 0;  ///< frames a second; needed for a folder of images, overrides a file's own; 0: none
   std::optional<FrameRange> frames;  ///< nothing: all
-  int turn = 0;    ///< quarters by which pictures are turned clockwise, beyond what the file asks for, 0 to 3
-  int threads = 1;                   ///< decoding threads, 1 to 64; more are faster by the clock, not by the processor
+  int turn = 0;     ///< quarters by which pictures are turned clockwise, beyond what the file asks for, 0 to 3
+  int threads = 1;  ///< decoding threads, 1 to 64; more are faster by the clock, not by the processor
 };
 
 /// What a clip says of itself.

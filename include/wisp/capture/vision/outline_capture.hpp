@@ -75,7 +75,7 @@ struct OutlineFacts {
   double width = 0;                ///< across its axis, over its height, median
   double light = 0;                ///< luma over the brightest there is
   double contrast = 255;           ///< its brightness less that of what is around it, levels of 255
-  double clipped = 0;              ///< share of it that is flat: as bright as it gets
+  double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
   double height = 0;               ///< median, pixels
   FilmFacts film;
 };
@@ -138,7 +138,7 @@ struct OutlineSeen {
   Region found;                  ///< its box in the last frame that it was found in, pixels
   PixelChannel channel = PixelChannel::kLuma;
   double threshold = 0;  ///< brightness of the level, 0 black to 255 white
-  double clipped = 0;    ///< share of the thing that is as bright as it gets
+  double clipped = 0;    ///< share of the thing that is as bright in every channel as it gets
   int flames = 0;        ///< how many there are; 0 where no flame was looked for
 };
 

@@ -122,7 +122,8 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
 // By how many small pixels a frame's wall stands off, by the means of columns and rows; 0 where it has no marks.
 double shift_of(const Frame& frame, const Wall& wall, float gain) {
   const auto width = static_cast<std::size_t>(wall.width);
-  std::vector<double> across(width), down(static_cast<std::size_t>(wall.height)), across_then = across, down_then = down;
+  std::vector<double> across(width), down(static_cast<std::size_t>(wall.height)), across_then = across,
+                                                                                  down_then = down;
   for (std::size_t p = 0; p < frame.size(); ++p) {
     across[p % width] += frame[p], down[p / width] += frame[p];
     across_then[p % width] += gain * wall.brightness[p], down_then[p / width] += gain * wall.brightness[p];
