@@ -94,32 +94,20 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest stretch of rows with outlines, in the film's frames; nothing where that is hardly a part, or all of it.
-std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first) {
+// The longest stretch of rows without one that breaks it, in the film's frames; nothing where that is hardly a part, or
+// all of it.
+template <class Breaks>
+std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
-  const std::vector<double>& samples = recording.channels[*find_channel(recording, "p0.x")].samples;
   std::size_t begin = 0, best = 0, best_begin = 0;
-  for (std::size_t row = 0; row < samples.size(); ++row) {
-    if (std::isnan(samples[row])) begin = row + 1;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    if (breaks(row)) begin = row + 1;
     if (row + 1 - begin > best) best = row + 1 - begin, best_begin = begin;
   }
   const auto rows = static_cast<double>(best);
-  if (rows < kMinSeconds * recording.rate_hz || rows > kMaxShare * static_cast<double>(samples.size())) return {};
+  if (rows < kMinSeconds * recording.rate_hz || rows > kMaxShare * static_cast<double>(recording.rows())) return {};
   return FrameRange{first + static_cast<std::int64_t>(best_begin),
                     first + static_cast<std::int64_t>(best_begin + best) - 1};
-}
-
-// The longest scene of a film that is cut, in the film's frames; nothing where it is not.
-std::optional<FrameRange> longest_scene(const FilmFacts& film, std::int64_t first) {
-  std::optional<FrameRange> best;
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k <= film.cuts.size() && !film.cuts.empty(); ++k) {
-    const std::size_t end = k < film.cuts.size() ? film.cuts[k] : film.pictures;
-    const FrameRange scene{first + static_cast<std::int64_t>(begin), first + static_cast<std::int64_t>(end) - 1};
-    if (!best || scene.last - scene.first > best->last - best->first) best = scene;
-    begin = end;
-  }
-  return best;
 }
 
 // What would make a refused film usable: a sentence in the place of the reason, or a clause behind it; both empty where
@@ -143,12 +131,16 @@ Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Resul
   const auto frames = [](const FrameRange& of) { return std::to_string(of.first) + ":" + std::to_string(of.last); };
   const std::int64_t first = options.frames ? options.frames->first : 1;
   ClipCapture other = options;
-  other.frames = longest_scene(film, first);
-  if (other.frames && usable(other))
-    return {"the film is cut; give one scene of it: --frames " + frames(*other.frames), ""};
-  if (refused) other.frames = longest_part(refused->recording, first);
-  if (refused && other.frames && usable(other))
-    return {"", "; a part of it is usable: --frames " + frames(*other.frames)};
+  if (refused) {
+    const Recording& recording = refused->recording;
+    const std::vector<double>& outline = recording.channels[*find_channel(recording, "p0.x")].samples;
+    other.frames = longest_part(
+        recording, first, [&](std::size_t row) { return std::binary_search(film.cuts.begin(), film.cuts.end(), row); });
+    if (!film.cuts.empty() && other.frames && usable(other))
+      return {"the film is cut; give one scene of it: --frames " + frames(*other.frames), ""};
+    other.frames = longest_part(recording, first, [&](std::size_t row) { return std::isnan(outline[row]); });
+    if (other.frames && usable(other)) return {"", "; a part of it is usable: --frames " + frames(*other.frames)};
+  }
   other.frames = {first, first - 1 + std::min(kEnoughFrames, static_cast<std::int64_t>(film.pictures))};
   for (const int turn : {2, 1, 3}) {
     if (usable(other, turn)) return {kTurned[turn], ""};
@@ -208,7 +200,7 @@ namespace {
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code none;
-  if (std::filesystem::equivalent(a, b, none)) return true;
+  if (!is_regular_file(a, none) || !is_regular_file(b, none)) return equivalent(a, b, none);
   std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
   using Bytes = std::istreambuf_iterator<char>;
   return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
