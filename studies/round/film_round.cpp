@@ -1,7 +1,9 @@
 // Films a candle of three dimensions from several level directions, each film with a camera, a microphone and a start
 // of its own, and writes what is true: film_round PREFIX [--seconds 20] [--angles 0,90] [--seed 1] [--from DEG]
-// [--side 36] [--cell 1.25]. PREFIX.ANGLE.mp4 and PREFIX.truth.csv.
+// [--side 36] [--cell 1.25] [--wind SPEED] [--orbit SECONDS]: a steady wind, and cameras that go once round in so long.
+// PREFIX.ANGLE.mp4 and PREFIX.truth.csv.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -40,10 +42,11 @@ constexpr int kHeights = 6;  // of the truth's axis, as shares of the height fro
 // A blow's direction is its own: drawn anew after a pause that is more than a lull.
 class Winds {
  public:
-  Winds(std::uint64_t seed, double seconds, double from)
+  Winds(std::uint64_t seed, double seconds, double from, double steady)
       : signal_(value_or_abort(
             WindSignal::generate({.most = 0.9, .bandwidth_hz = 6 / kHaste, .seed = seed}, kHaste * seconds))),
-        from_(from) {
+        from_(from),
+        steady_(steady) {
     flow::RandomNumbers random(seed, 77);
     double direction = 0, calm = 1;
     for (double t = 0; t < seconds; t += 1 / 240.0) {
@@ -52,7 +55,10 @@ class Winds {
       directions_.push_back(direction);
     }
   }
-  double speed(double t) const { return t < 0 ? 0 : signal_.at(kHaste * t); }
+  double speed(double t) const {
+    if (steady_ > 0) return steady_ * std::clamp(t, 0.0, 1.0);
+    return t < 0 ? 0 : signal_.at(kHaste * t);
+  }
   double direction(double t) const {
     if (from_ >= 0) return from_ * std::numbers::pi / 180;
     const double place = std::max(0.0, t) * 240;
@@ -61,7 +67,7 @@ class Winds {
 
  private:
   WindSignal signal_;
-  double from_;
+  double from_, steady_;
   std::vector<double> directions_;
 };
 
@@ -77,13 +83,15 @@ struct Phone {
 
 int film_round(int count, char** words) {
   std::map<std::string, std::string> flags{{"--seconds", "20"}, {"--angles", "0,90"}, {"--seed", "1"},
-                                           {"--from", "-1"},    {"--side", "36"},     {"--cell", "1.25"}};
+                                           {"--from", "-1"},    {"--side", "36"},     {"--cell", "1.25"},
+                                           {"--wind", "0"},     {"--orbit", "0"}};
   for (int k = 2; k + 1 < count; k += 2) flags[words[k]] = words[k + 1];
   const auto number = [&](const char* flag) { return std::atof(flags[flag].c_str()); };
   const std::string prefix = count > 1 ? words[1] : "round";
   const double seconds = number("--seconds");
   const auto seed = static_cast<std::uint64_t>(number("--seed"));
-  const Winds winds(seed, seconds + 1, number("--from"));
+  const Winds winds(seed, seconds + 1, number("--from"), number("--wind"));
+  const double around = number("--orbit") > 0 ? 360 / number("--orbit") : 0;
   flow::RoundOptions options{.side = static_cast<int>(number("--side")), .cell_mm = number("--cell")};
   flow::RoundFlow flow(options);
 
@@ -122,7 +130,7 @@ int film_round(int count, char** words) {
     for (Phone& phone : phones) {
       const double due = phone.start + static_cast<double>(phone.frames + 1) / kRate;
       if (std::abs(now - due) > 1e-6) continue;
-      const auto pixels = phone.camera.picture(flow.seen_from(phone.azimuth), phone.frames);
+      const auto pixels = phone.camera.picture(flow.seen_from(phone.azimuth + around * now), phone.frames);
       must(phone.film.write(Image::from_rgb(pixels, 480, 480)));
       const auto end = static_cast<std::uint64_t>(std::llround((due - phone.start) * 44100));
       wind.clear();

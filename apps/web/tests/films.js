@@ -23,6 +23,12 @@ export const noFilms = !existsSync(program) && 'build/release/bin/wisp is not bu
 export const noConverter = noFilms || (!runs('ffmpeg') && 'there is no ffmpeg here');
 
 const convert = (...values) => execFileSync('ffmpeg', ['-v', 'error', '-y', ...values]);
+/** What makes another film of one, in the folder. */
+const another = (name, ...values) => (film, folder) => {
+  const made = join(folder, name);
+  convert('-i', film, ...values, made);
+  return made;
+};
 
 /** Ten seconds of a candle in gusts, blown out near the end, with the sound of the wind: made once for every program. */
 export function candleFilm(folder) {
@@ -46,11 +52,10 @@ export function recordedFalls(folder) {
 }
 
 /** The same, to be shown turned by a quarter. */
-export function turnedFilm(film, folder) {
-  const turned = join(folder, 'turned.mp4');
-  convert('-i', film, '-t', '5', '-c', 'copy', '-metadata:s:v:0', 'rotate=90', turned);
-  return turned;
-}
+export const turnedFilm = another('turned.mp4', '-t', '5', '-c', 'copy', '-metadata:s:v:0', 'rotate=90');
+
+/** Five seconds of it in a file that states no colours. */
+export const untaggedFilm = another('untagged.mp4', '-t', '5', '-vf', 'setparams=colorspace=unknown:color_primaries=unknown:color_trc=unknown', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy');
 
 /** The recording that the program captures. */
 export function capturedByProgram(film, folder) {
@@ -82,18 +87,10 @@ export function wallFilm(folder) {
 }
 
 /** Two seconds of it as browsers record: VP9 and Opus in WebM. */
-export function webFilm(film, folder) {
-  const web = join(folder, 'web.webm');
-  convert('-i', film, '-t', '2', '-c:v', 'libvpx-vp9', '-deadline', 'realtime', '-cpu-used', '8', '-crf', '20', '-b:v', '0', '-c:a', 'libopus', web);
-  return web;
-}
+export const webFilm = another('web.webm', '-t', '2', '-c:v', 'libvpx-vp9', '-deadline', 'realtime', '-cpu-used', '8', '-crf', '20', '-b:v', '0', '-c:a', 'libopus');
 
 /** Its sound alone, in a film's file. */
-export function soundAlone(film, folder) {
-  const sound = join(folder, 'sound.mp4');
-  convert('-i', film, '-t', '1', '-vn', '-c:a', 'copy', sound);
-  return sound;
-}
+export const soundAlone = another('sound.mp4', '-t', '1', '-vn', '-c:a', 'copy');
 
 /** Its beginning, as a copy that was broken off: where MP4 says what is in it is missing. */
 export function brokenOff(film, folder) {
@@ -104,25 +101,13 @@ export function brokenOff(film, folder) {
 }
 
 /** Its first second. */
-export function shortFilm(film, folder) {
-  const short = join(folder, 'short.mp4');
-  convert('-i', film, '-t', '1', '-c', 'copy', short);
-  return short;
-}
+export const shortFilm = another('short.mp4', '-t', '1', '-c', 'copy');
 
 /** The same with every seventh frame left out, each of the others at its own time. */
-export function unevenFilm(film, folder) {
-  const uneven = join(folder, 'uneven.mp4');
-  convert('-i', film, '-t', '4', '-vf', "select='not(eq(mod(n,7),3))'", '-vsync', 'vfr', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy', uneven);
-  return uneven;
-}
+export const unevenFilm = another('uneven.mp4', '-t', '4', '-vf', "select='not(eq(mod(n,7),3))'", '-vsync', 'vfr', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy');
 
 /** Two thirds of a second of it at 7680 by 4320 pixels. */
-export function hugePicture(film, folder) {
-  const huge = join(folder, 'huge.mp4');
-  convert('-i', film, '-an', '-t', '0.67', '-r', '15', '-vf', 'scale=-2:4320:flags=fast_bilinear,pad=7680:4320:(ow-iw)/2:0', '-c:v', 'libx264', '-preset', 'ultrafast', '-crf', '26', '-pix_fmt', 'yuv420p', huge);
-  return huge;
-}
+export const hugePicture = another('huge.mp4', '-an', '-t', '0.67', '-r', '15', '-vf', 'scale=-2:4320:flags=fast_bilinear,pad=7680:4320:(ow-iw)/2:0', '-c:v', 'libx264', '-preset', 'ultrafast', '-crf', '26', '-pix_fmt', 'yuv420p');
 
 /** The same in a file of more than 2 GB, most of it a hole that the disk does not hold. */
 export function hugeFile(film, folder) {

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { after, describe, it } from 'node:test';
 import { blowOut, chooses, complete, drop, dropAll, enterStudio, onPage, openBrowser, painted, panel, saved, says, seen, skip, step, toLearn, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
-import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
+import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, untaggedFilm, wallFilm } from './films.js';
 
 const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
 after(() => rmSync(folder, { recursive: true }));
@@ -114,21 +114,23 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
   });
 });
 
-describe('a film that lies on its side', { skip: skip || noConverter }, () => {
-  it('is captured as the program captures it', async () => {
-    const turned = turnedFilm(film(), folder);
-    const opened = await openBrowser();
-    const page = await opened.page('#scene=candle&detail=0.1', laptop);
-    await complete(page);
-    await drop(page, 'turned.mp4', readFileSync(turned));
-    await step(page, 'look');
-    await toLearn(page);
-    await page.click('[data-act=learn]');
-    await step(page, 'blow');
-    const recording = await saved(page, '[data-file=recording]');
-    assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(turned, folder), 'utf8'));
-    await opened.close();
-  });
+describe('is captured as the program captures it:', { skip: skip || noConverter }, () => {
+  for (const [what, made] of [['a film that lies on its side', turnedFilm], ['a film that states no colours', untaggedFilm]]) {
+    it(what, async () => {
+      const other = made(film(), folder);
+      const opened = await openBrowser();
+      const page = await opened.page('#scene=candle&detail=0.1', laptop);
+      await complete(page);
+      await drop(page, 'other.mp4', readFileSync(other));
+      await step(page, 'look');
+      await toLearn(page);
+      await page.click('[data-act=learn]');
+      await step(page, 'blow');
+      const recording = await saved(page, '[data-file=recording]');
+      assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(other, folder), 'utf8'));
+      await opened.close();
+    });
+  }
 });
 
 describe('a camera', { skip: skip || noConverter }, () => {

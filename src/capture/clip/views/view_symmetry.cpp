@@ -10,7 +10,8 @@ namespace wisp {
 namespace {
 
 constexpr int kShuffles = 1000;
-constexpr double kMostOneSided = 0.8;  // power of the directions' own harmonics: 4 from one side, 0 from all alike
+// Power of the directions' own harmonics: 4 of one, 1 and more of two, 0 of all alike.
+constexpr double kMostOneSided = 0.95;
 
 // The mean square, over all directions, of two harmonics that blows of such numbers show.
 double harmonics(std::span<const BlowAnswer> blows, std::span<const double> numbers) {
