@@ -106,8 +106,8 @@ const char* form_of(InputShape shape) {
       return "linear";
     case InputShape::kSplitSign:
       return "split_sign";
-    case InputShape::kSplitSignPowers:
-      return "split_sign_powers";
+    case InputShape::kEvenOdd:
+      return "even_odd";
     case InputShape::kWindAlong:
       return "wind_along";
     case InputShape::kWindAcross:

@@ -90,7 +90,7 @@ Result<void> check_resampled(const ResampledResiduals& resampled, std::size_t ou
   const bool driven = resampled.toward >= 0;
   if (resampled.across < 0 || 2 * static_cast<std::size_t>(resampled.across) > outputs ||
       (resampled.across > 0 && driven &&
-       (resampled.mirror.empty() || resampled.against != resampled.toward + 3 || resampled.against + 6 >= nu))) {
+       (resampled.mirror.empty() || resampled.against >= 0 || resampled.toward + 3 >= nu))) {
     return Error{"the resampled residuals are in the round, and not of outputs and an input that are"};
   }
   const std::size_t ny = outputs - static_cast<std::size_t>(resampled.across);

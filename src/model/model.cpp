@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kPowers = 6;  // regressors of a wind in the plane, and of each part of a vector
+constexpr int kPowers = 3;  // of a wind's size, with its sign, and of each part of a vector
 
 // Which outputs and regressors those of the plane become. Rows of coefficients stay as they are.
 struct Places {
@@ -17,11 +17,12 @@ struct Places {
   int outputs() const { return symmetric + 2 * vectors; }
   bool is_across(int output) const { return output >= symmetric + vectors; }
   int source(int output) const { return is_across(output) ? output - vectors : output; }
-  int first_regressor(int output) const { return output < symmetric ? 0 : is_across(output) ? 2 * kPowers : kPowers; }
+  // How far a row's regressors move: those of x are in their place.
+  int shift(int output) const { return is_across(output) ? kPowers : 0; }
 };
 
 ArxOrders orders_of(const ArxOrders& plane, const Places& places) {
-  const int ny = places.outputs(), nu = 3 * plane.inputs();
+  const int ny = places.outputs(), nu = plane.inputs() == 0 ? 0 : plane.inputs() + kPowers;
   ArxOrders out{OrderMatrix(ny, ny), OrderMatrix(ny, nu), OrderMatrix(ny, nu)};
   for (int i = 0; i < ny; ++i) {
     const int from = places.source(i), shift = places.is_across(i) ? places.vectors : 0;
@@ -29,8 +30,9 @@ ArxOrders orders_of(const ArxOrders& plane, const Places& places) {
       out.na(i, j < places.symmetric ? j : j + shift) = plane.na(from, j);
     }
     for (int k = 0; k < plane.inputs(); ++k) {
-      out.nb(i, places.first_regressor(i) + k) = plane.nb(from, k);
-      out.nk(i, places.first_regressor(i) + k) = plane.nk(from, k);
+      if (plane.nb(from, k) == 0) continue;
+      out.nb(i, places.shift(i) + k) = plane.nb(from, k);
+      out.nk(i, places.shift(i) + k) = plane.nk(from, k);
     }
   }
   return out;
@@ -50,13 +52,11 @@ void turn_dynamics(ArxModel& arx, const Places& places) {
   repeat_last(arx.theta, vectors);
   arx.std_error.clear();
   for (auto* values : {&arx.constant, &arx.output_mean}) values->resize(values->size() + vectors, 0.0);
-  arx.input_mean.resize(3 * arx.input_mean.size(), 0.0);
+  arx.input_mean.resize(static_cast<std::size_t>(arx.orders.inputs()), 0.0);
   repeat_last(arx.noise.sd, vectors);
   repeat_last(arx.noise.sd_ci95, vectors);
   arx.noise.mixing.resize(arx.noise.mixing.size() + vectors * static_cast<std::size_t>(arx.noise.rank), 0.0);
-  ResampledResiduals& resampled = arx.noise.resampled;
-  resampled.across = places.vectors;
-  for (int* regressor : {&resampled.toward, &resampled.against}) *regressor += *regressor < 0 ? 0 : kPowers;
+  arx.noise.resampled.across = places.vectors;
 }
 
 void turn_shape(ShapeComponents& shape) {
@@ -100,13 +100,13 @@ std::size_t regressor_count(const std::vector<Input>& inputs) {
 }
 
 int regressor_count(InputShape shape) {
-  const int vectors = shape == InputShape::kWindAlong ? 2 : 1;
-  return vectors * (splits_sign(shape) ? 2 : 1) * (has_powers(shape) ? 3 : 1);
+  if (shape == InputShape::kWindAcross) return 3;
+  return has_powers(shape) ? 6 : splits_sign(shape) ? 2 : 1;
 }
 
 bool splits_sign(InputShape shape) { return shape == InputShape::kSplitSign || has_powers(shape); }
 
-bool has_powers(InputShape shape) { return shape == InputShape::kSplitSignPowers || is_vector(shape); }
+bool has_powers(InputShape shape) { return shape == InputShape::kEvenOdd || is_vector(shape); }
 
 bool is_vector(InputShape shape) { return shape == InputShape::kWindAlong || shape == InputShape::kWindAcross; }
 
@@ -128,8 +128,8 @@ Result<Model> in_the_round(const Model& plane) {
   }
   const bool still = std::any_of(arx->input_mean.begin(), arx->input_mean.end(), [](double mean) { return mean != 0; });
   const auto& resampled = arx->noise.resampled;
-  const bool sided = resampled.toward == 0 && resampled.against == 3 && !resampled.mirror.empty();
-  if (!plane.inputs.empty() && (plane.inputs.size() > 1 || plane.inputs[0].shape != InputShape::kSplitSignPowers ||
+  const bool sided = resampled.toward == kPowers && resampled.against < 0 && !resampled.mirror.empty();
+  if (!plane.inputs.empty() && (plane.inputs.size() > 1 || plane.inputs[0].shape != InputShape::kEvenOdd ||
                                 plane.inputs[0].lowest != -plane.inputs[0].highest || still || !sided)) {
     return Error{"the model can't be turned about the vertical: expected one input, a wind from either side"};
   }

@@ -88,40 +88,41 @@ struct ModelBuilder;
 enum class InputShape : uint8_t {
   Linear = 0,
   SplitSign = 1,
-  SplitSignPowers = 4,
   WindAlong = 5,
   WindAcross = 6,
+  EvenOdd = 7,
   MIN = Linear,
-  MAX = WindAcross
+  MAX = EvenOdd
 };
 
 inline const InputShape (&EnumValuesInputShape())[5] {
   static const InputShape values[] = {
     InputShape::Linear,
     InputShape::SplitSign,
-    InputShape::SplitSignPowers,
     InputShape::WindAlong,
-    InputShape::WindAcross
+    InputShape::WindAcross,
+    InputShape::EvenOdd
   };
   return values;
 }
 
 inline const char * const *EnumNamesInputShape() {
-  static const char * const names[8] = {
+  static const char * const names[9] = {
     "Linear",
     "SplitSign",
     "",
     "",
-    "SplitSignPowers",
+    "",
     "WindAlong",
     "WindAcross",
+    "EvenOdd",
     nullptr
   };
   return names;
 }
 
 inline const char *EnumNameInputShape(InputShape e) {
-  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::WindAcross)) return "";
+  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::EvenOdd)) return "";
   const size_t index = static_cast<size_t>(e);
   return EnumNamesInputShape()[index];
 }

@@ -170,7 +170,7 @@ View view_of(const Json& json) {
 Input input_of(const Json& json) {
   static const std::map<std::string, InputShape> shapes = {{"linear", InputShape::kLinear},
                                                            {"split_sign", InputShape::kSplitSign},
-                                                           {"split_sign_powers", InputShape::kSplitSignPowers}};
+                                                           {"even_odd", InputShape::kEvenOdd}};
   return {json["name"], json["unit"], json["range"][0], json["range"][1], shapes.at(json["form"])};
 }
 
@@ -292,7 +292,7 @@ TEST_F(InfoPlayed, GaussianAndSwitchedModelsInPythonAreRunsToTheBit) {
 }
 
 TEST_F(InfoPlayed, PowersOfAnInputAndLargeRangesToo) {
-  Model model = flame_model({.points = 4, .wind = InputShape::kSplitSignPowers, .noise_rank = 2});
+  Model model = flame_model({.points = 4, .wind = InputShape::kEvenOdd, .noise_rank = 2});
   model.inputs[0].lowest = -300;
   model.inputs[0].highest = 300;
   ASSERT_TRUE(write_model(at("m.wisp"), model));

@@ -134,7 +134,7 @@ TEST(ModelFile, AnInputOfThreePowersIsReadAsItWasWritten) {
   Model model;
   model.name = "powers";
   model.rate_hz = 60;
-  model.inputs = {{"wind", "", -1, 1, InputShape::kSplitSignPowers}};
+  model.inputs = {{"wind", "", -1, 1, InputShape::kEvenOdd}};
   model.outputs = {{"y", "", -1, 1}};
   ArxModel arx;
   arx.orders = {OrderMatrix(1, 1, 1), OrderMatrix(1, 6, 1), OrderMatrix(1, 6)};
@@ -145,7 +145,7 @@ TEST(ModelFile, AnInputOfThreePowersIsReadAsItWasWritten) {
   model.dynamics = arx;
   const auto read = parse_model(*model_bytes(model), "powers.wisp");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->inputs[0].shape, InputShape::kSplitSignPowers);
+  EXPECT_EQ(read->inputs[0].shape, InputShape::kEvenOdd);
   EXPECT_EQ(std::get<ArxModel>(read->dynamics).theta, arx.theta);
 }
 
@@ -203,7 +203,7 @@ TEST(ModelFile, ResampledResidualsThatMeanNothingAreRefused) {
 }
 
 TEST(ModelFile, EveryShapeOfInputIsKept) {
-  for (const InputShape shape : {InputShape::kLinear, InputShape::kSplitSign, InputShape::kSplitSignPowers}) {
+  for (const InputShape shape : {InputShape::kLinear, InputShape::kSplitSign, InputShape::kEvenOdd}) {
     Model model = sample_model();
     model.inputs[0].shape = shape;
     auto& arx = std::get<ArxModel>(model.dynamics);

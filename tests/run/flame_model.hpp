@@ -149,12 +149,13 @@ inline Model still_flame_model(int rows = 300) {
 inline Model coupled_flame_model() {
   constexpr int kOutputs = 16, kRegressors = 6, kLags = 2;
   Model model = default_flame_model();
-  model.inputs[0].shape = InputShape::kSplitSignPowers;
+  model.inputs[0].shape = InputShape::kEvenOdd;
   auto& arx = std::get<ArxModel>(model.dynamics);
   arx.orders = {OrderMatrix(kOutputs, kOutputs, kLags), OrderMatrix(kOutputs, kRegressors, kLags),
                 OrderMatrix(kOutputs, kRegressors, 1)};
   arx.input_mean.assign(kRegressors, 0.0);
-  arx.noise.resampled.against = kRegressors / 2;
+  arx.noise.resampled.toward = kRegressors / 2;
+  arx.noise.resampled.against = -1;
   for (int i = 0; i < kOutputs; ++i) {
     arx.theta[i].clear();
     const int like = i < kOutputs - 2 ? i : i - (kOutputs - 2);

@@ -79,7 +79,7 @@ struct ResampledResiduals {
                             ///< empty: that side is no mirror image
   int across = 0;  ///< in the round: the last `across` outputs are the z parts of level vectors, the `across` before
                    ///< them the x parts. A row stores one number a vector, its part along the wind; the part across
-                   ///< is taken from a second row. Regressors `toward + 6` and `against + 6` are then the wind's z
+                   ///< is taken from a second row. Regressor `toward + 3` is then the wind's z
 
   bool empty() const { return rows.empty(); }
   std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }

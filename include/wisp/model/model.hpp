@@ -25,10 +25,10 @@ enum class InputShape {
   kLinear,     ///< as it is: one regressor
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
-  kSplitSignPowers,  ///< as six: max(u, 0), its square root and its square, then those of max(−u, 0)
-  kWindAlong,        ///< the x of a level wind vector: as twelve regressors. Six as kSplitSignPowers of the vector's
-                     ///< length with the sign of x, then the same six times the x of its direction
-  kWindAcross,       ///< the z of that vector, the input after kWindAlong: as six, the powers times its direction's z
+  kEvenOdd,     ///< as six: |u|, its square root and its square, then the same with the sign of u
+  kWindAlong,   ///< the x of a level wind vector: as six, the vector's length, its square root and its square, then the
+                ///< same times the x of its direction
+  kWindAcross,  ///< the z of that vector, the input after kWindAlong: as three, the powers times its direction's z
 };
 
 /// An input as the world gives it.

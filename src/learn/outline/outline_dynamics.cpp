@@ -26,7 +26,10 @@ constexpr double kStable = 0.999;
 constexpr double kLeastMotion = 1e-9;  // heights: what moves less does so by rounding
 constexpr Eigen::Index kMinRows = 30;
 constexpr double kFadeSeconds = 0.1;  // without inputs: in which half of a deviation from what was recorded fades
-constexpr std::size_t kPowers = 3;    // an input, its root and its square (regressor_names())
+constexpr std::size_t kPowers = 3;    // of an input's size, then with its sign (regressor_names())
+
+// Whether a regressor is the same in the mirror image.
+bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }
 
 const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
   return recording.channels[*find_channel(recording, name)].samples;
@@ -150,8 +153,8 @@ Result<ShapeComponents> find_shape(std::span<const Recording> recordings, const 
   return shape;
 }
 
-// One row of the regression of both kinds: past components, then functions of the inputs' size at each lag, with the
-// input's sign for antisymmetric components. False where a sample is missing.
+// One row of the regression of either kind: past components, then the inputs' regressors at each lag, even ones for
+// symmetric components, odd ones for antisymmetric ones.
 class RowsOf {
  public:
   RowsOf(const ShapeComponents& shape, const Recording& moved, const PreparedOutlines& prepared) : shape_(shape) {
@@ -169,13 +172,9 @@ class RowsOf {
     for (std::size_t lag = 1; lag <= kOrder; ++lag) {
       for (std::size_t k = first; k < end; ++k) x[at++] = (*components_[k])[row - lag];
     }
-    for (std::size_t u = 0; u < inputs_.size(); u += 2 * kPowers) {
-      for (std::size_t power = 0; power < kPowers; ++power) {
-        const std::vector<double>&plus = *inputs_[u + power], &minus = *inputs_[u + kPowers + power];
-        for (std::size_t lag = 0; lag < kInputLags; ++lag) {
-          x[at++] = plus[row - lag] + (symmetric ? 1 : -1) * minus[row - lag];
-        }
-      }
+    for (std::size_t k = 0; k < inputs_.size(); ++k) {
+      if (is_even(k) != symmetric) continue;
+      for (std::size_t lag = 0; lag < kInputLags; ++lag) x[at++] = (*inputs_[k])[row - lag];
     }
     x[at] = 1;
     return x.allFinite() && y.allFinite();
@@ -226,31 +225,23 @@ struct Products {
 
 ArxOrders shape_orders(const ShapeComponents& shape, std::size_t regressors) {
   const auto ny = static_cast<int>(shape.count()), nu = static_cast<int>(regressors);
-  ArxOrders orders{OrderMatrix(ny, ny), OrderMatrix(ny, nu, kInputLags), OrderMatrix(ny, nu)};
+  ArxOrders orders{OrderMatrix(ny, ny), OrderMatrix(ny, nu), OrderMatrix(ny, nu)};
   const auto symmetric = static_cast<int>(shape.symmetric);
   for (int i = 0; i < ny; ++i) {
     for (int j = 0; j < ny; ++j) orders.na(i, j) = (i < symmetric) == (j < symmetric) ? kOrder : 0;
+    for (int k = 0; k < nu; ++k) orders.nb(i, k) = is_even(static_cast<std::size_t>(k)) == (i < symmetric) ? kInputLags : 0;
   }
   return orders;
 }
 
 // The coefficients of one output row in the order of ArxModel::theta, from a column of its kind's regression.
-void set_row(const Eigen::VectorXd& found, std::size_t of_kind, bool symmetric, std::size_t regressors,
-             std::vector<double>& theta, double& constant) {
+void set_row(const Eigen::VectorXd& found, std::size_t of_kind, std::vector<double>& theta, double& constant) {
   for (std::size_t k = 0; k < of_kind; ++k) {
     for (std::size_t lag = 0; lag < kOrder; ++lag) {
       theta.push_back(-found[static_cast<Eigen::Index>(lag * of_kind + k)]);
     }
   }
-  const std::size_t first = kOrder * of_kind;
-  for (std::size_t k = 0; k < regressors; ++k) {
-    const std::size_t input = k / (2 * kPowers), power = k % kPowers;
-    const bool minus = k / kPowers % 2 == 1;
-    for (std::size_t lag = 0; lag < kInputLags; ++lag) {
-      const std::size_t at = first + (input * kPowers + power) * kInputLags + lag;
-      theta.push_back((minus && !symmetric ? -1 : 1) * found[static_cast<Eigen::Index>(at)]);
-    }
-  }
+  theta.insert(theta.end(), found.begin() + static_cast<std::ptrdiff_t>(kOrder * of_kind), found.end() - 1);
   constant = found[found.size() - 1];
 }
 
@@ -266,8 +257,7 @@ ArxModel shape_model(const ShapeComponents& shape, const Products& even, const P
     const Matrix found = products.solved(ridge);
     for (Eigen::Index k = 0; k < found.cols(); ++k) {
       const std::size_t i = arx.theta.size();
-      set_row(found.col(k), static_cast<std::size_t>(found.cols()), symmetric, regressors, arx.theta.emplace_back(),
-              arx.constant[i]);
+      set_row(found.col(k), static_cast<std::size_t>(found.cols()), arx.theta.emplace_back(), arx.constant[i]);
       arx.noise.sd.push_back(products.residual_sd(found, k));
     }
   }

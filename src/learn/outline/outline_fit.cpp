@@ -199,7 +199,7 @@ Input input_of(const OutlineInput& input, bool powers) {
   const double strongest = std::max(std::abs(input.lowest), std::abs(input.highest));
   return {input.name, number_text(input.scale, 6) + (input.unit.empty() ? "" : " " + input.unit),
           powers ? -strongest : input.lowest, powers ? strongest : input.highest,
-          powers ? InputShape::kSplitSignPowers : InputShape::kLinear};
+          powers ? InputShape::kEvenOdd : InputShape::kLinear};
 }
 
 // Learned from everything.

@@ -106,27 +106,26 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
 // 99th percentile for the same threshold.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
-// NaN stays NaN in all of them.
-double whole(double u) { return u; }
-double positive(double u) { return u < 0 ? 0 : u; }
-double negative(double u) { return u > 0 ? 0 : -u; }
+double whole(double size) { return size; }
+double root(double size) { return std::sqrt(size); }
+double square(double size) { return size * size; }
 
-double root(double u) { return std::sqrt(u); }
-double square(double u) { return u * u; }
-
-// One regressor of an input: a power of a part, and what follows the input's name.
+// One regressor of an input: a power of its size, with the input's sign or without, and what follows the input's name.
 struct Form {
   const char* suffix;
-  double (*part)(double);
+  bool has_sign;
   double (*power)(double);
+
+  // NaN stays NaN.
+  double of(double u) const { return (has_sign && u < 0 ? -1 : 1) * power(std::abs(u)); }
 };
 
 std::vector<Form> forms_of(RegressorShape shape) {
   if (shape.powers) {
-    return {{"+", positive, whole}, {"+ root", positive, root}, {"+ square", positive, square},
-            {"-", negative, whole}, {"- root", negative, root}, {"- square", negative, square}};
+    return {{" size", false, whole}, {" size root", false, root}, {" size square", false, square},
+            {"", true, whole},       {" root", true, root},       {" square", true, square}};
   }
-  return {{"", whole, whole}};
+  return {{"", true, whole}};
 }
 
 }  // namespace
@@ -260,7 +259,7 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
     for (const Form& form : forms_of(shape)) {
       Channel channel{input.name + form.suffix, "", Role::kInput, {}};
       for (double u : samples) {
-        channel.samples.push_back(form.power(form.part(u / input.scale)));
+        channel.samples.push_back(form.of(u / input.scale));
       }
       out.channels.push_back(std::move(channel));
     }

@@ -76,7 +76,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 
 /// Which regressors inputs make.
 struct RegressorShape {
-  bool powers = false;  ///< NAME+, its square root and its square, then those of NAME-, instead of NAME
+  bool powers = false;  ///< |NAME|, its square root and its square, then the same with NAME's sign, instead of NAME
 };
 
 /// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).

@@ -48,14 +48,10 @@ const std::vector<double>& samples(const Recording& recording, const std::string
   return recording.channels[*find_channel(recording, name)].samples;
 }
 
-// The first input as it was given, its sides put together again; zeros where there is none.
+// The first input with its sign; zeros where there is none.
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
-  const std::string& name = prepared.inputs.front().name;
-  std::vector<double> out = samples(recording, name + "+");
-  const std::vector<double>& other = samples(recording, name + "-");
-  for (std::size_t row = 0; row < out.size(); ++row) out[row] -= other[row];
-  return out;
+  return samples(recording, prepared.inputs.front().name);
 }
 
 // Where wind sets in after calm. A recorded calm ends there, so that a thing that stands still in a wind that stays
@@ -208,8 +204,7 @@ Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, 
                  ": has no two complete rows with their past after each other; record longer"};
   }
   if (driven && static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return ResampledResiduals{};
-  if (driven) out.toward = 0;
-  if (driven) out.against = 3;  // after the first side's size, root and square
+  if (driven) out.toward = 3;  // after the input's size, its root and its square
   if (driven) out.mirror = mirror_image(dynamics.shape);
   if (driven) out.tolerance = kTolerance;
   if (driven) out.margin = kMargin;

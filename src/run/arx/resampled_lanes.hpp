@@ -147,7 +147,7 @@ class ResampledLanes {
   static constexpr int kAge = 1;
   static constexpr int kStateValues = 2 * (1 + kRecentBlocks);
 
-  static constexpr int kVectorRegressors = 6;  // of each part of a vector
+  static constexpr int kVectorRegressors = 3;  // of each part of a vector
 
   // One search for rows: of the residuals along the wind, and in the round a second one of those across it.
   struct Life {

@@ -55,9 +55,10 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorForm for
   channel.mean = static_cast<float>(power ? mean / regressor_unit(input, form.power) : mean);
   channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
   // The history of a new instance is z = 0, whatever the range is.
-  if (form.part >= RegressorPart::kLengthPositive) {
-    channel.part = RegressorPart::kPositive;  // as large as a wind along its direction makes it
+  if (form.part >= RegressorPart::kLength) {
+    channel.part = RegressorPart::kSize;  // as large as a wind along its direction makes it
     channel.most = regress(channel, channel.high);
+    channel.least = form.part == RegressorPart::kLength ? 0.0f : -channel.most;
     channel.part = form.part;
     return channel;
   }
@@ -94,18 +95,13 @@ std::span<const RegressorForm> regressor_forms(InputShape shape) {
   using enum RegressorPower;
   static constexpr RegressorForm kLinear[] = {{kWhole}};
   static constexpr RegressorForm kSplit[] = {{kPositive}, {kNegative}};
-  static constexpr RegressorForm kPowers[] = {{kPositive, kOne}, {kPositive, kRoot}, {kPositive, kSquare},
-                                              {kNegative, kOne}, {kNegative, kRoot}, {kNegative, kSquare}};
-  static constexpr auto kVector = [] {
-    std::array<RegressorForm, 18> forms{};
-    for (std::size_t k = 0; k < forms.size(); ++k) {
-      const auto part = static_cast<std::size_t>(kLengthPositive) + k / 3;
-      forms[k] = {static_cast<RegressorPart>(part), static_cast<RegressorPower>(k % 3)};
-    }
-    return forms;
-  }();
-  if (shape == InputShape::kWindAlong) return std::span(kVector).first(12);
-  if (shape == InputShape::kWindAcross) return std::span(kVector).last(6);
+  static constexpr RegressorForm kPowers[] = {{kSize, kOne},  {kSize, kRoot},  {kSize, kSquare},
+                                              {kWhole, kOne}, {kWhole, kRoot}, {kWhole, kSquare}};
+  static constexpr RegressorForm kVector[] = {{kLength, kOne},    {kLength, kRoot},  {kLength, kSquare},
+                                              {kAlong, kOne},     {kAlong, kRoot},   {kAlong, kSquare},
+                                              {kAcross, kOne},    {kAcross, kRoot},  {kAcross, kSquare}};
+  if (shape == InputShape::kWindAlong) return std::span(kVector).first(6);
+  if (shape == InputShape::kWindAcross) return std::span(kVector).last(3);
   if (has_powers(shape)) return kPowers;
   if (splits_sign(shape)) return kSplit;
   return kLinear;

@@ -25,21 +25,11 @@ struct OutputChannel {
   float start;  ///< z of a newborn instance: the operating point
 };
 
-/// How a regressor is made from its input. Of a wind vector: from its length, by the sign of its x (kLength…), or from
-/// that times the x (kAlong…) or the z (kAcross…) of its direction.
-enum class RegressorPart : std::uint8_t {
-  kWhole,
-  kPositive,
-  kNegative,
-  kLengthPositive,
-  kLengthNegative,
-  kAlongPositive,
-  kAlongNegative,
-  kAcrossPositive,
-  kAcrossNegative
-};
+/// How a regressor is made from its input: as it is, from what is positive or negative of it, or from its size. Of a
+/// wind vector: from its length, or from that times the x or the z of its direction.
+enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative, kSize, kLength, kAlong, kAcross };
 
-/// The power of a part that a regressor is.
+/// The power of a part that a regressor is; that of a whole input has its sign.
 enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
 
 /// A regressor of an input.
@@ -98,7 +88,7 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// A power of the parts of inputs, which are not negative.
+/// A power of the sizes of inputs.
 template <class N>
 inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
@@ -110,7 +100,7 @@ inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
     for (auto& lane : root) lane = square_root(lane);
     part = load<Reals<N>>(root);
   }
-  return channel.mean != 0 ? part - all<Reals<N>>(channel.mean) : part;
+  return part;
 }
 
 /// The values of a regressor from its inputs; NaN counts as 0.
@@ -121,7 +111,13 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   auto part = clamped;
   if (channel.part == RegressorPart::kPositive) part = larger(clamped, zero);
   if (channel.part == RegressorPart::kNegative) part = zero - smaller(clamped, zero);
-  if (channel.power != RegressorPower::kOne) return settle(power_of<N>(channel, part));
+  if (channel.part == RegressorPart::kSize) part = magnitude(clamped);
+  if (channel.power != RegressorPower::kOne) {
+    const auto size = power_of<N>(channel, magnitude(part));
+    const auto signed_size = [](const auto& a, const auto& none, const auto& b) { return a < none ? none - b : b; };
+    part = channel.part == RegressorPart::kWhole ? each(signed_size, part, zero, size) : size;
+    return settle(channel.mean != 0 ? part - all<Reals<N>>(channel.mean) : part);
+  }
   if (channel.mean != 0) part = part - all<Reals<N>>(channel.mean);
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
   return settle(part);
@@ -153,31 +149,24 @@ class Regressing {
   explicit Regressing(const LanesOf& lanes_of) : lanes_of_(lanes_of) {}
 
   Reals<N> operator()(const RegressorChannel& channel) {
-    if (channel.part < RegressorPart::kLengthPositive) return regress<N>(channel, lanes_of_(channel.input));
-    if (channel.part == RegressorPart::kLengthPositive && channel.power == RegressorPower::kOne) take(channel);
-    return settle(power_[static_cast<int>(channel.power)] * side_[static_cast<int>(channel.part) - kFirst]);
+    if (channel.part < RegressorPart::kLength) return regress<N>(channel, lanes_of_(channel.input));
+    if (channel.part == RegressorPart::kLength && channel.power == RegressorPower::kOne) take(channel);
+    const auto power = power_[static_cast<int>(channel.power)];
+    if (channel.part == RegressorPart::kLength) return settle(power);
+    return settle(power * (channel.part == RegressorPart::kAlong ? x_ : z_));
   }
 
  private:
-  static constexpr int kFirst = static_cast<int>(RegressorPart::kLengthPositive), kSides = 6;
-
   void take(const RegressorChannel& channel) {
-    const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f);
     const LevelVector<N> vector(lanes_of_(channel.input), lanes_of_(channel.input + 1), channel.high);
     power_[0] = vector.length * all<Reals<N>>(channel.inverse_scale);
     power_[1] = square_root(power_[0]);
     power_[2] = power_[0] * power_[0];
-    const auto below = [](const auto& a, const auto& none, const auto& yes, const auto& no) {
-      return a < none ? yes : no;
-    };
-    side_[0] = each(below, vector.x, zero, zero, one);
-    side_[1] = each(below, vector.x, zero, one, zero);
-    side_[2] = larger(vector.x, zero), side_[3] = larger(zero - vector.x, zero);
-    side_[4] = larger(vector.z, zero), side_[5] = larger(zero - vector.z, zero);
+    x_ = vector.x, z_ = vector.z;
   }
 
   const LanesOf& lanes_of_;
-  Reals<N> power_[3], side_[kSides];
+  Reals<N> power_[3], x_, z_;
 };
 
 /// Converts an output's deviations to its own unit. Holds its constants, so that they are loaded once for many values.

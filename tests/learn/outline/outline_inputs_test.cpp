@@ -61,20 +61,21 @@ TEST(OutlineInputs, CalmRowsAreThoseBelowATenth) {
   EXPECT_EQ(calm_rows(windy({0, 5}), {}), (std::vector<std::uint8_t>{1, 1}));
 }
 
-TEST(OutlineInputs, AnInputBecomesPowersOfItsSides) {
+TEST(OutlineInputs, AnInputBecomesPowersOfItsSizeThenWithItsSign) {
   const std::vector input{OutlineInput{"wind", "m/s", 2, -1, 1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Recording split = with_regressors(windy({1, -4, nan}), input, {.powers = true});
   EXPECT_EQ(regressor_names(input, {.powers = true}),
-            (std::vector<std::string>{"wind+", "wind+ root", "wind+ square", "wind-", "wind- root", "wind- square"}));
-  EXPECT_FALSE(find_channel(split, "wind"));
-  EXPECT_EQ(samples(split, "wind+")[0], 0.5);
-  EXPECT_EQ(samples(split, "wind-")[0], 0);
-  EXPECT_EQ(samples(split, "wind+")[1], 0);
-  EXPECT_EQ(samples(split, "wind-")[1], 2);
-  EXPECT_EQ(samples(split, "wind- square")[1], 4);
-  EXPECT_TRUE(std::isnan(samples(split, "wind+")[2]));
-  EXPECT_TRUE(std::isnan(samples(split, "wind-")[2]));
+            (std::vector<std::string>{"wind size", "wind size root", "wind size square", "wind", "wind root", "wind square"}));
+  EXPECT_EQ(samples(split, "wind size")[0], 0.5);
+  EXPECT_EQ(samples(split, "wind")[0], 0.5);
+  EXPECT_EQ(samples(split, "wind size")[1], 2);
+  EXPECT_EQ(samples(split, "wind")[1], -2);
+  EXPECT_EQ(samples(split, "wind size square")[1], 4);
+  EXPECT_EQ(samples(split, "wind square")[1], -4);
+  EXPECT_EQ(samples(split, "wind root")[1], -std::sqrt(2.0));
+  EXPECT_TRUE(std::isnan(samples(split, "wind size")[2]));
+  EXPECT_TRUE(std::isnan(samples(split, "wind")[2]));
 }
 
 TEST(OutlineInputs, OneSidedInputsAreOnlyScaled) {

@@ -47,7 +47,7 @@ TEST(OutlineWind, TheTipIsFollowedFromTheWindAlone) {
 TEST(OutlineWind, OneIsThe95thPercentileAndItsUnitIsKept) {
   const OutlineFit fit = learned(kWindy);
   ASSERT_EQ(fit.model.inputs.size(), 1u);
-  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSignPowers);
+  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kEvenOdd);
   EXPECT_NE(fit.model.inputs[0].unit.find("m/s"), std::string::npos);
   EXPECT_DOUBLE_EQ(fit.model.inputs[0].lowest, -fit.model.inputs[0].highest);
   EXPECT_GT(fit.model.inputs[0].highest, 1);

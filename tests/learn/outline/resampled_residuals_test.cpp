@@ -26,8 +26,8 @@ TEST(OutlineDrawn, AreTheNoiseOfShapesAlone) {
   const OutlineFit fit = learned(kWindy);
   const ResampledResiduals& resampled = dynamics_of(fit).noise.resampled;
   EXPECT_GT(resampled.row_count(), 850u);
-  EXPECT_EQ(resampled.toward, 0);
-  EXPECT_EQ(resampled.against, 3);  // after wind, its root and its square
+  EXPECT_EQ(resampled.toward, 3);  // after the wind's size, its root and its square
+  EXPECT_EQ(resampled.against, -1);
   EXPECT_EQ(resampled.mirror.size(), resampled.scale.size());
   EXPECT_GT(resampled.mirror.front(), 0);
   EXPECT_LT(resampled.mirror.back(), 0);

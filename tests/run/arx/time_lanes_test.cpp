@@ -20,7 +20,7 @@ bool is_there(const Model& model) {
   return TimeLanes<LiveNumbers>(make_arx_program(model, arx, measured), measured).there();
 }
 
-constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kSplitSign, InputShape::kSplitSignPowers};
+constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kSplitSign, InputShape::kEvenOdd};
 
 // Orders, delays, gaps among the lags, inputs' shapes and shared shocks by chance; outputs that are often clamped.
 Model filter_of_chance(unsigned seed) {

@@ -18,7 +18,7 @@ Model shaped_model(bool mortal = false) {
   Model model;
   model.name = "shaped";
   model.rate_hz = 60;
-  model.inputs = {{"wind", "", -2, 2, InputShape::kSplitSignPowers}};
+  model.inputs = {{"wind", "", -2, 2, InputShape::kEvenOdd}};
   for (int p = 0; p < 5; ++p) {
     for (const char* axis : {".x", ".y"}) model.outputs.push_back({"p" + std::to_string(p) + axis, "", -1, 2});
   }
