@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "base/hash.hpp"
-#include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/fit/arx_errors.hpp"
 #include "learn/arx/fit/arx_estimate.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/fit/arx_report.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/prediction.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {

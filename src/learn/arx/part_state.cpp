@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/hash.hpp"
-#include "learn/arx/fit/arx_check.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "learn/arx/fit/arx_check.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "record/number_text.hpp"
 

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "learn/chain/chain_fit.hpp"
 #include "learn/chain/motion/motion.hpp"
 #include "learn/chain/motion/segmentation.hpp"
 #include "learn/fidelity/fidelity.hpp"
 #include "learn/fidelity/fidelity_distance.hpp"
+#include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
@@ -86,5 +88,24 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
 /// as ChainFit's.
 double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_t> origin, std::size_t segments,
                                 std::uint64_t seed);
+
+ReportSection segments_section(const ChainSummary& summary);
+
+/// `fidelity` and `join_defect`; without orientation what needs one is for programs only.
+ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientation);
+
+/// The figures that a model keeps.
+void add_figures(const ChainFidelity& fidelity, Training& training);
+
+/// Measures by name, and those of which the recorded falls are too few or too short to say anything.
+struct Judged {
+  std::string judged;
+  std::string unjudged;
+};
+
+Judged judged_by(const ChainFidelity& fidelity);
+
+/// Why falls are not like the recorded ones: a measure near its ceiling, or past it. Nothing: they are.
+std::optional<std::string> fault_of(const ChainFidelity& fidelity);
 
 }  // namespace wisp::chain

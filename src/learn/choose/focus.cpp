@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "learn/arx/judge/held_out.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {

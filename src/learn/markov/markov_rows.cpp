@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "learn/arx/fit/arx_check.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/decompositions.hpp"
 

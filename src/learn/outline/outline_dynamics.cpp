@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/decompositions.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_units.hpp"
 #include "wisp/record/recording.hpp"

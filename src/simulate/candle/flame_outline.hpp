@@ -1,7 +1,11 @@
 #pragma once
 // The true outline of the rig's flame: the contour of its yellow light, its tip, and control points fitted to it.
+//
+// Source of the contours: W. Lorensen & H. Cline, Marching Cubes (SIGGRAPH 1987), in the plane; saddles are resolved by
+// the square's mean.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "simulate/candle/candle_rig.hpp"
@@ -35,5 +39,18 @@ struct FlameOutline {
 ///
 /// Precondition: light.soot has columns × rows entries, each of at least 4.
 FlameOutline flame_outline(const RigLight& light);
+
+namespace flow {
+
+/// All closed contours at a level, each with the higher values on its right (clockwise around a hill, y up), in the
+/// lattice's own units: value (i, j) is at x = i, y = j. Contours that end at the lattice's rim are left out.
+///
+/// Precondition: values.size() == columns × rows.
+std::vector<std::vector<PointMm>> closed_contours(std::span<const float> values, int columns, int rows, float level);
+
+/// Area inside a closed polygon, positive if it runs clockwise (y up).
+double clockwise_area(std::span<const PointMm> polygon);
+
+}  // namespace flow
 
 }  // namespace wisp

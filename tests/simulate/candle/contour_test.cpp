@@ -1,4 +1,4 @@
-#include "simulate/candle/contour.hpp"
+#include "simulate/candle/flame_outline.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,14 +8,45 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "learn/arx/fit/arx_solve.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 
 namespace wisp {
+
+/// A regressor that depends on those before it.
+struct DependentColumn {
+  int column = 0;       ///< position among the rows' regressors
+  std::vector<int> of;  ///< positions of those that it depends on; empty: the column is zero
+};
+
+/// The least-squares solution of rows with the same regressors X, in scaled units.
+struct SharedSolution {
+  Eigen::MatrixXd theta;    ///< one column an output row, without A's sign; 0 for dependent regressors
+  Eigen::MatrixXd inverse;  ///< (XᵀX + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
+  std::vector<DependentColumn> dependent;
+  double condition = 1;         ///< of X with its columns in the data's units, dependent ones left out
+  double scaled_condition = 1;  ///< of X with columns of norm 1
+};
+
+/// What to solve: for every target, minimise |target − Xθ|² + |Fθ|².
+struct SharedProblem {
+  std::vector<int> columns;  ///< X, as columns of the whole regression
+  std::vector<int> targets;  ///< columns of the whole regression
+  Eigen::VectorXd unit;      ///< data's unit / scaled unit, per column of X
+  Eigen::MatrixXd prior;     ///< F, square; empty: none
+};
+
+/// Solves with RᵀR = Gram, R the triangle of the whole regression.
+SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
+
+/// Solves with the Gram matrix of the whole regression, or gives up where the scaled condition is above
+/// `max_condition` or the matrix is not positive definite.
+std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
+                                              double max_condition);
 
 /// Nine digits in standard errors: condition² · 2.2e-16 = 1e-9.
 inline constexpr double kMaxConditionForGram = 2e3;

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
+#include "learn/arx/rows/arx_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
@@ -93,5 +94,14 @@ struct ArxFit {
 /// Errors: no recordings, a channel that a recording has not, orders of the wrong shape, rates that differ, more
 /// coefficients than rows, delays longer than the data, infinite samples.
 Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoice& channels, const ArxOptions& options);
+
+/// Shapes and ranges of order matrices, against the channels named.
+Result<void> check_orders(const ArxOrders& orders, const ChannelChoice& channels);
+
+/// Shapes and ranges of the options, against the channels named.
+Result<void> check_options(const ArxOptions& options, const ChannelChoice& channels);
+
+/// Whether there are rows enough for the coefficients of every output.
+Result<void> check_rows(const RowPlan& plan, const ArxDesign& design);
 
 }  // namespace wisp

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/numeric/decompositions.hpp"
 
 namespace wisp {

@@ -7,7 +7,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "wisp/learn/advice.hpp"
 
 namespace wisp::arx {

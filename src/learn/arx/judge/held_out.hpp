@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/judge/free_run.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/judge/prediction.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"

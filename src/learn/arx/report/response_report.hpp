@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/model/arx.hpp"
 

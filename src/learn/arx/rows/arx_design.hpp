@@ -1,5 +1,6 @@
 #pragma once
-// The regression that orders ask for: columns of all rows together, and which of them each output row has.
+// Orders of a model from a few numbers, and the regression that they ask for: columns of all rows together, and which
+// of them each output row has.
 
 #include <Eigen/Core>
 #include <vector>
@@ -10,6 +11,29 @@
 #include "wisp/model/arx.hpp"
 
 namespace wisp {
+
+/// The same orders in all entries that the coupling leaves.
+struct UniformOrders {
+  int outputs = 1;
+  int inputs = 0;
+  int na = 4;  ///< lags of outputs, 0 to 4096; 4 is two damped resonances an output, the paper's choice
+  int nb = 4;  ///< lags of inputs, 0 to 4096
+  int nk = 1;  ///< delay of inputs in samples, 0 to 4096; 1: an input acts on the next sample
+  Coupling coupling = Coupling::kFull;
+  int group = 1;  ///< consecutive outputs that belong together, ≥ 1: 2 where outputs are x, y of points
+};
+
+/// Returns na (outputs × outputs), nb and nk (outputs × inputs).
+///
+/// Precondition: the fields are in the ranges beside them.
+ArxOrders make_orders(const UniformOrders& uniform);
+
+namespace arx {
+
+/// Outputs whose equations feed each other, as blocks of output indices. Different blocks simulate independently.
+std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
+
+}  // namespace arx
 
 /// Output rows that have the same regressors, and so share a factorisation.
 struct SharedRows {

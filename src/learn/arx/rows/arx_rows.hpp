@@ -6,13 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/arx_orders.hpp"
 #include "learn/numeric/lag_layout.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
+
+/// Channels by name, in the model's order. Roles in the recording do not matter: an output of one system may be another
+/// one's input.
+struct ChannelChoice {
+  std::vector<std::string> inputs;   ///< may be empty: a model without input
+  std::vector<std::string> outputs;  ///< at least one
+};
 
 /// The chosen channels of all recordings. The regression works on (sample − offset)·scale; scales are powers of two
 /// near 1/RMS, so that they cost no rounding, and 0 for a channel that never moves.

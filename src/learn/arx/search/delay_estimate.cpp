@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/fit/arx_check.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "learn/arx/search/order_search.hpp"
 #include "learn/arx/search/search_fit.hpp"

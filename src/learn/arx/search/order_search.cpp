@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "learn/arx/fit/arx_check.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/fit/arx_report.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_design.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"

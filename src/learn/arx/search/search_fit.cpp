@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "learn/arx/fit/arx_solve.hpp"
+#include "learn/arx/fit/arx_estimate.hpp"
 #include "learn/arx/rows/lag_gram.hpp"
 
 namespace wisp {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx_accuracy_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx_fit_test {
 namespace {

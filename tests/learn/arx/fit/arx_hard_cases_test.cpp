@@ -8,7 +8,7 @@
 #include <random>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx_hard_cases_test {
 namespace {

@@ -9,7 +9,7 @@
 #include "learn/arx/fit/made_sets.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/judge/response.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/search/order_search.hpp"
 #include "learn/shared_files.hpp"
 #include "paths.hpp"

@@ -11,7 +11,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/prediction.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/search/order_search.hpp"
 #include "learn/shared_files.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/response.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::arx::kernel_prior_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "learn/arx/made_system.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::prediction_test {
 namespace {

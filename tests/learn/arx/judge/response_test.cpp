@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 namespace wisp::response_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_design.hpp"
 
 #include <gtest/gtest.h>
 

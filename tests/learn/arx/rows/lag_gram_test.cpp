@@ -7,7 +7,6 @@
 #include <random>
 
 #include "learn/arx/rows/arx_design.hpp"
-#include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp::lag_gram_test {
 namespace {
