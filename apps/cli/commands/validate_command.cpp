@@ -8,6 +8,7 @@
 
 #include "commands/commands.hpp"
 #include "films/leaf_film.hpp"
+#include "films/looped.hpp"
 #include "films/validation_pictures.hpp"
 #include "flags/arx_flags.hpp"
 #include "flags/capture_flags.hpp"
@@ -22,7 +23,6 @@
 #include "wisp/learn/outline_recipe.hpp"
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/run/bank.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -125,9 +125,6 @@ void add_pair(const Report& report, const std::string& figure, const char* secon
 // blows; dashed is the mean without wind.
 // Errors: the folder cannot be made, a file cannot be written.
 Result<void> write_chain_figures(const std::filesystem::path& folder, const Report& report) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
   const std::pair<const char*, const char*> figures[] = {{"falls-side", "Falls seen from the side"},
                                                          {"falls-above", "Falls seen from above"},
                                                          {"segments", "One fall, cut at its events"}};
@@ -147,31 +144,6 @@ Result<void> write_chain_figures(const std::filesystem::path& folder, const Repo
   return gusts.plots.empty() ? Result<void>() : write_figure(folder, "gusts-above", gusts);
 }
 
-// Plays falls of the model, one episode each.
-Result<Recording> played(const Model& model, std::size_t falls, std::size_t rows, std::uint64_t seed) {
-  auto bank = Bank::create(model, {.capacity = static_cast<int>(falls), .seed = seed});
-  if (!bank) return bank.error();
-  Recording all;
-  all.source = "synthesized";
-  all.rate_hz = model.rate_hz;
-  for (const Output& output : model.outputs) {
-    all.channels.push_back({output.name, output.unit, Role::kOutput, std::vector<double>(falls * rows)});
-  }
-  for (std::size_t fall = 0; fall < falls; ++fall) {
-    bank->spawn();
-    all.episode_ids.insert(all.episode_ids.end(), rows, static_cast<std::int64_t>(fall));
-  }
-  std::vector<float> outputs(falls * model.outputs.size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (row > 0) bank->step();
-    bank->outputs(outputs);
-    for (std::size_t k = 0; k < outputs.size(); ++k) {
-      all.channels[k % model.outputs.size()].samples[k / model.outputs.size() * rows + row] = outputs[k];
-    }
-  }
-  return all;
-}
-
 // Films recorded falls on the left, the model's on the right.
 Result<void> film(const Model& model, const Recording& real, const Arguments& arguments, Terminal& terminal) {
   const auto* pose = std::get_if<PoseView>(&model.view);
@@ -184,10 +156,12 @@ Result<void> film(const Model& model, const Recording& real, const Arguments& ar
   const auto all = episodes(real);
   std::size_t rows = 0;
   for (const Episode& episode : all) rows = std::max(rows, episode.size());
-  const auto made = played(model, std::min(all.size(), static_cast<std::size_t>(options.max_leaves)), rows,
-                           static_cast<std::uint64_t>(arguments.integer("seed")));
-  if (!made) return made.error();
-  const LeafPanel panels[] = {{&real, "recorded"}, {&*made, "synthesized"}};
+  const auto taken = take(model, {.seconds = static_cast<double>(rows) / model.rate_hz,
+                                  .instances = std::min(static_cast<int>(all.size()), options.max_leaves),
+                                  .seed = static_cast<std::uint64_t>(arguments.integer("seed"))});
+  if (!taken) return taken.error();
+  const Recording made = recording_of(model, *taken, 0, arguments.text("seed"));
+  const LeafPanel panels[] = {{&real, "recorded"}, {&made, "synthesized"}};
   if (auto ok = write_leaf_films(arguments.text("film"), panels, options, terminal); !ok) return ok;
   terminal.say("wrote " + arguments.text("film"));
   return {};

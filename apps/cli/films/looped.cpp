@@ -20,24 +20,6 @@ Result<void> check_flags(const Arguments& arguments) {
   return {};
 }
 
-Recording recording_of(const Model& model, const Take& taken, const Arguments& arguments) {
-  const auto instances = static_cast<int>(taken.instances);
-  const std::string& seed = arguments.text("seed");
-  Recording recording = played_channels(model, instances, seed);
-  for (std::size_t frame = 0; frame < taken.frames; ++frame) {
-    std::size_t channel = 0;
-    while (channel < model.inputs.size()) {
-      recording.channels[channel++].samples.push_back(arguments.number("wind"));
-    }
-    for (std::size_t k = 0; k < taken.instances; ++k) {
-      for (const float value : taken.at(frame, k)) recording.channels[channel++].samples.push_back(value);
-    }
-  }
-  if (are_bodies(model, instances)) recording = one_after_the_other(recording, model, instances, seed);
-  recording.attributes.push_back({"loop", arguments.text("loop")});
-  return recording;
-}
-
 Result<void> write_film(const Model& model, const Take& taken, const std::string& path, Terminal& terminal) {
   if (!std::holds_alternative<OutlineView>(model.view)) {
     return Error{path + ": only a loop of an outline is a film; write its numbers (.csv), or export a .glb"};
@@ -107,14 +89,30 @@ Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal
   }
   const auto taken = take_from(model, arguments, terminal);
   if (!taken) return taken.error();
-  auto written = extension == ".csv" ? write_csv(path, recording_of(model, *taken, arguments))
-                                     : write_film(model, *taken, path, terminal);
+  Recording numbers = recording_of(model, *taken, arguments.number("wind"), arguments.text("seed"));
+  numbers.attributes.push_back({"loop", arguments.text("loop")});
+  auto written = extension == ".csv" ? write_csv(path, numbers) : write_film(model, *taken, path, terminal);
   if (!written) return written;
   terminal.add("seed", arguments.integer("seed"));
   terminal.add("output", path);
   terminal.say("wrote " + path + ": a loop of " + std::to_string(taken->frames) + " frames at " +
                shown(taken->rate_hz, 5) + " a second, seed " + arguments.text("seed"));
   return {};
+}
+
+Recording recording_of(const Model& model, const Take& taken, double wind, const std::string& seed) {
+  const auto instances = static_cast<int>(taken.instances);
+  Recording recording = played_channels(model, instances, seed);
+  for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+    std::size_t channel = 0;
+    while (channel < model.inputs.size()) {
+      recording.channels[channel++].samples.push_back(wind);
+    }
+    for (std::size_t k = 0; k < taken.instances; ++k) {
+      for (const float value : taken.at(frame, k)) recording.channels[channel++].samples.push_back(value);
+    }
+  }
+  return are_bodies(model, instances) ? one_after_the_other(recording, model, instances, seed) : recording;
 }
 
 Recording played_channels(const Model& model, int instances, const std::string& seed) {

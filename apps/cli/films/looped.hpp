@@ -22,6 +22,9 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
 /// Errors: as take_from(); a flag that does not go with a loop; another name.
 Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal);
 
+/// A take in a constant wind as a recording; of several bodies one episode each.
+Recording recording_of(const Model& model, const Take& taken, double wind, const std::string& seed);
+
 /// Empty channels: the model's inputs, then the outputs of each instance, named i0., i1., … where they are several.
 Recording played_channels(const Model& model, int instances, const std::string& seed);
 

@@ -24,13 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> make_folder(const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
-  return {};
-}
-
 // The residual standard deviation of a channel; the middle of its interval where the training does not state it.
 double residual_sd(const Model& model, std::size_t channel) {
   if (!model.training.residual_sd.empty()) return model.training.residual_sd[channel];
@@ -94,7 +87,6 @@ PlotSheet spectrum_sheet(const Report& report) {
 // each as PNG and SVG.
 // Errors: a file cannot be written.
 Result<void> write_validation_figures(const fs::path& folder, const Model& model, const Report& report) {
-  if (auto ok = make_folder(folder); !ok) return ok;
   if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
   if (auto ok = write_figure(folder, "tip", time_sheet(report)); !ok) return ok;
   return write_figure(folder, "flicker", spectrum_sheet(report));

@@ -269,9 +269,6 @@ PlotSheet error_sheet(const Figures& figures) {
 }  // namespace
 
 Result<void> write_arx_figures(const fs::path& folder, const Model& model, const Report& report, Terminal& terminal) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
   const Figures figures(model, report);
   std::vector<std::pair<std::string, PlotSheet>> sheets{{"simulation", tracking_sheet(figures, "simulated")},
                                                         {"prediction", tracking_sheet(figures, "predicted")},

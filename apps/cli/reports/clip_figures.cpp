@@ -94,6 +94,9 @@ Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, co
 }  // namespace
 
 Result<void> write_figure(const fs::path& folder, const std::string& name, const PlotSheet& sheet) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
   for (const char* extension : {".png", ".svg"}) {
     if (auto ok = write_plots(folder / (name + extension), sheet); !ok) return ok;
   }
