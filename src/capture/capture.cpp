@@ -126,7 +126,10 @@ Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Resul
   if (options.flame == 0 || options.dark || film_reason(film)) return {};
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     const auto captured = look_at(path, other, {.sound = false, .turn = turn}, progress);
-    return captured && captured->report.verdict->usable;
+    // On its side a glow may by chance look like a flame, but hardly as sure as one.
+    constexpr double kSure = 0.8;
+    return captured && captured->report.verdict->usable &&
+           (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > kSure);
   };
   const auto frames = [](const FrameRange& of) { return std::to_string(of.first) + ":" + std::to_string(of.last); };
   const std::int64_t first = options.frames ? options.frames->first : 1;

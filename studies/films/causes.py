@@ -41,7 +41,7 @@ CAUSES = {
     "shaken": (["shaken"], ["crop=iw*0.75:ih*0.75:'iw*0.125*(1+0.6*sin(11*t)+0.4*sin(31*t+1))':'ih*0.125*(1+0.6*sin(13*t)+0.4*sin(27*t))'",
                             "crop=iw*0.7:ih*0.7:'iw*0.15*(1+sin(n*n*7.3))':'ih*0.15*(1+sin(n*n*3.1+1))'"]),
     "irregular": (["irregular"], ["select='gt(random(1),0.35)'"]),
-    "small": (["small"], ["scale=max(2\\,trunc(iw*5/{h}/2)*2):max(2\\,trunc(ih*5/{h}/2)*2):flags=area,pad=160:120:40:20"]),
+    "small": (["small"], ["scale=max(2\\,trunc(iw*5/{h}/2)*2):max(2\\,trunc(ih*5/{h}/2)*2):flags=area,pad=320:240:160:60"]),
     "short": "longer clip", "irregular": "irregularly", "shaken": "keep the camera still", "missing": "missing in|only now and then"}
 # True cause, names that are right: a list of filters. {rate}: the film's; {x}, {y}, {w}, {h}: the box of its outline.
 CAUSES = {
@@ -124,7 +124,7 @@ def main():
             values = dict(rate=rate, twice=2 * rate, glow=high[1] - low[1], street=streets[-1] if streets else "", x=int(low[0]), y=int(low[1]),
                           w=int(high[0] - low[0]), h=int(high[1] - low[1]))
             for cause, (names, filters) in CAUSES.items():
-                if only and cause not in only:
+                if (only and cause not in only) or (cause == "small" and values["h"] > HEIGHT / 3):
                     continue
                 for how in filters:
                     try:

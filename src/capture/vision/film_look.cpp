@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 #include "base/statistics.hpp"
 #include "base/verdict.hpp"
@@ -17,22 +18,20 @@ constexpr double kMaxIsNew = 0.4;           // of the light above them: cuts 0.6
 constexpr double kMinTotalLight = 3 * 255;  // of all points: less is a spark
 constexpr int kFlat = 250;                  // of 255 levels
 
-// Light of `now` where `before` had none, as a share of it.
-template <class Values>
-double fresh_share(const Values& now, const Values& before, double least) {
-  double light = 0, fresh = 0;
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    light += std::max(0.0, static_cast<double>(now[k]) - kDark);
-    fresh += std::max(0.0, static_cast<double>(now[k]) - std::max<double>(before[k], kDark));
-  }
-  return light > least ? fresh / light : 0;
+// Correlation of two pictures' blocks; 1 where either shows next to nothing, as a dark room before a candle is lit.
+double likeness(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kMinSpread = 6;  // levels
+  const double spread_a = deviation(a), spread_b = deviation(b);
+  if (std::min(spread_a, spread_b) < kMinSpread) return 1;
+  const double products = std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / static_cast<double>(a.size());
+  return (products - mean(a) * mean(b)) / (spread_a * spread_b);
 }
 
 }  // namespace
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr int kMaxStep = 8;
-  constexpr double kExplains = 0.7;
+  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // levels: less is noise
   const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {
@@ -44,7 +43,7 @@ double step_between(const std::vector<double>& a, const std::vector<double>& b) 
   }
   const auto best = std::min_element(differs.begin(), differs.end());
   const auto still = differs.begin() + reach;
-  return *best < kExplains * *still ? static_cast<double>(best - still) / size : 0;
+  return *still > kMinDifference && *best < kExplains * *still ? static_cast<double>(best - still) / size : 0;
 }
 
 void FilmLook::sample(const Picture& picture) {
@@ -71,7 +70,7 @@ void FilmLook::look(const Picture& picture) {
   flat_.push_back(static_cast<double>(flat) / static_cast<double>(now_.size()));
   brightest_point_ = std::max(brightest_point_, bright(*std::max_element(now_.begin(), now_.end())));
   if (!blocks_.empty()) {
-    changes_.push_back(std::min(fresh_share(blocks, blocks_, kDark), fresh_share(blocks_, blocks, kDark)));
+    changes_.push_back(1 - likeness(blocks, blocks_));
     moved_ += std::hypot(step_between(across_, across), step_between(down_, down));
   }
   blocks_ = std::move(blocks);
@@ -79,9 +78,9 @@ void FilmLook::look(const Picture& picture) {
   down_ = std::move(down);
 }
 
-// A cut changes a picture's light far more than its other pictures change from one to the next.
+// At a cut two pictures are far less alike than others of the film are, one and the next.
 FilmFacts FilmLook::facts() const {
-  constexpr double kMinCut = 0.25, kBeyondOthers = 3;
+  constexpr double kMinCut = 0.5, kBeyondOthers = 3;
   FilmFacts out{.pictures = flat_.size()};
   if (changes_.empty()) return out;
   const double cut = std::max(kMinCut, kBeyondOthers * median(changes_));
@@ -104,7 +103,12 @@ void FilmLook::remember(const Picture& picture) {
 bool FilmLook::another(const Picture& picture) {
   if (brightest_.empty()) return false;
   sample(picture);
-  return fresh_share(now_, brightest_, kMinTotalLight) > kMaxIsNew;
+  double light = 0, fresh = 0;
+  for (std::size_t k = 0; k < now_.size(); ++k) {
+    light += std::max(0, now_[k] - kDark);
+    fresh += std::max(0, now_[k] - std::max<int>(brightest_[k], kDark));
+  }
+  return light > kMinTotalLight && fresh > kMaxIsNew * light;
 }
 
 std::optional<std::string> film_reason(const FilmFacts& film) {

@@ -2,7 +2,7 @@
 // What a film is like, whatever is in it: cuts, a moving camera, light. All on a coarse grid of luma.
 //
 // Where a flame goes out its scene darkens, and little becomes brighter: a lamp that stood beside it stays, and what
-// puts it out is small. Where a film is cut to another scene, its light is where none was before, and the old is gone.
+// puts it out is small. Where a film is cut to another scene, its light is where none was before.
 
 #include <cstdint>
 #include <optional>
@@ -40,7 +40,7 @@ class FilmLook {
   std::vector<std::uint8_t> brightest_;  // … of what shows the thing, at its brightest so far
   std::size_t columns_ = 0;
   std::vector<double> blocks_, across_, down_;  // means of the last picture's blocks, columns and rows
-  std::vector<double> changes_;  // the light that is new or that is gone, whichever is less, from picture to picture
+  std::vector<double> changes_;                 // how unlike a picture is to the one before: 1 less their correlation
   double brightest_point_ = 0;
   std::vector<double> flat_;  // share of each picture that is as bright as a camera shows anything
   double moved_ = 0;          // sum of steps, shares of the picture

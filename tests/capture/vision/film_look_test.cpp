@@ -49,7 +49,7 @@ TEST(FilmLook, WhereTheFlameWasInAnyPictureIsNotNew) {
   EXPECT_FALSE(light.another(grey_picture(scene(100, 230, 20).view())));
 }
 
-TEST(FilmLook, ACutIsLightElsewhereAndTheOldGone) {
+TEST(FilmLook, AtACutPicturesAreUnlikeAndWhereAFlameIsLitTheyAreNot) {
   FilmLook film;
   for (int k = 0; k < 60; ++k) film.look(grey_picture(scene(k < 25 ? 60 + k % 3 : 220 - k % 3).view()));
   EXPECT_EQ(film.facts().cuts, std::vector<std::size_t>{25});
