@@ -120,16 +120,15 @@ struct Cure {
 Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
   constexpr std::int64_t kEnoughFrames = 120;
+  constexpr double kSureTurn = 0.8;  // on its side a glow may look like a flame, but hardly as sure as one
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
   if (options.flame == 0 || options.dark || film_reason(film)) return {};
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     const auto captured = look_at(path, other, {.sound = false, .turn = turn}, progress);
-    // On its side a glow may by chance look like a flame, but hardly as sure as one.
-    constexpr double kSure = 0.8;
     return captured && captured->report.verdict->usable &&
-           (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > kSure);
+           (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > kSureTurn);
   };
   const auto frames = [](const FrameRange& of) { return std::to_string(of.first) + ":" + std::to_string(of.last); };
   const std::int64_t first = options.frames ? options.frames->first : 1;

@@ -21,8 +21,7 @@ class FilmLook {
   /// Takes in the next picture of the film; all have one size.
   void look(const Picture& picture);
 
-  /// What the pictures so far tell.
-  FilmFacts facts() const;
+  FilmFacts facts() const;  ///< of the pictures so far
 
   /// Takes in a picture that shows the thing.
   void remember(const Picture& picture);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 
 #include "capture/vision/film_look.hpp"
 #include "capture/vision/outline_verdict_weights.hpp"
@@ -63,7 +62,6 @@ constexpr std::array<FactRow, 19> kFacts{{
 }};
 static_assert(kVerdictCurves.size() == kFacts.size());
 constexpr std::size_t kLost = 11;
-static_assert(std::string_view(kFacts[kLost].name) == "lost");
 
 // Of the rows in which the flame burns and that have a frame of their own, those without an outline.
 double missing_share(R r) {
