@@ -94,8 +94,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest stretch of rows without one that breaks it, in the film's frames; nothing where that is hardly a part, or
-// all of it.
+// The longest stretch without a row that breaks it, in the film's frames; nothing where it is hardly a part, or all.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
@@ -119,8 +118,7 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;
-  constexpr double kSureTurn = 0.8;  // on its side a glow may look like a flame, but hardly as sure as one
+  constexpr std::int64_t kEnoughFrames = 120;  // of a turned look; on its side a glow is hardly as sure as a flame
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -128,7 +126,7 @@ Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Resul
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     const auto captured = look_at(path, other, {.sound = false, .turn = turn}, progress);
     return captured && captured->report.verdict->usable &&
-           (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > kSureTurn);
+           (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > 0.8);
   };
   const auto frames = [](const FrameRange& of) { return std::to_string(of.first) + ":" + std::to_string(of.last); };
   const std::int64_t first = options.frames ? options.frames->first : 1;

@@ -82,14 +82,13 @@ void FilmLook::look(const Picture& picture) {
 FilmFacts FilmLook::facts() const {
   constexpr double kMinCut = 0.5, kBeyondOthers = 3;
   FilmFacts out{.pictures = flat_.size()};
-  if (changes_.empty()) return out;
   const double cut = std::max(kMinCut, kBeyondOthers * median(changes_));
   for (std::size_t k = 0; k < changes_.size(); ++k) {
     if (changes_[k] > cut) out.cuts.push_back(k + 1);
   }
   out.brightest = brightest_point_;
   out.flat = median(flat_);
-  out.camera = moved_ / static_cast<double>(changes_.size());
+  out.camera = moved_ / static_cast<double>(std::max<std::size_t>(1, changes_.size()));
   return out;
 }
 
