@@ -3,10 +3,7 @@
 // Every recording of breath is replayed behind a quiet room, or after a first sound that comes at once, and what the
 // estimator makes of them blows on the candle that the page ships.
 
-#include <bit>
-#include <fstream>
 #include <map>
-#include <utility>
 
 #include "studies/value_or_abort.hpp"
 #include "studies/wind/blowing_sounds.hpp"
@@ -353,34 +350,6 @@ void others(Bounds& bounds) {
 }
 
 }  // namespace
-
-void write_blows(const std::filesystem::path& path) {
-  constexpr double kFirst = 3.5, kApart = 4;
-  const std::vector<KnownSound> all = blows();
-  const double seconds = kFirst + kApart * static_cast<double>(all.size());
-  Samples sound = sounds::room(seconds, kSoundRate, 3e-4);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    constexpr double kRms[] = {0.1, 0.2, 0.35, 0.6};
-    const double at = kFirst + kApart * static_cast<double>(k);
-    sounds::add(sound, at_rms(all[k].samples, kRms[k % 4]), at, kSoundRate);
-    std::printf("%g %g %s\n", at, kRms[k % 4], all[k].from.c_str());
-  }
-  // A WAV file of one track of 32-bit floats.
-  std::ofstream file(path, std::ios::binary);
-  const auto put = [&](std::size_t value, int bytes) {
-    for (int k = 0; k < bytes; ++k) file.put(static_cast<char>(value >> (8 * k) & 255));
-  };
-  const auto rate = static_cast<std::size_t>(kSoundRate);
-  file << "RIFF";
-  put(36 + 4 * sound.size(), 4);
-  file << "WAVEfmt ";
-  for (const auto& [value, bytes] :
-       {std::pair{std::size_t{16}, 4}, {3, 2}, {1, 2}, {rate, 4}, {4 * rate, 4}, {4, 2}, {32, 2}})
-    put(value, bytes);
-  file << "data";
-  put(4 * sound.size(), 4);
-  for (const float value : sound) put(std::bit_cast<std::uint32_t>(value), 4);
-}
 
 void blowing(Bounds& bounds) {
   if (blows().empty()) {

@@ -7,7 +7,6 @@
 int main(int count, char** names) {
   using namespace wisp::verify;
   if (count == 2 && std::string(names[1]) == "--features") return print_features(), 0;
-  if (count == 3 && std::string(names[1]) == "--blows") return write_blows(names[2]), 0;
   const Check checks[] = {
       {"anemometer", anemometer}, {"gusts", gusts}, {"confidence", confidence}, {"blowing", blowing}};
   return run_checks(checks, {names + 1, static_cast<std::size_t>(count - 1)});

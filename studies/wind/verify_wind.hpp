@@ -83,8 +83,4 @@ void blowing(Bounds& bounds);
 /// What likeness is fitted on, as CSV.
 void print_features();
 
-/// Writes hard blows of recorded breath, one every 4 s after 3.5 s of a quiet room, as a WAV file, and prints a line
-/// for each: second, RMS, recording. What listens to a microphone (page, window) is tried with it.
-void write_blows(const std::filesystem::path& path);
-
 }  // namespace wisp::verify
