@@ -18,7 +18,9 @@ using arx::add;
 using arx::element;
 
 std::string shape_text(InputShape shape) {
-  return std::string(has_powers(shape) ? "size and sign" : splits_sign(shape) ? "split sign" : "linear") +
+  return std::string(has_powers(shape)    ? "size and sign"
+                     : splits_sign(shape) ? "split sign"
+                                          : "linear") +
          (has_powers(shape) ? ", its square root and its square" : "") + (is_vector(shape) ? ", of a vector" : "");
 }
 

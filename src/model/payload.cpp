@@ -342,10 +342,8 @@ Training read_training(const file::Training& stored) {
 }
 
 constexpr std::pair<InputShape, file::InputShape> kShapes[] = {
-    {InputShape::kLinear, file::InputShape::Linear},
-    {InputShape::kSplitSign, file::InputShape::SplitSign},
-    {InputShape::kEvenOdd, file::InputShape::EvenOdd},
-    {InputShape::kWindAlong, file::InputShape::WindAlong},
+    {InputShape::kLinear, file::InputShape::Linear},         {InputShape::kSplitSign, file::InputShape::SplitSign},
+    {InputShape::kEvenOdd, file::InputShape::EvenOdd},       {InputShape::kWindAlong, file::InputShape::WindAlong},
     {InputShape::kWindAcross, file::InputShape::WindAcross},
 };
 

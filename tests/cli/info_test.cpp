@@ -168,9 +168,8 @@ View view_of(const Json& json) {
 }
 
 Input input_of(const Json& json) {
-  static const std::map<std::string, InputShape> shapes = {{"linear", InputShape::kLinear},
-                                                           {"split_sign", InputShape::kSplitSign},
-                                                           {"even_odd", InputShape::kEvenOdd}};
+  static const std::map<std::string, InputShape> shapes = {
+      {"linear", InputShape::kLinear}, {"split_sign", InputShape::kSplitSign}, {"even_odd", InputShape::kEvenOdd}};
   return {json["name"], json["unit"], json["range"][0], json["range"][1], shapes.at(json["form"])};
 }
 

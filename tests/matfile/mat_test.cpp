@@ -46,7 +46,8 @@ class ScratchMat {
     return *this;
   }
   // `count` structures of the same fields, a column of numbers each.
-  ScratchMat& structures(const char* name, std::size_t count, std::vector<std::pair<const char*, std::vector<double>>> columns) {
+  ScratchMat& structures(const char* name, std::size_t count,
+                         std::vector<std::pair<const char*, std::vector<double>>> columns) {
     std::size_t shape[2] = {1, count};
     std::vector<const char*> fields;
     for (const auto& column : columns) fields.push_back(column.first);

@@ -22,9 +22,9 @@ namespace wisp {
 
 /// How one external input enters the dynamics.
 enum class InputShape {
-  kLinear,     ///< as it is: one regressor
-  kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
-               ///< one
+  kLinear,      ///< as it is: one regressor
+  kSplitSign,   ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
+                ///< one
   kEvenOdd,     ///< as six: |u|, its square root and its square, then the same with the sign of u
   kWindAlong,   ///< the x of a level wind vector: as six, the vector's length, its square root and its square, then the
                 ///< same times the x of its direction

@@ -229,7 +229,8 @@ ArxOrders shape_orders(const ShapeComponents& shape, std::size_t regressors) {
   const auto symmetric = static_cast<int>(shape.symmetric);
   for (int i = 0; i < ny; ++i) {
     for (int j = 0; j < ny; ++j) orders.na(i, j) = (i < symmetric) == (j < symmetric) ? kOrder : 0;
-    for (int k = 0; k < nu; ++k) orders.nb(i, k) = is_even(static_cast<std::size_t>(k)) == (i < symmetric) ? kInputLags : 0;
+    for (int k = 0; k < nu; ++k)
+      orders.nb(i, k) = is_even(static_cast<std::size_t>(k)) == (i < symmetric) ? kInputLags : 0;
   }
   return orders;
 }

@@ -97,9 +97,9 @@ std::span<const RegressorForm> regressor_forms(InputShape shape) {
   static constexpr RegressorForm kSplit[] = {{kPositive}, {kNegative}};
   static constexpr RegressorForm kPowers[] = {{kSize, kOne},  {kSize, kRoot},  {kSize, kSquare},
                                               {kWhole, kOne}, {kWhole, kRoot}, {kWhole, kSquare}};
-  static constexpr RegressorForm kVector[] = {{kLength, kOne},    {kLength, kRoot},  {kLength, kSquare},
-                                              {kAlong, kOne},     {kAlong, kRoot},   {kAlong, kSquare},
-                                              {kAcross, kOne},    {kAcross, kRoot},  {kAcross, kSquare}};
+  static constexpr RegressorForm kVector[] = {{kLength, kOne}, {kLength, kRoot}, {kLength, kSquare},
+                                              {kAlong, kOne},  {kAlong, kRoot},  {kAlong, kSquare},
+                                              {kAcross, kOne}, {kAcross, kRoot}, {kAcross, kSquare}};
   if (shape == InputShape::kWindAlong) return std::span(kVector).first(6);
   if (shape == InputShape::kWindAcross) return std::span(kVector).last(3);
   if (has_powers(shape)) return kPowers;

@@ -66,7 +66,8 @@ TEST(OutlineInputs, AnInputBecomesPowersOfItsSizeThenWithItsSign) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Recording split = with_regressors(windy({1, -4, nan}), input, {.powers = true});
   EXPECT_EQ(regressor_names(input, {.powers = true}),
-            (std::vector<std::string>{"wind size", "wind size root", "wind size square", "wind", "wind root", "wind square"}));
+            (std::vector<std::string>{"wind size", "wind size root", "wind size square", "wind", "wind root",
+                                      "wind square"}));
   EXPECT_EQ(samples(split, "wind size")[0], 0.5);
   EXPECT_EQ(samples(split, "wind")[0], 0.5);
   EXPECT_EQ(samples(split, "wind size")[1], 2);

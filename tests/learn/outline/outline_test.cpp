@@ -173,7 +173,8 @@ TEST(Outline, ThePapersFlameCostsWhatThePaperSays) {
   EXPECT_TRUE(arx(fit).noise.resampled.empty());
 }
 
-// Two blocks of seven, and six lags of three functions of the wind: of its size for one kind, with its sign for the other.
+// Two blocks of seven, and six lags of three functions of the wind: of its size for one kind, with its sign for the
+// other.
 TEST(Outline, SymmetricAndAntisymmetricComponentsDoNotHearEachOther) {
   const OutlineFit fit = learned({.points = 8, .rows = 900, .wind = true});
   const ShapeComponents& shape = std::get<OutlineView>(fit.model.view).shape;
