@@ -195,7 +195,7 @@ def play_chain(model, winds, seed=1, noise=True):
         lean, slip = meet(none)
     for step, wind in enumerate(winds):
         if gust:
-            change = gust.blow(vector(*(regress(i, 0, 1, 0, value) for i, value in zip(model["inputs"], wind))), q)
+            change = gust.blow(vector(*(regress(i, "whole", 1, 0, value) for i, value in zip(model["inputs"], wind))), q)
             base = base if change is None else base + change * of.dt
         steps, before, row = of.steps[segment], row, row + 1
         if blend and steps >= 2 * blend and before == steps - blend:

@@ -10,7 +10,7 @@ says the same in words. Here are ARX and switched models; resampled.py and chain
 import itertools, json, math, sys
 from chain import play_chain
 from resampled import Resampled
-from shared import F, clamp, edges, kept, normals, regress, settle, unit_of, words
+from shared import FORMS, F, clamp, edges, kept, normals, regress, settle, unit_of, words
 
 
 def likely(chances, word):  # a step of a Markov chain; without a word the likeliest
@@ -78,8 +78,7 @@ def play(model, winds, seed=1, noise=True):
     if d["kind"] == "chain":
         yield from play_chain(model, winds, seed, noise)
         return
-    forms = [(item, sign, power) for item in model["inputs"] for sign in ([1, -1] if "split" in item["form"] else [0])
-             for power in ([1, 0.5, 2] if "powers" in item["form"] else [1])]
+    forms = [(item, *form) for item in model["inputs"] for form in FORMS[item["form"]]]
     unit = [unit_of(o) for o in outputs] + [unit_of(item) ** power for item, _, power in forms]
     clamped = [[F((edge - mean) / u) for edge in edges(o)] for o, mean, u in zip(outputs, d["output_mean"], unit)]
 

@@ -21,28 +21,19 @@ def unit_of(item):  # a power of two near the range
     return 1.0 if size <= 0 or 1 / 128 <= size <= 128 else 2.0 ** (math.frexp(size)[1] - 1)
 
 
-def bend(u, item):  # an input's curve: straight pieces between its knots
-    at, value = item["curve"]["at"], item["curve"]["value"]
-    y = F(value[0])
-    if not u > F(at[0]):
-        return u
-    for k in range(len(at) - 1):
-        width, slope = F(at[k + 1] - at[k]), F((value[k + 1] - value[k]) / (at[k + 1] - at[k]))
-        if u < F(at[k + 1]):
-            return y + slope * min(u - F(at[k]), width)
-        y = y + slope * width
-    return y + (u - F(at[-1]))
+FORMS = {"linear": [("whole", 1)], "split_sign": [("positive", 1), ("negative", 1)],
+         "even_odd": [(part, power) for part in ("size", "whole") for power in (1, 0.5, 2)]}
 
 
-def regress(item, sign, power, mean, u):  # one of the numbers that the dynamics see of an input
+def regress(item, part, power, mean, u):  # one of the numbers that the dynamics see of an input
     unit = unit_of(item)
     u = clamp(F(u), *map(F, edges(item)))
-    u = max(F(sign) * u, F(0)) if sign else u
-    u = bend(u, item) if "curve" in item else u
+    u = {"whole": u, "positive": max(u, F(0)), "negative": max(-u, F(0)), "size": abs(u)}[part]
     if power == 1:
         return settle((u - F(mean)) * F(1 / unit))
-    u = u * F(1 / unit)
-    return settle((np.sqrt(u) if power == 0.5 else u * u) - F(mean / unit**power))
+    size = abs(u) * F(1 / unit)
+    size = np.sqrt(size) if power == 0.5 else size * size
+    return settle((F(0) - size if u < 0 else size) - F(mean / unit**power))
 
 
 def words(seed, step, group, stream=0):  # Philox4x32 of 7 rounds: four random words
