@@ -44,14 +44,10 @@ struct RowStretch {
 
 int steps_of(double seconds, double rate_hz) { return std::max(1, static_cast<int>(std::lround(seconds * rate_hz))); }
 
-const std::vector<double>& samples(const Recording& recording, const std::string& name) {
-  return recording.channels[*find_channel(recording, name)].samples;
-}
-
 // The first input with its sign; zeros where there is none.
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
-  return samples(recording, prepared.inputs.front().name);
+  return recording.channels[*find_channel(recording, prepared.inputs.front().name)].samples;
 }
 
 // Where wind sets in after calm. A recorded calm ends there, so that a thing that stands still in a wind that stays
