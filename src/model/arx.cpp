@@ -126,24 +126,6 @@ Result<void> check_noise(const ResidualNoise& noise, std::size_t ny) {
   return check_finite(noise.mixing, ny * noise.rank, "the noise's mixing matrix");
 }
 
-// Outputs that feed each other, directly or through others, share a label.
-std::vector<int> coupled_blocks(const OrderMatrix& na) {
-  std::vector<int> label(na.rows());
-  std::iota(label.begin(), label.end(), 0);
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (int i = 0; i < na.rows(); ++i) {
-      for (int j = 0; j < na.columns(); ++j) {
-        if (na(i, j) == 0 || label[i] == label[j]) continue;
-        label[i] = label[j] = std::min(label[i], label[j]);
-        changed = true;
-      }
-    }
-  }
-  return label;
-}
-
 using Square = std::vector<double>;  // n × n, row-major
 
 // The companion matrix of one block of outputs, coefficients rounded to single precision.
@@ -256,15 +238,28 @@ Result<void> check(const ArxModel& model) {
   return check_noise(model.noise, ny);
 }
 
-double spectral_radius(const ArxModel& model) {
-  const std::vector<int> block = coupled_blocks(model.orders.na);
-  double largest = 0;
-  for (int label = 0; label < static_cast<int>(block.size()); ++label) {
-    std::vector<int> outputs;
-    for (int i = 0; i < static_cast<int>(block.size()); ++i) {
-      if (block[i] == label) outputs.push_back(i);
+std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na) {
+  std::vector<int> label(static_cast<std::size_t>(na.rows()));
+  std::iota(label.begin(), label.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < na.rows(); ++i) {
+      for (int j = 0; j < na.columns(); ++j) {
+        if (na(i, j) == 0 || label[i] == label[j]) continue;
+        label[i] = label[j] = std::min(label[i], label[j]);
+        changed = true;
+      }
     }
-    if (outputs.empty()) continue;
+  }
+  std::vector<std::vector<int>> blocks(label.size());
+  for (std::size_t i = 0; i < label.size(); ++i) blocks[label[i]].push_back(static_cast<int>(i));
+  std::erase_if(blocks, [](const std::vector<int>& block) { return block.empty(); });
+  return blocks;
+}
+
+double spectral_radius(const ArxModel& model) {
+  double largest = 0;
+  for (const std::vector<int>& outputs : coupled_outputs(model.orders.na)) {
     int size = 0;
     Square matrix = companion(model, outputs, size);
     if (size > 0) largest = std::max(largest, radius(std::move(matrix), size));

@@ -196,7 +196,7 @@ JUDGES = (
 )
 
 
-def told(recorded, played, judge):
+def held_out_accuracy(recorded, played, judge):
     """Held-out accuracy of every pair, each left out once, and windows a side."""
     _, rows, hop, features, make = judge
     x, y, pairs = [], [], []
@@ -223,15 +223,15 @@ def interval(of_pairs):
 def compare(recorded, plays, floor, most):
     """Prints every judge's accuracy, the floor and the difference; whether all differences are surely below `most`."""
     held = True
-    print(f"{'told apart':34} {'accuracy, 95 %':22} {'plays':16} {'floor':8} difference, 95 %")
+    print(f"{'classifier':34} {'accuracy, 95 %':22} {'plays':16} {'floor':8} difference, 95 %")
     for judge in JUDGES:
-        found = [told(recorded, play, judge) for play in plays]
+        found = [held_out_accuracy(recorded, play, judge) for play in plays]
         of_pairs = np.mean([one[0] for one in found], 0)
         means = [one[0].mean() for one in found]
         low, high = interval(of_pairs)
         line = f"{judge[0]:34} {of_pairs.mean():.3f} [{low:.3f}, {high:.3f}]   {min(means):.3f} to {max(means):.3f}"
         if floor:
-            least = told(recorded, floor, judge)[0]
+            least = held_out_accuracy(recorded, floor, judge)[0]
             low, high = interval(of_pairs - least)
             held &= high < most
             line += f"   {least.mean():.3f}    {(of_pairs - least).mean():+.3f} [{low:+.3f}, {high:+.3f}]"

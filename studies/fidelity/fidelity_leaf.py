@@ -101,7 +101,7 @@ def spectra(random):
     return of
 
 
-def told(first, second):
+def held_out_accuracy(first, second):
     """Held-out accuracy of every fall of both sides: no fall is on both sides of a fold."""
     random = np.random.default_rng(0)
     sides = [(values[at], owners[at]) for values, owners in (first, second)
@@ -149,11 +149,11 @@ def main():
     for name, seconds, features in (("0.35 s, statistics", SHORT, statistics), ("2 s, statistics", LONG, statistics),
                                     ("2 s, masked spectra to 12 Hz", LONG, spectra(np.random.default_rng(1)))):
         sides = [windows(side, seconds, rate, features) for side in falls]
-        found = told(sides[0], sides[1])
+        found = held_out_accuracy(sides[0], sides[1])
         accuracy, (low, high) = np.mean([side.mean() for side in found]), interval(found)
         line = f"{name:32} {accuracy:.3f} [{low:.3f}, {high:.3f}]"
         if len(sides) == 3:
-            floor = np.mean([side.mean() for side in told(sides[0], sides[2])])
+            floor = np.mean([side.mean() for side in held_out_accuracy(sides[0], sides[2])])
             line += f"   floor {floor:.3f}, above it {accuracy - floor:+.3f}"
             held &= features is not statistics or accuracy - floor < options.above_floor
         print(line, flush=True)

@@ -41,23 +41,6 @@ CAUSES = {
     "shaken": (["shaken"], ["crop=iw*0.75:ih*0.75:'iw*0.125*(1+0.6*sin(11*t)+0.4*sin(31*t+1))':'ih*0.125*(1+0.6*sin(13*t)+0.4*sin(27*t))'",
                             "crop=iw*0.7:ih*0.7:'iw*0.15*(1+sin(n*n*7.3))':'ih*0.15*(1+sin(n*n*3.1+1))'"]),
     "irregular": (["irregular"], ["select='gt(random(1),0.35)'"]),
-    "small": (["small"], ["scale=max(2\\,trunc(iw*5/{h}/2)*2):max(2\\,trunc(ih*5/{h}/2)*2):flags=area,pad=320:240:160:60"]),
-    "short": "longer clip", "irregular": "irregularly", "shaken": "keep the camera still", "missing": "missing in|only now and then"}
-# True cause, names that are right: a list of filters. {rate}: the film's; {x}, {y}, {w}, {h}: the box of its outline.
-CAUSES = {
-    "upside down": (["upside down"], ["vflip"]),
-    "on its side": (["on its side"], ["transpose=1", "transpose=2"]),
-    "twice": (["repeated"], ["fps={twice},noise=alls=4:allf=t"]),
-    "slow motion": (["repeated"], ["setpts=4*PTS,fps={rate},noise=alls=3:allf=t"]),
-    "too dark": (["too dark"], ["lutyuv=y=16+(val-16)*0.09:u=128+(val-128)*0.09:v=128+(val-128)*0.09,noise=alls=2:allf=t"]),
-    "too bright": (["too bright"], ["lutrgb=r=val*5:g=val*5:b=val*5"]),
-    "glare": (["too bright"], ["split[a][b];[b]lutrgb=r=2*val:g=2*val:b=2*val,gblur=sigma={glow}[c];[a][c]blend=all_mode=addition:all_opacity=1,format=gbrp,"
-                               "lutrgb=r=val*3:g=val*3:b=val*3"]),
-    "cut": (["cut"], ["fps={rate},scale=320:240:force_original_aspect_ratio=decrease,pad=320:240,setsar=1,trim=0:2.2[a];movie={street},scale=320:240,setsar=1,fps={rate},"
-                      "trim=0:1.8,setpts=PTS-STARTPTS[b];[a][b]concat"]),
-    "shaken": (["shaken"], ["crop=iw*0.75:ih*0.75:'iw*0.125*(1+0.6*sin(11*t)+0.4*sin(31*t+1))':'ih*0.125*(1+0.6*sin(13*t)+0.4*sin(27*t))'",
-                            "crop=iw*0.7:ih*0.7:'iw*0.15*(1+sin(n*n*7.3))':'ih*0.15*(1+sin(n*n*3.1+1))'"]),
-    "irregular": (["irregular"], ["select='gt(random(1),0.35)'"]),
     "small": (["small"], ["scale=trunc(iw*6/{h}/2)*2:-2:flags=area,scale=iw*4:-2,pad=320:240:40:20"]),
     "short": (["short"], ["trim=end_frame=13"]),
     "border": (["border"], ["crop=trunc((iw-{x}-{w}/2)/2)*2:ih:{x}+{w}/2:0", "crop=iw:trunc((ih-{y}-{h}*0.3)/2)*2:0:{y}+{h}*0.3"]),

@@ -120,6 +120,12 @@ struct ArxModel {
 /// Checks shapes, orders and finiteness. Errors say which coefficient or matrix and what was expected.
 Result<void> check(const ArxModel& model);
 
+/// Outputs whose equations feed each other, directly or through others, as blocks of output indices. Different blocks
+/// simulate independently.
+///
+/// Precondition: `na` is square.
+std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
+
 /// Largest absolute eigenvalue of the companion matrix of A(q), with coefficients rounded to single precision as
 /// `run/` uses them: below 1 the model is stable. 0 for a model without feedback. Independent blocks of outputs are
 /// found and solved apart.

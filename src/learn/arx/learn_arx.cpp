@@ -23,7 +23,7 @@ namespace {
 
 std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const OrderMatrix& na = fit.model.orders.na;
-  const bool apart = arx::coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
+  const bool apart = coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
   const auto& levels = fit.model.constant;  // the focus may have estimated them

@@ -23,7 +23,7 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['1', '2', '3'], 'candle, leaves, a flame of your own'],
   [['I'], 'what was learned'],
   [['S'], 'send it: name, age, wish'],
-  [['A'], 'tilt and touch: a phone that is tilted makes wind, turned it goes round the candle, and it trembles when the flame goes out'],
+  [['A'], 'tilt and vibration: tilting the phone makes wind, turning it turns the view round the candle, and it vibrates when the flame goes out'],
   [['N'], 'learned noise on and off'],
   [['P'], 'pause'],
   [['F'], 'full screen'],

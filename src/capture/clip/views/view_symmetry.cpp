@@ -10,8 +10,9 @@ namespace wisp {
 namespace {
 
 constexpr int kShuffles = 1000;
-// Power of the directions' own harmonics: 4 of one, 1 and more of two, 0 of all alike.
-constexpr double kMostOneSided = 0.95;
+// Largest power of both harmonics of the directions themselves: 4 where all blows have one direction, at least 1 where
+// they have two, 0 where directions are spread evenly.
+constexpr double kMaxDirectionPower = 0.95;
 
 // The mean square, over all directions, of two harmonics that blows of such numbers show.
 double harmonics(std::span<const BlowAnswer> blows, std::span<const double> numbers) {
@@ -28,7 +29,7 @@ double harmonics(std::span<const BlowAnswer> blows, std::span<const double> numb
 
 std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> blows) {
   const std::size_t n = blows.size();
-  if (n < kMinSymmetryBlows || harmonics(blows, std::vector<double>(n, 1.0)) > kMostOneSided) return {};
+  if (n < kMinSymmetryBlows || harmonics(blows, std::vector<double>(n, 1.0)) > kMaxDirectionPower) return {};
   double strength = 0, lean = 0, both = 0, square = 1e-12;
   const auto count = static_cast<double>(n);
   for (const BlowAnswer& blow : blows) strength += blow.strength / count, lean += blow.lean / count;

@@ -50,7 +50,7 @@ void scale_row(const Eigen::MatrixXd& inverse, double factor, int output, ArxMod
 }  // namespace
 
 void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius, double share) {
-  for (const std::vector<int>& outputs : arx::coupled_outputs(model.orders.na)) {
+  for (const std::vector<int>& outputs : coupled_outputs(model.orders.na)) {
     const Eigen::MatrixXd companion = companion_of(model, outputs);
     const double radius = companion.size() > 0 ? eigenvalues(companion).cwiseAbs().maxCoeff() : 0;
     if (radius <= max_radius) continue;

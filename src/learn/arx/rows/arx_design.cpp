@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
-#include <numeric>
 
 namespace wisp {
 
@@ -88,28 +87,5 @@ ArxOrders make_orders(const UniformOrders& uniform) {
   }
   return orders;
 }
-
-namespace arx {
-
-std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na) {
-  std::vector<int> label(static_cast<std::size_t>(na.rows()));
-  std::iota(label.begin(), label.end(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int i = 0; i < na.rows(); ++i) {
-      for (int j = 0; j < na.columns(); ++j) {
-        if (na(i, j) == 0 || label[i] == label[j]) continue;
-        label[i] = label[j] = std::min(label[i], label[j]);
-        changed = true;
-      }
-    }
-  }
-  std::vector<std::vector<int>> blocks(label.size());
-  for (std::size_t i = 0; i < label.size(); ++i) blocks[label[i]].push_back(static_cast<int>(i));
-  std::erase_if(blocks, [](const std::vector<int>& block) { return block.empty(); });
-  return blocks;
-}
-
-}  // namespace arx
 
 }  // namespace wisp

@@ -28,13 +28,6 @@ struct UniformOrders {
 /// Precondition: the fields are in the ranges beside them.
 ArxOrders make_orders(const UniformOrders& uniform);
 
-namespace arx {
-
-/// Outputs whose equations feed each other, as blocks of output indices. Different blocks simulate independently.
-std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
-
-}  // namespace arx
-
 /// Output rows that have the same regressors, and so share a factorisation.
 struct SharedRows {
   std::vector<int> columns;  ///< positions in the layout, in theta's order; the constant, where estimated, comes last
