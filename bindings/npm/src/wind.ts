@@ -128,9 +128,9 @@ export class WindLevel {
     return this.frameAt(this.frames);
   }
 
-  /** Takes the coming seconds of sound, 0.5 to 30, as the requested sound. The room needs no calibration. */
-  calibrate(ask: WindAsk, seconds = 3): void {
-    this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
+  /** Takes the coming seconds of sound, 0.5 to 30, as the requested sound. The room needs none: seconds alone change nothing. */
+  calibrate(ask: WindAsk | number, seconds = 3): void {
+    if (typeof ask === 'string') this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
   /** Whether that time is still running. */
