@@ -46,7 +46,7 @@ void step_flames(benchmark::State& state, const Model& model, int instances, flo
 }
 
 void flame_step(benchmark::State& state) {
-  step_flames(state, flame_model({.wind = InputShape::kSplitSign}), static_cast<int>(state.range(0)),
+  step_flames(state, flame_model({.wind = InputShape::kEvenOdd}), static_cast<int>(state.range(0)),
               static_cast<float>(state.range(1)));
 }
 BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
@@ -54,7 +54,7 @@ BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 10
 // So many steps in one call, with noise, in a wind that stays.
 void flame_steps(benchmark::State& state) {
   const auto instances = static_cast<int>(state.range(0)), count = static_cast<int>(state.range(1));
-  Bank bank = full_bank(flame_model({.wind = InputShape::kSplitSign}), instances);
+  Bank bank = full_bank(flame_model({.wind = InputShape::kEvenOdd}), instances);
   bank.set_inputs(std::vector<float>(instances, 0.3f));
   for (auto _ : state) bank.step(count);
   per_instance(state, std::int64_t{instances} * count);
@@ -64,7 +64,7 @@ BENCHMARK(flame_steps)->ArgNames({"flames", "steps"})->ArgsProduct({{1024, 10485
 // A frame at 60 Hz of flames far away, whose model makes fewer steps a second: between them they are interpolated.
 void flame_far(benchmark::State& state) {
   const auto instances = static_cast<int>(state.range(0));
-  Model model = flame_model({.wind = InputShape::kSplitSign});
+  Model model = flame_model({.wind = InputShape::kEvenOdd});
   model.rate_hz = static_cast<double>(state.range(1));
   Bank bank = full_bank(model, instances);
   const std::vector<float> wind(instances, 0.3f);
@@ -126,7 +126,7 @@ BENCHMARK(limit_triad)->Unit(benchmark::kMillisecond);
 // A game's whole frame at 60 Hz: wind in, time passes, polylines of 32 points out.
 void flame_frame(benchmark::State& state) {
   const auto instances = static_cast<int>(state.range(0));
-  Bank bank = full_bank(flame_model({.wind = InputShape::kSplitSign}), instances);
+  Bank bank = full_bank(flame_model({.wind = InputShape::kEvenOdd}), instances);
   const std::vector<float> wind(instances, 0.3f);
   std::vector<float> outlines(static_cast<std::size_t>(instances) * bank.polyline_points() * 2);
   for (auto _ : state) {
@@ -162,7 +162,7 @@ BENCHMARK(shipped_frame)->ArgNames({"flames", "round"})->ArgsProduct({{1, 1000},
 
 // The flame of flame_step as one writes it at first: rings with a modulo, loops over all outputs, double precision.
 void flame_step_plain(benchmark::State& state) {
-  const Model model = flame_model({.wind = InputShape::kSplitSign});
+  const Model model = flame_model({.wind = InputShape::kEvenOdd});
   const auto& arx = std::get<ArxModel>(model.dynamics);
   const int ny = arx.orders.outputs(), nu = arx.orders.inputs();
   constexpr int kDepth = 5;

@@ -155,7 +155,7 @@ void bind_models(py::module_& module) {
           "A[lag - 1, i, j] of y(t) + A1 y(t-1) + ... = B u + e; of each mode of a switched model.")
       .def_property_readonly(
           "b", [](const Model& self) { return coefficients(self, true); },
-          "B[lag, i, k] from lag 0, of inputs as the dynamics see them (signs split).")
+          "B[lag, i, k] from lag 0, of inputs as the dynamics see them.")
       .def_property_readonly(
           "noise_sd", [](const Model& self) { return arx_of(self)[0].noise.sd; },
           "Standard deviation of each output's own noise.")

@@ -9,7 +9,7 @@ class Resampled:
     def __init__(self, model, unit):
         d = model["dynamics"]
         ny, r = len(d["output_mean"]), d["noise"]["resampled"]
-        self.lags, self.longest, self.toward, self.against = r["lags"], r["longest"], r["toward"], r["against"]
+        self.lags, self.longest, self.toward = r["lags"], r["longest"], r["toward"]
         self.rows = [[bounded(x * (scale / u)) for x, scale, u in zip(row, r["scale"], unit)] for row in r["rows"]]
         self.sides = [[(i, F(1)) for i in range(ny)]]
         if r["mirror"]:
@@ -21,7 +21,7 @@ class Resampled:
             self.lookup = Lookup(model, self.rows, self.left)
             return
         scale, of, depth = unit[ny + self.toward], d["input_mean"], self.lags[-1]
-        mean = (of[self.toward] - (of[self.against] if self.against >= 0 else 0)) / scale
+        mean = of[self.toward] / scale
         winds = [bounded(w * (r["wind_scale"] / scale) - mean) for w in r["winds"]]
         now = [row + (k + 1) * depth for k, (begin, end) in stretches for row in range(begin, end)]
         self.pasts = [[winds[place - lag] for lag in self.lags] for place in now]
@@ -51,8 +51,7 @@ class Resampled:
 
     def hear(self, regressors):
         if self.toward >= 0:
-            wind = regressors[self.toward] - (regressors[self.against] if self.against >= 0 else F(0))
-            self.heard = [wind] + self.heard[:-1]
+            self.heard = [regressors[self.toward]] + self.heard[:-1]
 
     def apart(self, row, side):  # how far the input's past is from a row's
         total = F(0)

@@ -21,14 +21,14 @@ def unit_of(item):  # a power of two near the range
     return 1.0 if size <= 0 or 1 / 128 <= size <= 128 else 2.0 ** (math.frexp(size)[1] - 1)
 
 
-FORMS = {"linear": [("whole", 1)], "split_sign": [("positive", 1), ("negative", 1)],
+FORMS = {"linear": [("whole", 1)],
          "even_odd": [(part, power) for part in ("size", "whole") for power in (1, 0.5, 2)]}
 
 
 def regress(item, part, power, mean, u):  # one of the numbers that the dynamics see of an input
     unit = unit_of(item)
     u = clamp(F(u), *map(F, edges(item)))
-    u = {"whole": u, "positive": max(u, F(0)), "negative": max(-u, F(0)), "size": abs(u)}[part]
+    u = abs(u) if part == "size" else u
     if power == 1:
         return settle((u - F(mean)) * F(1 / unit))
     size = abs(u) * F(1 / unit)

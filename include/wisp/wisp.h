@@ -101,7 +101,7 @@ enum {
 
 typedef struct wisp_model_facts {
   uint32_t size;           /* sizeof(wisp_model_facts), set by the caller */
-  uint32_t inputs;         /* external inputs, before signs are split */
+  uint32_t inputs;         /* external inputs; an input makes one regressor or more */
   uint32_t outputs;        /* for an outline: 2 * control_points, x and y in turn */
   uint32_t control_points; /* 0 where the outputs are not an outline */
   uint32_t usable;         /* 1 when learning found the model fit for use */
@@ -134,7 +134,7 @@ typedef struct wisp_channel {
   const char* unit;
   double lowest; /* the trained or seen range; clamped to it and half of it more */
   double highest;
-  uint32_t splits_sign; /* of inputs: 1 when the dynamics see what is positive and what is negative apart */
+  uint32_t splits_sign; /* of inputs: 1 when their size and their sign make regressors of their own */
   uint32_t reserved2;
 } wisp_channel;
 
@@ -185,7 +185,7 @@ WISP_API wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t ind
 typedef struct wisp_arx_facts {
   uint32_t size;       /* sizeof(wisp_arx_facts), set by the caller */
   uint32_t outputs;    /* rows of the matrices of orders */
-  uint32_t regressors; /* inputs as the dynamics see them, signs split */
+  uint32_t regressors; /* inputs as the dynamics see them */
   uint32_t history;    /* steps that the longest lag reaches back */
   uint32_t shocks;     /* sources of noise that outputs share */
   uint32_t resamples;  /* 1 when recorded residuals are played again, 0 when the noise is Gaussian */

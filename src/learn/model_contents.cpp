@@ -42,7 +42,6 @@ void add_noise(const ResidualNoise& noise, ReportSection& section) {
   add(section, to + "wind_scale", resampled.wind_scale);
   add(section, to + "winds", list(resampled.winds));
   add(section, to + "toward", resampled.toward);
-  add(section, to + "against", resampled.against);
   add(section, to + "lags", list(resampled.lags));
   add(section, to + "tolerance", resampled.tolerance);
   add(section, to + "margin", resampled.margin);
@@ -104,8 +103,6 @@ const char* form_of(InputShape shape) {
   switch (shape) {
     case InputShape::kLinear:
       return "linear";
-    case InputShape::kSplitSign:
-      return "split_sign";
     case InputShape::kEvenOdd:
       return "even_odd";
     case InputShape::kWindAlong:

@@ -18,10 +18,8 @@ using arx::add;
 using arx::element;
 
 std::string shape_text(InputShape shape) {
-  return std::string(has_powers(shape)    ? "size and sign"
-                     : splits_sign(shape) ? "split sign"
-                                          : "linear") +
-         (has_powers(shape) ? ", its square root and its square" : "") + (is_vector(shape) ? ", of a vector" : "");
+  if (!has_powers(shape)) return "linear";
+  return std::string("size and sign, its square root and its square") + (is_vector(shape) ? ", of a vector" : "");
 }
 
 void add_inputs(const std::vector<Input>& inputs, ReportSection& section) {

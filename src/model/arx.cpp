@@ -89,8 +89,7 @@ Result<void> check_resampled(const ResampledResiduals& resampled, std::size_t ou
   if (auto ok = check_ends(resampled); !ok) return ok;
   const bool driven = resampled.toward >= 0;
   if (resampled.across < 0 || 2 * static_cast<std::size_t>(resampled.across) > outputs ||
-      (resampled.across > 0 && driven &&
-       (resampled.mirror.empty() || resampled.against >= 0 || resampled.toward + 3 >= nu))) {
+      (resampled.across > 0 && driven && (resampled.mirror.empty() || resampled.toward + 3 >= nu))) {
     return Error{"the resampled residuals are in the round, and not of outputs and an input that are"};
   }
   const std::size_t ny = outputs - static_cast<std::size_t>(resampled.across);
@@ -100,8 +99,7 @@ Result<void> check_resampled(const ResampledResiduals& resampled, std::size_t ou
   const bool negative =
       std::any_of(resampled.scale.begin(), resampled.scale.end(), [](double scale) { return scale < 0; });
   if (negative) return Error{"a scale of the resampled residuals is negative"};
-  if (resampled.toward < -1 || resampled.toward >= nu || resampled.against < -1 || resampled.against >= nu ||
-      (resampled.toward < 0 && resampled.against >= 0)) {
+  if (resampled.toward < -1 || resampled.toward >= nu) {
     return Error{"the resampled residuals hang on an input that is not there"};
   }
   if (auto ok = check_past(resampled); !ok) return ok;

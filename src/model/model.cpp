@@ -101,10 +101,8 @@ std::size_t regressor_count(const std::vector<Input>& inputs) {
 
 int regressor_count(InputShape shape) {
   if (shape == InputShape::kWindAcross) return 3;
-  return has_powers(shape) ? 6 : splits_sign(shape) ? 2 : 1;
+  return has_powers(shape) ? 6 : 1;
 }
-
-bool splits_sign(InputShape shape) { return shape == InputShape::kSplitSign || has_powers(shape); }
 
 bool has_powers(InputShape shape) { return shape == InputShape::kEvenOdd || is_vector(shape); }
 
@@ -128,7 +126,7 @@ Result<Model> in_the_round(const Model& plane) {
   }
   const bool still = std::any_of(arx->input_mean.begin(), arx->input_mean.end(), [](double mean) { return mean != 0; });
   const auto& resampled = arx->noise.resampled;
-  const bool sided = resampled.toward == kPowers && resampled.against < 0 && !resampled.mirror.empty();
+  const bool sided = resampled.toward == kPowers && !resampled.mirror.empty();
   if (!plane.inputs.empty() && (plane.inputs.size() > 1 || plane.inputs[0].shape != InputShape::kEvenOdd ||
                                 plane.inputs[0].lowest != -plane.inputs[0].highest || still || !sided)) {
     return Error{"the model can't be turned about the vertical: expected one input, a wind from either side"};

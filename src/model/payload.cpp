@@ -45,10 +45,10 @@ fb::Offset<file::ResampledResiduals> write_resampled(Builder& builder, const Res
   const auto mirror = sources.empty() ? 0 : builder.CreateVector(sources);
   const std::vector<std::uint16_t> past(resampled.lags.begin(), resampled.lags.end());
   const auto lags = past.empty() ? 0 : builder.CreateVector(past);
-  return file::CreateResampledResiduals(
-      builder, scale, rows, ends, resampled.wind_scale, winds, static_cast<std::int16_t>(resampled.toward),
-      static_cast<std::int16_t>(resampled.against), lags, resampled.tolerance, resampled.margin,
-      static_cast<std::uint32_t>(resampled.longest), mirror, static_cast<std::uint16_t>(resampled.across));
+  return file::CreateResampledResiduals(builder, scale, rows, ends, resampled.wind_scale, winds,
+                                        static_cast<std::int16_t>(resampled.toward), lags, resampled.tolerance,
+                                        resampled.margin, static_cast<std::uint32_t>(resampled.longest), mirror,
+                                        static_cast<std::uint16_t>(resampled.across));
 }
 
 fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
@@ -206,7 +206,6 @@ ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
   resampled.wind_scale = stored.wind_scale();
   resampled.winds = integers(stored.winds());
   resampled.toward = stored.toward();
-  resampled.against = stored.against();
   for (std::uint16_t lag : integers(stored.lags())) resampled.lags.push_back(lag);
   resampled.tolerance = stored.tolerance();
   resampled.margin = stored.margin();
@@ -342,8 +341,9 @@ Training read_training(const file::Training& stored) {
 }
 
 constexpr std::pair<InputShape, file::InputShape> kShapes[] = {
-    {InputShape::kLinear, file::InputShape::Linear},         {InputShape::kSplitSign, file::InputShape::SplitSign},
-    {InputShape::kEvenOdd, file::InputShape::EvenOdd},       {InputShape::kWindAlong, file::InputShape::WindAlong},
+    {InputShape::kLinear, file::InputShape::Linear},
+    {InputShape::kEvenOdd, file::InputShape::EvenOdd},
+    {InputShape::kWindAlong, file::InputShape::WindAlong},
     {InputShape::kWindAcross, file::InputShape::WindAcross},
 };
 

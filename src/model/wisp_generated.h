@@ -87,7 +87,6 @@ struct ModelBuilder;
 
 enum class InputShape : uint8_t {
   Linear = 0,
-  SplitSign = 1,
   WindAlong = 5,
   WindAcross = 6,
   EvenOdd = 7,
@@ -95,10 +94,9 @@ enum class InputShape : uint8_t {
   MAX = EvenOdd
 };
 
-inline const InputShape (&EnumValuesInputShape())[5] {
+inline const InputShape (&EnumValuesInputShape())[4] {
   static const InputShape values[] = {
     InputShape::Linear,
-    InputShape::SplitSign,
     InputShape::WindAlong,
     InputShape::WindAcross,
     InputShape::EvenOdd
@@ -109,7 +107,7 @@ inline const InputShape (&EnumValuesInputShape())[5] {
 inline const char * const *EnumNamesInputShape() {
   static const char * const names[9] = {
     "Linear",
-    "SplitSign",
+    "",
     "",
     "",
     "",
@@ -547,13 +545,12 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_WIND_SCALE = 10,
     VT_WINDS = 12,
     VT_TOWARD = 14,
-    VT_AGAINST = 16,
-    VT_LAGS = 18,
-    VT_TOLERANCE = 20,
-    VT_MARGIN = 22,
-    VT_LONGEST = 24,
-    VT_MIRROR = 26,
-    VT_ACROSS = 28
+    VT_LAGS = 16,
+    VT_TOLERANCE = 18,
+    VT_MARGIN = 20,
+    VT_LONGEST = 22,
+    VT_MIRROR = 24,
+    VT_ACROSS = 26
   };
   const flatbuffers::Vector<double> *scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_SCALE);
@@ -572,9 +569,6 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   }
   int16_t toward() const {
     return GetField<int16_t>(VT_TOWARD, -1);
-  }
-  int16_t against() const {
-    return GetField<int16_t>(VT_AGAINST, -1);
   }
   const flatbuffers::Vector<uint16_t> *lags() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_LAGS);
@@ -606,7 +600,6 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyOffset(verifier, VT_WINDS) &&
            verifier.VerifyVector(winds()) &&
            VerifyField<int16_t>(verifier, VT_TOWARD, 2) &&
-           VerifyField<int16_t>(verifier, VT_AGAINST, 2) &&
            VerifyOffset(verifier, VT_LAGS) &&
            verifier.VerifyVector(lags()) &&
            VerifyField<double>(verifier, VT_TOLERANCE, 8) &&
@@ -640,9 +633,6 @@ struct ResampledResidualsBuilder {
   }
   void add_toward(int16_t toward) {
     fbb_.AddElement<int16_t>(ResampledResiduals::VT_TOWARD, toward, -1);
-  }
-  void add_against(int16_t against) {
-    fbb_.AddElement<int16_t>(ResampledResiduals::VT_AGAINST, against, -1);
   }
   void add_lags(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> lags) {
     fbb_.AddOffset(ResampledResiduals::VT_LAGS, lags);
@@ -684,7 +674,6 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
     double wind_scale = 0.0,
     flatbuffers::Offset<flatbuffers::Vector<int16_t>> winds = 0,
     int16_t toward = -1,
-    int16_t against = -1,
     flatbuffers::Offset<flatbuffers::Vector<uint16_t>> lags = 0,
     double tolerance = 0.0,
     double margin = 0.0,
@@ -703,7 +692,6 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
   builder_.add_rows(rows);
   builder_.add_scale(scale);
   builder_.add_across(across);
-  builder_.add_against(against);
   builder_.add_toward(toward);
   return builder_.Finish();
 }
@@ -721,7 +709,6 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
     double wind_scale = 0.0,
     const std::vector<int16_t> *winds = nullptr,
     int16_t toward = -1,
-    int16_t against = -1,
     const std::vector<uint16_t> *lags = nullptr,
     double tolerance = 0.0,
     double margin = 0.0,
@@ -742,7 +729,6 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
       wind_scale,
       winds__,
       toward,
-      against,
       lags__,
       tolerance,
       margin,

@@ -44,7 +44,7 @@ const char* account_of_a_flame(const void* bytes, size_t size) {
   wisp_channel wind;
   wisp_arx_facts arx;
   wisp_chain_facts chain;
-  int32_t na[16 * 16], nb[16 * 2], nk[16 * 2];
+  int32_t na[16 * 16], nb[16 * 6], nk[16 * 6];
   double noise[16];
   const char* wrong;
   EXPECT(wisp_model_load(bytes, size, &model) == WISP_OK);
@@ -58,14 +58,14 @@ const char* account_of_a_flame(const void* bytes, size_t size) {
   EXPECT(wind.lowest == -1 && wind.highest == 1 && wind.splits_sign == 1);
   arx.size = sizeof arx;
   EXPECT(wisp_model_get_arx(model, &arx) == WISP_OK);
-  EXPECT(arx.outputs == 16 && arx.regressors == 2 && arx.shocks == 2 && arx.resamples == 0 && arx.history == 4);
+  EXPECT(arx.outputs == 16 && arx.regressors == 6 && arx.shocks == 2 && arx.resamples == 0 && arx.history == 4);
   EXPECT(wisp_model_arx_na(model, na, 256) == WISP_OK && na[0] == 4 && na[1] == 4 && na[2] == 0 && na[255] == 4);
-  EXPECT(wisp_model_arx_nb(model, nb, 32) == WISP_OK && nb[0] == 4 && nb[31] == 4);
-  EXPECT(wisp_model_arx_nk(model, nk, 32) == WISP_OK && nk[0] == 0);
+  EXPECT(wisp_model_arx_nb(model, nb, 96) == WISP_OK && nb[0] == 0 && nb[3] == 4 && nb[6] == 4);
+  EXPECT(wisp_model_arx_nk(model, nk, 96) == WISP_OK && nk[0] == 0);
   EXPECT(wisp_model_arx_noise(model, noise, 16) == WISP_OK && noise[0] == 0.006 && noise[1] == 0.008);
   EXPECT_FAILURE(wisp_model_arx_na(model, na, 255), WISP_BAD_ARGUMENT, "room for 255, expected 256");
-  EXPECT_FAILURE(wisp_model_arx_nb(model, NULL, 32), WISP_BAD_ARGUMENT, "null pointer");
-  EXPECT_FAILURE(wisp_model_arx_nk(NULL, nk, 32), WISP_BAD_ARGUMENT, "null pointer");
+  EXPECT_FAILURE(wisp_model_arx_nb(model, NULL, 96), WISP_BAD_ARGUMENT, "null pointer");
+  EXPECT_FAILURE(wisp_model_arx_nk(NULL, nk, 96), WISP_BAD_ARGUMENT, "null pointer");
   chain.size = sizeof chain;
   EXPECT_FAILURE(wisp_model_get_chain(model, &chain), WISP_BAD_ARGUMENT, "not a chain");
   EXPECT_FAILURE(wisp_model_chain_initial(model, noise, 16), WISP_BAD_ARGUMENT, "not a chain");

@@ -119,7 +119,7 @@ TEST(C, WhatAModelDoesNotHaveIsABadArgument) {
 }
 
 Model made_up_flame() {
-  Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2});
+  Model model = flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 2});
   model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 2, .recovery = 0.3};
   model.training = {"wisp 0.1.0", {"clip.mp4"}, {{"order", "4"}}, {{"fit", 61.5}}, {true, "made up"}};
   return model;

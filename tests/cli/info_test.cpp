@@ -64,7 +64,6 @@ ResampledResiduals resampled_of(const Json& json) {
   put(json["wind_scale"], resampled.wind_scale);
   put(json["winds"], resampled.winds);
   put(json["toward"], resampled.toward);
-  put(json["against"], resampled.against);
   put(json["lags"], resampled.lags);
   put(json["tolerance"], resampled.tolerance);
   put(json["margin"], resampled.margin);
@@ -168,8 +167,8 @@ View view_of(const Json& json) {
 }
 
 Input input_of(const Json& json) {
-  static const std::map<std::string, InputShape> shapes = {
-      {"linear", InputShape::kLinear}, {"split_sign", InputShape::kSplitSign}, {"even_odd", InputShape::kEvenOdd}};
+  static const std::map<std::string, InputShape> shapes = {{"linear", InputShape::kLinear},
+                                                           {"even_odd", InputShape::kEvenOdd}};
   return {json["name"], json["unit"], json["range"][0], json["range"][1], shapes.at(json["form"])};
 }
 
@@ -237,7 +236,7 @@ TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
   for (const char* name : {"flame-2", "flame-6", "leaf"}) {
     expect_complete(std::string(WISP_SOURCE_DIR "/apps/web/public/models/") + name + ".wisp");
   }
-  const FlameOptions mirrored{.points = 4, .wind = InputShape::kSplitSign, .noise_rank = 2, .resampled_rows = 60};
+  const FlameOptions mirrored{.points = 4, .wind = InputShape::kEvenOdd, .noise_rank = 2, .resampled_rows = 60};
   for (const Model& model : {bounded_chain(), steered_chain(), flame_model(mirrored)}) {
     ASSERT_TRUE(write_model(at("m.wisp"), model));
     expect_complete(at("m.wisp"));
@@ -300,7 +299,7 @@ TEST_F(InfoPlayed, PowersOfAnInputAndLargeRangesToo) {
 
 TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
   ASSERT_TRUE(
-      write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kSplitSign, .resampled_rows = 60})));
+      write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kEvenOdd, .resampled_rows = 60})));
   std::ofstream table(at("wind.csv")), lines(at("wind.txt"));
   table << "# wisp-recording 1\n# rate_hz 30\nu:wind[m/s]\n";  // the golden model's unit: taken as it is
   for (int t = 0; t < 80; ++t) {

@@ -50,7 +50,8 @@ TEST(ArxModel, CoefficientsAreFoundByOutputAndInput) {
   EXPECT_EQ(model.a(1, 0).size(), 1u);
   EXPECT_EQ(model.a(1, 1)[1], 0.3);
   EXPECT_EQ(model.a(0, 1)[0], 0.01);
-  EXPECT_EQ(model.b(0, 1)[0], -0.3);
+  EXPECT_EQ(model.b(0, 4)[0], -0.3);
+  EXPECT_TRUE(model.b(0, 1).empty());
   EXPECT_EQ(model.orders.history(), 3);
   EXPECT_EQ(model.orders.row_size(0), 5);
 }

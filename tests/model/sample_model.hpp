@@ -11,14 +11,15 @@ inline Model sample_model() {
   Model model;
   model.name = "sample";
   model.rate_hz = 30;
-  model.inputs = {{"wind", "m/s", -1.5, 1.5, InputShape::kSplitSign}};
+  model.inputs = {{"wind", "m/s", -1.5, 1.5, InputShape::kEvenOdd}};
   ArxModel arx;
-  arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 2, 1), OrderMatrix(kOutputs, 2, 3)};
+  arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 6), OrderMatrix(kOutputs, 6, 3)};
   for (int i = 0; i < kOutputs; ++i) {
     model.outputs.push_back({"p" + std::to_string(i / 2) + (i % 2 ? ".y" : ".x"), "", -1.0 - i, 1.0 + i});
     arx.orders.na(i, i) = 2;
     arx.orders.na(i, i ^ 1) = 1;
     const bool x_row = i % 2 == 0;
+    for (int k : {x_row ? 3 : 0, x_row ? 4 : 1}) arx.orders.nb(i, k) = 1;
     // Columns run over outputs in order, so the row's own lags come first in an x row and second in a y row.
     arx.theta.push_back(x_row ? std::vector<double>{-1.2, 0.5, 0.01, 0.3, -0.3}
                               : std::vector<double>{0.02, -0.9, 0.3, 0.1, 0.1});
@@ -28,7 +29,7 @@ inline Model sample_model() {
     arx.noise.sd.push_back(0.01 + 0.001 * i);
     arx.noise.sd_ci95.push_back({0.009, 0.02});
   }
-  arx.input_mean = {0.25, 0.125};
+  arx.input_mean = {0.25, 0.125, 0.5, 0, 0.25, 0.125};
   arx.noise.rank = 1;
   arx.noise.mixing.assign(kOutputs, 0.002);
   model.dynamics = arx;

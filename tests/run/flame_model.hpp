@@ -2,6 +2,7 @@
 // A made-up flame for tests and benchmarks: eight control points, each a system of two outputs of order 4, one wind.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -36,27 +37,27 @@ inline ResampledResiduals resampled_flame_residuals(int outputs, int rows, bool 
     }
     begin = static_cast<int>(end);
   }
-  resampled.toward = 0;
+  resampled.toward = both_sides ? 3 : 0;
   resampled.tolerance = 0.1;
   resampled.margin = 0.01;
   resampled.longest = 40;
   if (!both_sides) return resampled;
-  resampled.against = 1;
   for (int p = outputs / 2 - 1; p >= 0; --p) resampled.mirror.insert(resampled.mirror.end(), {-(2 * p + 1), 2 * p + 2});
   return resampled;
 }
 
 /// A stable flame: every channel has the poles 0.75 ± 0.37i, 0.5 and −0.3, a little of its point's other coordinate,
-/// and four taps of wind (of either sign of it).
+/// and four taps of wind; of its even functions where it has a sign in y, of its odd ones in x.
 inline Model flame_model(const FlameOptions& options = {}) {
   const int outputs = 2 * options.points;
   const int regressors = regressor_count(options.wind);
+  const bool powers = has_powers(options.wind);
   ArxModel arx;
   arx.orders = {OrderMatrix(outputs, outputs), OrderMatrix(outputs, regressors, 4), OrderMatrix(outputs, regressors)};
   Model model;
   model.name = "made-up flame";
   model.rate_hz = 30;
-  model.inputs = {{"wind", "", splits_sign(options.wind) ? -1.0 : 0.0, 1.0, options.wind}};
+  model.inputs = {{"wind", "", has_powers(options.wind) ? -1.0 : 0.0, 1.0, options.wind}};
   for (int i = 0; i < outputs; ++i) {
     const bool x_row = i % 2 == 0;
     const double along = static_cast<double>(i / 2) / (options.points - 1);
@@ -67,9 +68,11 @@ inline Model flame_model(const FlameOptions& options = {}) {
     std::vector<double> row = x_row ? own : other;
     row.insert(row.end(), (x_row ? other : own).begin(), (x_row ? other : own).end());
     for (int k = 0; k < regressors; ++k) {
-      const bool left = splits_sign(options.wind) && k % 2 == 1;
-      const double sign = x_row && left ? -1 : 1;
-      for (double b : {0.02, 0.015, -0.004, 0.002}) row.push_back((x_row ? sign : -0.3) * b * (1 + along));
+      const double share = (1 + along) / (powers ? 2.0 + k % 3 : 1.0);
+      if (powers && (k < 3) == x_row) arx.orders.nb(i, k) = 0;
+      for (int lag = 0; lag < arx.orders.nb(i, k); ++lag) {
+        row.push_back((x_row ? 1 : -0.3) * std::array{0.02, 0.015, -0.004, 0.002}[lag] * share);
+      }
     }
     arx.theta.push_back(row);
     arx.constant.push_back(0);
@@ -80,31 +83,38 @@ inline Model flame_model(const FlameOptions& options = {}) {
   arx.input_mean.assign(regressors, 0.1);
   arx.noise.rank = options.noise_rank;
   if (options.resampled_rows > 0) {
-    arx.noise.resampled = resampled_flame_residuals(outputs, options.resampled_rows, splits_sign(options.wind));
+    arx.noise.resampled = resampled_flame_residuals(outputs, options.resampled_rows, has_powers(options.wind));
   }
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(options.points), 0.03, 0};
   return model;
 }
 
-/// A flame as `wisp learn flame` makes them: three lags of every coordinate alone and of a wind from either side, the
+/// A flame as `wisp learn flame` makes them: three lags of every coordinate alone and of a wind's size or sign, the
 /// outline's last point the first one mirrored about the base's middle, residuals that are drawn by the wind
 /// alone, a rule of extinction.
-inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
+inline Model default_flame_model(InputShape wind = InputShape::kEvenOdd) {
   constexpr int kOutputs = 16, kLags = 3;
   Model model = flame_model({.wind = wind, .resampled_rows = 600});
   auto& arx = std::get<ArxModel>(model.dynamics);
-  arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 2, kLags), OrderMatrix(kOutputs, 2)};
+  const int regressors = regressor_count(wind);
+  arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, regressors), OrderMatrix(kOutputs, regressors)};
   for (int i = 0; i < kOutputs; ++i) {
     arx.orders.na(i, i) = kLags;
     const double gain = i % 2 == 0 ? 0.02 : -0.006;
-    arx.theta[i] = {-1.2, 0.6, -0.1, gain, 0.5 * gain, 0.001 * i, i % 2 == 0 ? -gain : gain, 0.004, 0.0001 * i};
+    arx.theta[i] = {-1.2, 0.6, -0.1};
+    for (int k = 0; k < regressors; ++k) {
+      if (has_powers(wind) && (k < 3) == (i % 2 == 0)) continue;
+      arx.orders.nb(i, k) = kLags;
+      arx.theta[i].insert(arx.theta[i].end(), {gain / (1 + k % 3), 0.5 * gain, 0.0005 * i});
+    }
   }
-  arx.input_mean = {0, 0};
+  arx.input_mean.assign(regressors, 0.0);
   auto& rows = arx.noise.resampled.rows;
   for (int i : {0, 1}) {
     const int other = kOutputs - 2 + i;
-    for (int k = 0; k < 3 * kLags; ++k) arx.theta[other][k] = (k < kLags ? 1 : -1) * arx.theta[i][k];
+    arx.theta[other] = arx.theta[i];
+    for (std::size_t k = kLags; k < arx.theta[i].size(); ++k) arx.theta[other][k] *= -1;
     for (std::size_t row = 0; row < rows.size(); row += kOutputs) {
       rows[row + other] = static_cast<std::int8_t>(-rows[row + i]);
     }
@@ -149,13 +159,10 @@ inline Model still_flame_model(int rows = 300) {
 inline Model coupled_flame_model() {
   constexpr int kOutputs = 16, kRegressors = 6, kLags = 2;
   Model model = default_flame_model();
-  model.inputs[0].shape = InputShape::kEvenOdd;
   auto& arx = std::get<ArxModel>(model.dynamics);
   arx.orders = {OrderMatrix(kOutputs, kOutputs, kLags), OrderMatrix(kOutputs, kRegressors, kLags),
                 OrderMatrix(kOutputs, kRegressors, 1)};
   arx.input_mean.assign(kRegressors, 0.0);
-  arx.noise.resampled.toward = kRegressors / 2;
-  arx.noise.resampled.against = -1;
   for (int i = 0; i < kOutputs; ++i) {
     arx.theta[i].clear();
     const int like = i < kOutputs - 2 ? i : i - (kOutputs - 2);

@@ -93,9 +93,9 @@ test('a flame model says what it is', () => {
   // Its file does not say what it costs, and the module does not count.
   assert.deepEqual([facts.multiplyAddsPerFrame, facts.operationsPerFrame], [0, 0]);
   assert.equal(model.chain, null);
-  assert.equal(model.arx.regressors, 2);
+  assert.equal(model.arx.regressors, 6);
   assert.deepEqual(model.arx.na[0].slice(0, 3), [4, 4, 0]);
-  assert.deepEqual(model.arx.nb[15], [4, 4]);
+  assert.deepEqual(model.arx.nb[15], [4, 4, 4, 0, 0, 0]);
   assert.equal(model.arx.shocks, 2);
   assert.equal(model.arx.resamples, false);
   assert.equal(model.arx.noise.length, 16);

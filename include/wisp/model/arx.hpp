@@ -70,7 +70,6 @@ struct ResampledResiduals {
   std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says,
                                     ///< then one a row
   int toward = -1;                  ///< the regressor that the input is; -1: none
-  int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
   std::vector<int> lags;  ///< 1 to kMaxResampledLags lags, steps, ascending from 0; empty where nothing drives it
   double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
   double margin = 0;      ///< pasts that differ by less count as alike, in the regressor's unit

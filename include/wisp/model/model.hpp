@@ -23,8 +23,6 @@ namespace wisp {
 /// How one external input enters the dynamics.
 enum class InputShape {
   kLinear,      ///< as it is: one regressor
-  kSplitSign,   ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
-                ///< one
   kEvenOdd,     ///< as six: |u|, its square root and its square, then the same with the sign of u
   kWindAlong,   ///< the x of a level wind vector: as six, the vector's length, its square root and its square, then the
                 ///< same times the x of its direction
@@ -99,13 +97,10 @@ bool is_in_the_round(const Model& model);
 /// Number of regressors that the inputs make: the number of inputs that the dynamics see.
 std::size_t regressor_count(const std::vector<Input>& inputs);
 
-/// Regressors that one input of that shape makes: 1, 2, 6 or 12.
+/// Regressors that one input of that shape makes: 1, 6 or 3.
 int regressor_count(InputShape shape);
 
-/// Whether the sign is carried by regressors of their own.
-bool splits_sign(InputShape shape);
-
-/// Whether square roots and squares are regressors too.
+/// Whether its size and its sign make regressors of their own, each with its square root and its square.
 bool has_powers(InputShape shape);
 
 /// Whether an input is one of the two numbers of a vector.

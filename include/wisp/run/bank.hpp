@@ -97,7 +97,7 @@ class Bank {
   int capacity() const;
   int size() const;             ///< instances alive
   int slots() const;            ///< rows of every bulk buffer: one more than the highest slot in use
-  int input_count() const;      ///< external inputs, before signs are split
+  int input_count() const;      ///< external inputs
   int output_count() const;     ///< for an outline: x and y of each control point, as OutlineView orders them
   int polyline_points() const;  ///< 0 where the view is not an outline
   std::chrono::nanoseconds step_time() const;

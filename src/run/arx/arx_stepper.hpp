@@ -281,8 +281,8 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  // A regressor that has been 0 in all lanes for as long as anything looks back adds nothing: a wind from the one side
-  // while it blows from the other. Whether its zeros are added or not changes no bit (settle() makes −0 to 0). Returns
+  // A regressor that has been 0 in all lanes for as long as anything looks back adds nothing: a
+  // wind in calm air. Whether its zeros are added or not changes no bit (settle() makes −0 to 0). Returns
   // a bit for each of the first regressors.
   std::uint64_t count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
@@ -339,9 +339,7 @@ class ArxStepper : public ChannelHistory<N> {
   std::pair<float, float> resampled_bounds() const {
     if (!program_.resampled.driven()) return {0.0f, 0.0f};
     const RegressorChannel& toward = channels_.regressors[program_.resampled.toward];
-    if (program_.resampled.against < 0) return {toward.least, toward.most};
-    const RegressorChannel& against = channels_.regressors[program_.resampled.against];
-    return {toward.least - against.most, toward.most - against.least};
+    return {toward.least, toward.most};
   }
 
   // Calls take(channel, block, normals) for every shock that is added to an output. First the words of many channels,

@@ -76,9 +76,7 @@ class ResampledLanes {
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
     for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {
-      auto wind = load<Reals<N>>(regressors + program_.toward * kLanes);
-      if (program_.against >= 0) wind = wind - load<Reals<N>>(regressors + program_.against * kLanes);
-      store(wind, past(block, 0) + k * kLanes);
+      store(load<Reals<N>>(regressors + program_.toward * kLanes), past(block, 0) + k * kLanes);
     }
   }
 

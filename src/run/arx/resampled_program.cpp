@@ -55,9 +55,7 @@ std::size_t count_nodes(std::size_t rows) {
 void fill_winds(const Model& model, const ArxModel& arx, const ResampledResiduals& resampled,
                 ResampledProgram& program) {
   const double unit = resampled.wind_scale / regressor_scale(model, resampled.toward);
-  const double mean =
-      (arx.input_mean[resampled.toward] - (resampled.against < 0 ? 0 : arx.input_mean[resampled.against])) /
-      regressor_scale(model, resampled.toward);
+  const double mean = arx.input_mean[resampled.toward] / regressor_scale(model, resampled.toward);
   for (std::size_t k = 0; k < program.wind.size(); ++k) program.wind[k] = bounded(resampled.winds[k] * unit - mean);
   const auto lags = static_cast<double>(resampled.lags.size());
   program.tolerance = bounded(lags * resampled.tolerance / regressor_scale(model, resampled.toward));
@@ -205,7 +203,6 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   program.outputs = arx.orders.outputs();
   program.across = resampled.across;
   program.toward = resampled.toward;
-  program.against = resampled.against;
   program.longest = static_cast<std::uint32_t>(resampled.longest);
   program.sides = resampled.mirror.empty() || !program.driven() ? 1 : 2;
   program.depth = resampled.lags.empty() ? 1 : static_cast<int>(resampled.lags.back()) + 1;
@@ -244,7 +241,7 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
 std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
   if (program.empty()) return before;
   std::uint64_t hash = before;
-  for (int number : {program.toward, program.against}) hash = hash_number(static_cast<std::uint32_t>(number), hash);
+  hash = hash_number(static_cast<std::uint32_t>(program.toward), hash);
   hash = hash_number(program.longest, hash);
   if (program.across > 0) hash = hash_number(static_cast<std::uint32_t>(program.across), hash);
   for (std::uint32_t lag : program.lags) hash = hash_number(lag, hash);

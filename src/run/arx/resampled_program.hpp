@@ -36,7 +36,6 @@ struct ResampledProgram {
   int across = 0;   ///< in the round, outputs at the end that take across the input what as many before take along it
   int sides = 1;    ///< 2: an input from the other side plays mirror images
   int toward = -1;
-  int against = -1;
   float tolerance = 0;  ///< of the sum over lags
   float margin = 0;     ///< nearer to a node's value than this, chance takes the side
   std::uint32_t longest = 1;

@@ -94,7 +94,6 @@ std::span<const RegressorForm> regressor_forms(InputShape shape) {
   using enum RegressorPart;
   using enum RegressorPower;
   static constexpr RegressorForm kLinear[] = {{kWhole}};
-  static constexpr RegressorForm kSplit[] = {{kPositive}, {kNegative}};
   static constexpr RegressorForm kPowers[] = {{kSize, kOne},  {kSize, kRoot},  {kSize, kSquare},
                                               {kWhole, kOne}, {kWhole, kRoot}, {kWhole, kSquare}};
   static constexpr RegressorForm kVector[] = {{kLength, kOne}, {kLength, kRoot}, {kLength, kSquare},
@@ -103,7 +102,6 @@ std::span<const RegressorForm> regressor_forms(InputShape shape) {
   if (shape == InputShape::kWindAlong) return std::span(kVector).first(6);
   if (shape == InputShape::kWindAcross) return std::span(kVector).last(3);
   if (has_powers(shape)) return kPowers;
-  if (splits_sign(shape)) return kSplit;
   return kLinear;
 }
 

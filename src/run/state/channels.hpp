@@ -25,9 +25,9 @@ struct OutputChannel {
   float start;  ///< z of a newborn instance: the operating point
 };
 
-/// How a regressor is made from its input: as it is, from what is positive or negative of it, or from its size. Of a
-/// wind vector: from its length, or from that times the x or the z of its direction.
-enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative, kSize, kLength, kAlong, kAcross };
+/// How a regressor is made from its input: as it is, or from its size. Of a wind vector: from its length, or from that
+/// times the x or the z of its direction.
+enum class RegressorPart : std::uint8_t { kWhole, kSize, kLength, kAlong, kAcross };
 
 /// The power of a part that a regressor is; that of a whole input has its sign.
 enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
@@ -109,8 +109,6 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   const auto zero = all<Reals<N>>(0.0f);
   const auto clamped = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
   auto part = clamped;
-  if (channel.part == RegressorPart::kPositive) part = larger(clamped, zero);
-  if (channel.part == RegressorPart::kNegative) part = zero - smaller(clamped, zero);
   if (channel.part == RegressorPart::kSize) part = magnitude(clamped);
   if (channel.power != RegressorPower::kOne) {
     const auto size = power_of<N>(channel, magnitude(part));

@@ -27,7 +27,6 @@ TEST(OutlineDrawn, AreTheNoiseOfShapesAlone) {
   const ResampledResiduals& resampled = dynamics_of(fit).noise.resampled;
   EXPECT_GT(resampled.row_count(), 850u);
   EXPECT_EQ(resampled.toward, 3);  // after the wind's size, its root and its square
-  EXPECT_EQ(resampled.against, -1);
   EXPECT_EQ(resampled.mirror.size(), resampled.scale.size());
   EXPECT_GT(resampled.mirror.front(), 0);
   EXPECT_LT(resampled.mirror.back(), 0);

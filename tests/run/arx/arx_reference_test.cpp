@@ -18,9 +18,9 @@ namespace {
 // What an input is made into, as model/model.hpp says.
 std::vector<double> regressors_of(const Model& model, double input) {
   const InputShape shape = model.inputs[0].shape;
-  std::vector<double> parts{input};
-  if (splits_sign(shape)) parts = {std::max(input, 0.0), std::max(-input, 0.0)};
-  return parts;
+  if (!has_powers(shape)) return {input};
+  const double size = std::abs(input), sign = input < 0 ? -1 : 1;
+  return {size, std::sqrt(size), size * size, input, sign * std::sqrt(size), sign * size * size};
 }
 
 // y(t) + Σ A y(t−k) = Σ B u(t−k) + c + e(t) on deviations, history at the operating point.
@@ -174,8 +174,8 @@ void expect_agreement(const Model& model) {
 
 TEST(ArxReference, AFlameAgreesWithDoublePrecision) { expect_agreement(flame_model()); }
 
-TEST(ArxReference, SoDoesOneWithSignedWindAndSharedNoise) {
-  expect_agreement(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 3}));
+TEST(ArxReference, SoDoesOneWithPowersOfWindAndSharedNoise) {
+  expect_agreement(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 3}));
 }
 
 TEST(ArxReference, SoDoesAModelWithDelaysConstantsAndMixedOrders) { expect_agreement(sample_model()); }
@@ -227,7 +227,7 @@ TEST(ArxReference, SparseAndRaggedModelsAgree) {
       for (int lag = 0; lag < order; ++lag)
         row.push_back((lag + i) % 4 == 2 ? 0.0 : 0.03 / (1 + lag) * (j % 2 ? -1 : 1));
     }
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 6; ++k) {
       arx.orders.nb(i, k) = (i + k) % 6;
       arx.orders.nk(i, k) = (5 * i + k) % 9;
       for (int lag = 0; lag < arx.orders.nb(i, k); ++lag) row.push_back(0.05 * (lag + 1) - 0.1 * (i % 3));

@@ -32,7 +32,7 @@ std::size_t groups_of(const Model& model) {
 
 // Outputs of other points than its own for one output, so that it goes with no other.
 Model with_one_of_its_own() {
-  Model model = flame_model({.points = 9, .wind = InputShape::kSplitSign, .noise_rank = 1});
+  Model model = flame_model({.points = 9, .wind = InputShape::kEvenOdd, .noise_rank = 1});
   ArxModel& arx = arx_of(model);
   arx.orders.na(4, 0) = 1;
   arx.theta[4].insert(arx.theta[4].begin(), 0.02);
@@ -42,7 +42,7 @@ Model with_one_of_its_own() {
 // All points look back at output 0, which looks back at itself alone: its group of one and theirs have a column in
 // common.
 Model with_one_that_leads() {
-  Model model = flame_model({.points = 5, .wind = InputShape::kSplitSign, .noise_rank = 1});
+  Model model = flame_model({.points = 5, .wind = InputShape::kEvenOdd, .noise_rank = 1});
   ArxModel& arx = arx_of(model);
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < 10; ++j) arx.orders.na(i, j) = j == i || j == 0 ? 2 : 0;
@@ -55,7 +55,7 @@ Model with_one_that_leads() {
 }
 
 Model with_shocks_that_some_lack() {
-  Model model = flame_model({.points = 8, .wind = InputShape::kSplitSign, .noise_rank = 2});
+  Model model = flame_model({.points = 8, .wind = InputShape::kEvenOdd, .noise_rank = 2});
   ArxModel& arx = arx_of(model);
   for (int i : {0, 5, 9}) arx.noise.sd[i] = 0;
   for (int i : {3, 5, 12}) arx.noise.mixing[2 * i] = 0;
@@ -67,7 +67,7 @@ Model with_shocks_that_some_lack() {
 Model of_chance(unsigned seed) {
   std::mt19937 random(seed);
   const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
-  Model model = flame_model({.points = 4 + below(6), .wind = InputShape::kSplitSign, .noise_rank = below(3)});
+  Model model = flame_model({.points = 4 + below(6), .wind = InputShape::kEvenOdd, .noise_rank = below(3)});
   ArxModel& arx = arx_of(model);
   const int outputs = static_cast<int>(model.outputs.size()), kinds = 1 + below(3), leaders = below(3);
   for (int i = 0; i < outputs; ++i) {
@@ -78,7 +78,7 @@ Model of_chance(unsigned seed) {
       arx.orders.na(i, j) = j == i || j < leaders || j == (i ^ 1) ? kind : 0;
       for (int lag = 0; lag < arx.orders.na(i, j); ++lag) add();
     }
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < arx.orders.inputs(); ++k) {
       arx.orders.nb(i, k) = 1 + kind;
       arx.orders.nk(i, k) = kind % 2;
       for (int lag = 0; lag <= kind; ++lag) add();
@@ -91,13 +91,13 @@ Model of_chance(unsigned seed) {
 const struct {
   const char* name;
   Model model;
-} kModels[] = {{"as many points as places", flame_model({.wind = InputShape::kSplitSign})},
-               {"fewer", flame_model({.points = 5, .wind = InputShape::kSplitSign, .noise_rank = 1})},
+} kModels[] = {{"as many points as places", flame_model({.wind = InputShape::kEvenOdd})},
+               {"fewer", flame_model({.points = 5, .wind = InputShape::kEvenOdd, .noise_rank = 1})},
                {"more", flame_model({.points = 13, .noise_rank = 2})},
                {"one output goes with no other", with_one_of_its_own()},
                {"all look back at one", with_one_that_leads()},
                {"some shocks are none", with_shocks_that_some_lack()},
-               {"residuals", flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 300})},
+               {"residuals", flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 300})},
                {"an end that mirrors the other", default_flame_model()},
                {"every output looks back at all", coupled_flame_model()}};
 
@@ -212,10 +212,10 @@ TEST(OutputLanes, OutputsThatLookBackAlikeGoTogether) {
 TEST(OutputLanes, ColumnsOfWhatAGroupMakesComeFromIt) {
   std::vector<std::byte> memory;
   const OutputProgram flame = program_of(kModels[0].model, memory);
-  ASSERT_EQ(flame.columns, 4U) << "x and y of eight points, and the wind of either sign";
+  ASSERT_EQ(flame.columns, 8U) << "x and y of eight points, and three powers of the wind for each";
   const auto count = [&](ColumnSource source) { return std::count(flame.source.begin(), flame.source.end(), source); };
   EXPECT_EQ(count(ColumnSource::kGroup), 2);
-  EXPECT_EQ(count(ColumnSource::kOneRegressor), 2);
+  EXPECT_EQ(count(ColumnSource::kOneRegressor), 6);
 }
 
 TEST(OutputLanes, NumbersOfAllChannelsAreDrawnToPlacesOfTheirOwn) {

@@ -191,7 +191,7 @@ TEST(SwitchedBank, CostsOneModeAndAWord) {
 }
 
 TEST(SwitchedBank, ASingleModeHasTheBitsOfItsArxModel) {
-  const Model arx = flame_model({.wind = InputShape::kSplitSign});
+  const Model arx = flame_model({.wind = InputShape::kEvenOdd});
   Model single = arx;
   single.dynamics = switched_of(std::get<ArxModel>(arx.dynamics));
   Bank a = bank_of(arx, 9), b = bank_of(single, 9);

@@ -20,7 +20,7 @@ bool is_there(const Model& model) {
   return TimeLanes<LiveNumbers>(make_arx_program(model, arx, measured), measured).there();
 }
 
-constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kSplitSign, InputShape::kEvenOdd};
+constexpr InputShape kShapes[] = {InputShape::kLinear, InputShape::kEvenOdd};
 
 // Orders, delays, gaps among the lags, inputs' shapes and shared shocks by chance; outputs that are often clamped.
 Model filter_of_chance(unsigned seed) {
@@ -30,8 +30,8 @@ Model filter_of_chance(unsigned seed) {
   model.rate_hz = 50;
   model.outputs = {{"y", "", -0.2, 0.15}};
   for (int inputs = below(3); inputs >= 0; --inputs) {
-    const InputShape shape = kShapes[below(3)];
-    model.inputs.push_back({"u" + std::to_string(inputs), "", splits_sign(shape) ? -1.0 : 0.0, 1.0, shape});
+    const InputShape shape = kShapes[below(2)];
+    model.inputs.push_back({"u" + std::to_string(inputs), "", has_powers(shape) ? -1.0 : 0.0, 1.0, shape});
   }
   const auto regressors = static_cast<int>(regressor_count(model.inputs));
   ArxModel arx;

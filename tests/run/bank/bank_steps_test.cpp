@@ -27,7 +27,7 @@ Bank bank_of(const Model& model) {
 }
 
 std::vector<Model> models() {
-  return {flame_model({.wind = InputShape::kSplitSign}), flame_model({.noise_rank = 2}), default_flame_model(),
+  return {flame_model({.wind = InputShape::kEvenOdd}), flame_model({.noise_rank = 2}), default_flame_model(),
           windy_chain(), sample_switched()};
 }
 

@@ -181,10 +181,10 @@ TEST(Bank, AllThreeWaysToSetInputsAgree) {
 }
 
 TEST(Bank, AGustFromTheRightIsTheMirrorImageOfOneFromTheLeft) {
-  Model model = flame_model({.wind = InputShape::kSplitSign});
+  Model model = flame_model({.wind = InputShape::kEvenOdd});
   std::get<ArxModel>(model.dynamics).output_mean.assign(16, 0.0);
   for (Output& output : model.outputs) output.lowest = -(output.highest = 0.4);
-  std::get<ArxModel>(model.dynamics).input_mean.assign(2, 0.0);
+  std::get<ArxModel>(model.dynamics).input_mean.assign(6, 0.0);
   for (std::vector<double>& row : std::get<ArxModel>(model.dynamics).theta) {
     const std::size_t other = &row - std::get<ArxModel>(model.dynamics).theta.data();
     for (std::size_t k = 0; k < 4; ++k) row[other % 2 == 0 ? 4 + k : k] = 0;  // x and y apart, so that x mirrors

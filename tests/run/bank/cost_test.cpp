@@ -19,8 +19,8 @@ TEST(Cost, AFlameOfEightPointsAndOrderFourTakesThePapers192MultiplyAdds) {
   EXPECT_EQ(cost_of(flame_model()).multiply_adds_per_frame, 192);
 }
 
-TEST(Cost, SignedWindTakes256) {
-  EXPECT_EQ(cost_of(flame_model({.wind = InputShape::kSplitSign})).multiply_adds_per_frame, 256);
+TEST(Cost, WindWithASignAndItsPowersTakes320) {
+  EXPECT_EQ(cost_of(flame_model({.wind = InputShape::kEvenOdd})).multiply_adds_per_frame, 320);
 }
 
 TEST(Cost, CoefficientsThatAreZeroCostNothing) {
@@ -84,7 +84,7 @@ TEST(Cost, APolylineTakesFewerThanFiveOperationsACoordinate) {
 // Resampled residuals, the rule of extinction, and an outline that is looked at.
 TEST(Cost, AFlameOfCoordinatesHasAllParts) {
   const Cost cost = cost_of(default_flame_model(), 32);
-  EXPECT_EQ(cost.multiply_adds_per_frame, 144 - 4);  // the ends have no last tap of either wind
+  EXPECT_EQ(cost.multiply_adds_per_frame, 192 - 6);  // the ends have no last tap of their wind
   for (std::int64_t part : {cost.dynamics_operations, cost.noise_operations, cost.random_operations,
                             cost.view_operations, cost.extinction_operations}) {
     EXPECT_GT(part, 0);

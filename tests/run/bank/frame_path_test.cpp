@@ -149,7 +149,7 @@ struct Stage {
   }
 
   static Model mortal_flame() {
-    Model flame = flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 300});
+    Model flame = flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 300});
     flame.extinction.emplace();
     return flame;
   }

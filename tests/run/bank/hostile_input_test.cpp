@@ -65,7 +65,7 @@ void live_through(const Model& model, float noise, std::int64_t steps) {
 TEST(HostileInput, TenMillionStepsOfEveryKindNeverLeaveTheRange) {
   const std::vector<std::pair<Model, float>> kinds = {
       {flame_model(), 1.0f},
-      {flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 10.0f},
+      {flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 2}), 10.0f},
       {flame_model({.wind = InputShape::kEvenOdd}), 1.0f},
       {default_flame_model(), 1.0f},
       {coupled_flame_model(), 10.0f},
@@ -80,7 +80,7 @@ TEST(HostileInput, TenMillionStepsOfEveryKindNeverLeaveTheRange) {
 
 TEST(HostileInput, EachKindHeldForLongEndsInTheRange) {
   for (float input : kHostile) {
-    auto bank = Bank::create(flame_model({.wind = InputShape::kSplitSign}), {.capacity = 1});
+    auto bank = Bank::create(flame_model({.wind = InputShape::kEvenOdd}), {.capacity = 1});
     ASSERT_TRUE(bank);
     bank->spawn();
     for (int step = 0; step < 1000; ++step) {
@@ -92,7 +92,7 @@ TEST(HostileInput, EachKindHeldForLongEndsInTheRange) {
 }
 
 TEST(HostileInput, WhatIsNotANumberCountsAsNoWind) {
-  auto bank = Bank::create(flame_model({.wind = InputShape::kSplitSign}), {.capacity = 2});
+  auto bank = Bank::create(flame_model({.wind = InputShape::kEvenOdd}), {.capacity = 2});
   ASSERT_TRUE(bank);
   bank->spawn(0);
   bank->spawn(0);

@@ -46,19 +46,22 @@ SwitchedArxModel& switched(Model& model) { return std::get<SwitchedArxModel>(mod
 ChainModel& chain(Model& model) { return std::get<ChainModel>(model.dynamics); }
 
 TEST(ModelHash, TellsFlamesApart) {
-  Model flame = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1});
+  Model flame = flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1});
   flame.extinction.emplace();
   flame.inputs.push_back({"more", "", -1, 1, InputShape::kLinear});
   for (auto& row : arx(flame).theta) row.push_back(0.01);
-  arx(flame).orders = {arx(flame).orders.na, OrderMatrix(16, 3, 4), OrderMatrix(16, 3)};
-  for (int i = 0; i < 16; ++i) arx(flame).orders.nb(i, 2) = 1;
+  const OrderMatrix nb = arx(flame).orders.nb;
+  arx(flame).orders = {arx(flame).orders.na, OrderMatrix(16, 7, 1), OrderMatrix(16, 7)};
+  for (int i = 0; i < 16; ++i) {
+    for (int k = 0; k < 6; ++k) arx(flame).orders.nb(i, k) = nb(i, k);
+  }
   arx(flame).input_mean.push_back(0);
   expect_others(flame, {
                            {"coefficient", [](Model& m) { arx(m).theta[5][2] += 1e-6; }},
                            {"constant", [](Model& m) { arx(m).constant[3] = 0.001; }},
                            {"deviation", [](Model& m) { arx(m).noise.sd[3] *= 1.01; }},
                            {"mixing", [](Model& m) { arx(m).noise.mixing[3] *= 1.01; }},
-                           {"delay", [](Model& m) { ++arx(m).orders.nk(4, 0); }},
+                           {"delay", [](Model& m) { ++arx(m).orders.nk(4, 3); }},
                            {"output's mean", [](Model& m) { arx(m).output_mean[3] += 0.01; }},
                            {"output's range", [](Model& m) { m.outputs[3].highest += 0.01; }},
                            {"input's mean", [](Model& m) { arx(m).input_mean[0] += 0.01; }},
@@ -82,9 +85,9 @@ TEST(ModelHash, TellsFlamesApart) {
 }
 
 TEST(ModelHash, TellsResampledResidualsApart) {
-  expect_others(flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 60}),
+  expect_others(flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 60}),
                 {
-                    {"toward and against", [](Model& m) { std::swap(resampled(m).toward, resampled(m).against); }},
+                    {"toward", [](Model& m) { ++resampled(m).toward; }},
                     {"longest", [](Model& m) { --resampled(m).longest; }},
                     {"row", [](Model& m) { ++resampled(m).rows[100]; }},
                     {"scale", [](Model& m) { resampled(m).scale[3] *= 1.01; }},

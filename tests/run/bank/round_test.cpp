@@ -59,7 +59,7 @@ Model undriven(Model model) {
   arx.std_error.clear();
   arx.input_mean.clear();
   ResampledResiduals& resampled = arx.noise.resampled;
-  resampled.toward = resampled.against = -1;
+  resampled.toward = -1;
   resampled.lags.clear(), resampled.winds.clear(), resampled.mirror.clear();
   return model;
 }

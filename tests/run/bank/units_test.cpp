@@ -98,16 +98,21 @@ std::vector<float> played(const Model& model, Units units) {
   return all;
 }
 
+// In a range of 2^10 the unit of such an input has a root that is a power of two.
+Model in_half_a_wind(Model model) {
+  model.inputs[0].lowest = -(model.inputs[0].highest = 0.5);
+  std::get<ArxModel>(model.dynamics).input_mean = {0.125, 0.25, 0.0625, 0.125, 0.25, 0.0625};
+  return model;
+}
+
 TEST(Units, NoUnitChangesWhatIsPlayed) {
-  Model mortal = default_flame_model();
+  Model mortal = in_half_a_wind(default_flame_model());
   mortal.extinction->level = 0.5;
-  Model powers = coupled_flame_model();
+  Model powers = in_half_a_wind(coupled_flame_model());
   powers.extinction.reset();
-  powers.inputs[0].lowest = -(powers.inputs[0].highest = 0.5);  // of 2^10 the unit has a root that is a power of two
-  std::get<ArxModel>(powers.dynamics).input_mean = {0.125, 0.25, 0.0625, 0.125, 0.25, 0.0625};
-  for (const Model& model :
-       {flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1}),
-        flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 600}), mortal, powers, sample_switched()}) {
+  for (const Model& model : {in_half_a_wind(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1})),
+                             in_half_a_wind(flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 600})), mortal,
+                             powers, sample_switched()}) {
     const std::vector<float> expected = played(model, {1, 1});
     for (const Units units : {Units{1024, 1}, Units{1, 1024}, Units{0x1p-10, 0x1p-12}}) {
       EXPECT_EQ(played(in_units(model, units), units), expected)

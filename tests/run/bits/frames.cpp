@@ -151,12 +151,12 @@ void falling_frames(std::uint64_t& hash, Model model, int capacity, int frames) 
 int main() {
   using namespace wisp;
   std::uint64_t hash = 0;
-  step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
+  step_frames(hash, flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 2}), 1, 30'000);
   step_frames(hash, sample_model(), 13, 2'000);
-  step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 600}), 11, 2'000);
+  step_frames(hash, flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 600}), 11, 2'000);
   step_frames(hash, still_flame_model(), 11, 2'000);
   time_frames(hash, flame_model(), 37, 1'000);
-  mortal_frames(hash, flame_model({.wind = InputShape::kSplitSign}), 11, 2'000);
+  mortal_frames(hash, flame_model({.wind = InputShape::kEvenOdd}), 11, 2'000);
   mortal_frames(hash, default_flame_model(), 5, 2'000);
   mortal_frames(hash, coupled_flame_model(), 5, 2'000);
   for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);
