@@ -83,6 +83,17 @@ double settled_wind(const std::vector<WindFrame>& frames) {
   return sum / static_cast<double>(frames.size() - first);
 }
 
+TEST(WindLevel, LatencyIsThatOfTheFiltersAndTheSmoothing) {
+  for (const double rate : {8000.0, 16000.0, 44100.0, 48000.0, 96000.0, 192000.0}) {
+    WindOptions smooth;
+    smooth.smoothing_seconds = 0.1;
+    const double filters = make({rate, 1}).latency_seconds();
+    EXPECT_GT(filters, 0.0001) << rate;
+    EXPECT_LT(filters, 0.005) << rate;  // half of a low-pass of some tens of taps
+    EXPECT_NEAR(make({rate, 1}, smooth).latency_seconds(), filters + 0.1, 1e-12) << rate;
+  }
+}
+
 TEST(WindLevel, SilenceIsNoWind) {
   for (const WindFrame& frame : hear({48000, 1}, Samples(48000, 0.0F))) {
     EXPECT_EQ(frame.rms, 0.0F);
