@@ -1,4 +1,4 @@
-// Several models on one recording, over the rows that all of them predict.
+// Compares several models on one recording, over the rows that all of them predict.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-// What one model says in so many steps: a channel NAME.predicted for each of its outputs.
+// Predictions of one model for one number of steps: a channel NAME.predicted per output.
 struct Said {
   std::size_t model;
   int steps;
@@ -38,7 +38,7 @@ Result<std::vector<Said>> all_said(std::span<const NamedModel> models, const Rec
   return out;
 }
 
-// Rows of an output that are measured, and that every model which has the output predicts.
+// Rows of an output that are measured, and predicted by every model that has the output.
 std::vector<std::size_t> common_rows(const std::vector<double>& measured, const std::vector<Said>& said,
                                      const std::string& output, int steps) {
   std::vector<std::size_t> rows;
@@ -65,7 +65,7 @@ double fit_percent(const std::vector<double>& measured, const std::vector<double
   return spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0;
 }
 
-// Outputs of any of the models, in the order in which they come.
+// Outputs of any of the models, in order of first appearance.
 std::vector<std::string> outputs_of(std::span<const NamedModel> models) {
   std::vector<std::string> names;
   for (const NamedModel& one : models) {
@@ -76,7 +76,7 @@ std::vector<std::string> outputs_of(std::span<const NamedModel> models) {
   return names;
 }
 
-// One row a model and output.
+// Table with one row per model and output.
 ReportTable table_of(std::span<const NamedModel> models, const Recording& recording, const std::vector<Said>& said,
                      const std::vector<int>& steps) {
   ReportTable table{"compared", "fit of every model", {{"output", "output"}, {"model", "model"}}, {}};
@@ -102,7 +102,7 @@ ReportTable table_of(std::span<const NamedModel> models, const Recording& record
   return table;
 }
 
-// Of every output what was measured and what each model said in the last number of steps, which is free simulation
+// Series of every output: measured, and predicted by each model for the last number of steps, which is free simulation
 // unless options say otherwise.
 void add_series(std::span<const NamedModel> models, const Recording& recording, const std::vector<Said>& said,
                 int steps, ReportSection& section) {

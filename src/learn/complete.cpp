@@ -22,7 +22,7 @@ void complete(Fit& fit) {
   fit.model.training.program = "wisp " WISP_VERSION;
   const auto cost = count_operations(fit.model);
   if (!cost) return;
-  // Players that travel light read the cost instead of counting it.
+  // Runtimes with little memory read the cost from the model instead of counting.
   fit.model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;
   fit.model.training.operations_per_frame = cost->operations_per_frame;
   fit.report.sections.push_back(cost_section(*cost));

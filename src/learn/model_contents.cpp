@@ -15,7 +15,7 @@ ReportList list(const Values& values) {
   return ReportList(values.begin(), values.end());
 }
 
-// Row by row, `width` values each; of a width of 0 as many empty rows as are wanted.
+// Splits values into rows of `width` values; for a width of 0, returns the wanted number of empty rows.
 template <class Values>
 ReportList rows(const Values& values, std::size_t width, std::size_t empty_rows = 0) {
   ReportList out(width == 0 ? empty_rows : 0, ReportList());

@@ -1,4 +1,4 @@
-// What a model says of a recording, as numbers.
+// Predictions of a model on a recording, as numbers.
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@
 namespace wisp {
 namespace {
 
-using Series = std::vector<std::vector<double>>;  // one an output
+using Series = std::vector<std::vector<double>>;  // one series per output
 
-constexpr int kSettled = 2000;  // steps after which the noise of free simulation has its full size
+constexpr int kSettled = 2000;  // steps after which the noise of free simulation has reached full variance
 
-// Half the width of the 95 % interval of every prediction. A free run knows its start: it is as sure as a prediction of
-// as many steps as it has run.
+// Half width of the 95 % interval of every prediction. A free run starts from known samples, so after n steps its
+// uncertainty is that of an n-step prediction.
 Series half_widths(const Series& sd, const Recording& recording, const Series& predicted, int steps) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   Series widths(predicted.size(), std::vector<double>(recording.rows(), none));
@@ -40,7 +40,7 @@ Series half_widths(const Series& sd, const Recording& recording, const Series& p
   return widths;
 }
 
-// Inputs and outputs as they were measured, and beside every output what was predicted.
+// Measured inputs and outputs, with the prediction beside every output.
 Recording table_of(const Recording& measured, const ChannelChoice& channels, const Series& predicted,
                    const Series& widths) {
   Recording out;
@@ -103,7 +103,7 @@ Result<Recording> predict_modes(const Model& model, const Recording& recording, 
   return table_of(recording, channels, *predicted, {});
 }
 
-// In the recording's pixels.
+// Predictions of an outline in the recording's pixels.
 Result<Recording> predict_outline(const Model& model, const Recording& recording, const PredictionOptions& options) {
   if (options.initial != InitialState::kMeasured) {
     return Error{model.name + ": is a model of an outline, whose free run starts from measured samples only"};

@@ -18,15 +18,15 @@ namespace {
 using Samples = std::vector<double>;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kBelow = 0.4;  // of a lower rate: where the low-pass before it is
+constexpr double kBelow = 0.4;  // cutoff of the low-pass, as a share of the lower rate
 constexpr std::pair<const char*, double Preparation::*> kFrequencies[] = {{"highpass", &Preparation::highpass_hz},
                                                                           {"lowpass", &Preparation::lowpass_hz},
                                                                           {"resample", &Preparation::resample_hz}};
 
-// One pass of a Butterworth filter of order 2.
+// One pass of a second-order Butterworth filter.
 class Filter {
  public:
-  // −3 dB after two passes at `share` of the rate.
+  // Cutoff: −3 dB after two passes at `share` of the rate.
   Filter(double share, bool high) : gain_(high ? 0 : 1) {
     const double two_passes = std::pow(std::numbers::sqrt2 - 1, high ? 0.25 : -0.25);
     const double k = std::tan(std::numbers::pi * share) * two_passes;
@@ -37,7 +37,7 @@ class Filter {
     a_[1] = (1 - std::numbers::sqrt2 * k + k * k) * scale;
   }
 
-  // From rest at the first sample.
+  // Filters in place, starting in steady state at the first sample.
   void pass(Samples& x) const {
     double first = (gain_ - b_[0]) * x.front(), second = (b_[2] - a_[1] * gain_) * x.front();
     for (double& sample : x) {
@@ -49,11 +49,11 @@ class Filter {
   }
 
  private:
-  double gain_;  // of what does not change
+  double gain_;  // gain at frequency 0
   double a_[2], b_[3];
 };
 
-// Forward and backward, the ends continued by their point reflection for three periods.
+// Filters forward and backward; the ends are extended by point reflection for three periods.
 void filter(Samples& x, double share, bool high) {
   const auto rows = x.size(), more = std::min(rows - 1, static_cast<std::size_t>(3 / share) + 1);
   const double level = high ? mean(x) : 0;
@@ -69,7 +69,7 @@ void filter(Samples& x, double share, bool high) {
   for (std::size_t k = 0; k < rows; ++k) x[k] = long_x[k + more] + level;
 }
 
-// Without missing samples: straight lines between those beside them.
+// Replaces missing samples by linear interpolation between their neighbours.
 Samples bridged(const Samples& x) {
   Samples out = x;
   std::size_t before = x.size();
@@ -96,9 +96,9 @@ void take_line_off(Samples& x) {
   for (std::size_t t = 0; square > 0 && t < x.size(); ++t) x[t] -= product / square * (double(t) - time / rows);
 }
 
-// At `place` rows from the first: the cubic through four samples (Catmull-Rom), a straight line beside missing ones.
+// Value at `place` rows from the first: Catmull-Rom cubic through four samples, linear beside missing samples.
 double between(const Samples& x, double place) {
-  constexpr double kOn = 1e-9;  // of a row
+  constexpr double kOn = 1e-9;  // rows: tolerance for a place on a sample
   const auto row = std::min(static_cast<std::size_t>(place + kOn), x.size() - 1);
   const double share = place - double(row);
   if (share < kOn || row + 1 == x.size()) return x[row];
@@ -130,7 +130,7 @@ Result<void> check_preparation(const Recording& recording, const Preparation& pr
   return {};
 }
 
-// One channel of one episode at the rate of the recording.
+// Prepares one channel of one episode, at the recording's rate.
 void prepare_samples(Samples& x, const Preparation& preparation, double rate_hz) {
   if (preparation.detrend) take_line_off(x);
   double low = preparation.lowpass_hz;

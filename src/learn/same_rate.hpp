@@ -1,5 +1,5 @@
 #pragma once
-// A model of samples knows no time: at another rate it is another system.
+// Check of sampling rates: a discrete-time model is a different system at another rate.
 
 #include <cmath>
 
@@ -10,9 +10,9 @@
 
 namespace wisp {
 
-/// Whether a recording has the model's rate. Errors: it has another.
+/// Checks that a recording has the model's rate. Errors: it has another.
 inline Result<void> check_rate(const Model& model, const Recording& recording) {
-  constexpr double kSame = 1e-3;  // of the rate: clocks and rounded periods differ by less
+  constexpr double kSame = 1e-3;  // relative tolerance: clocks and rounded periods differ by less
   if (std::abs(recording.rate_hz - model.rate_hz) <= kSame * model.rate_hz) return {};
   return Error{recording.source + ": has " + number_text(recording.rate_hz, 6) + " samples a second, the model " +
                number_text(model.rate_hz, 6) + ": resample the recording, or learn the model at that rate"};

@@ -14,9 +14,9 @@
 namespace wisp {
 namespace {
 
-constexpr double kBadlyFitted = 30;  // percent of fit below the median of all recordings
+constexpr double kBadlyFitted = 30;  // percentage points of fit below the median over recordings
 
-// One table of the same table of several reports, each row with its recording first.
+// Joins the same table of several reports, with the recording's name first in each row.
 ReportTable joined(const std::vector<Report>& reports, std::span<const Recording> recordings) {
   ReportTable all = reports.front().sections.front().tables.front();
   all.columns.insert(all.columns.begin(), {"recording", "recording"});
@@ -30,7 +30,7 @@ ReportTable joined(const std::vector<Report>& reports, std::span<const Recording
   return all;
 }
 
-// Warns of the recordings whose last fit is far below the others' median.
+// Warns of recordings whose last fit is far below the median of the others.
 void name_badly_fitted(const ReportTable& all, Report& report) {
   std::size_t column = 0;
   for (std::size_t c = 0; c < all.columns.size(); ++c) {
@@ -50,7 +50,7 @@ void name_badly_fitted(const ReportTable& all, Report& report) {
   }
 }
 
-// `judge` of every recording, in one table. Series are those of the first recording.
+// Runs `judge` on every recording and joins the tables. Series are those of the first recording.
 template <class Judge>
 Result<Report> of_every(std::span<const Recording> recordings, Judge judge) {
   std::vector<Report> reports;
@@ -81,7 +81,7 @@ Result<Report> compare(std::span<const NamedModel> models, std::span<const Recor
 
 namespace {
 
-// Prepares a recording as those of the training were.
+// Validates on a recording after preparing it as in training.
 Result<Report> validate_prepared(const Model& model, const Recording& recording, const ValidationOptions& options,
                                  const Progress& progress) {
   const auto prepared = prepare(recording, model.training.preparation);

@@ -26,11 +26,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Samples = std::vector<double>;
 
-constexpr std::size_t kManyRows = 8192;  // of regressions
+constexpr std::size_t kManyRows = 8192;  // rows of a regression: longer recordings are cut to these
 constexpr std::size_t kFewRows = 50;
-constexpr const char* kRoles[] = {"input", "output", "motion"};  // as Role has them
+constexpr const char* kRoles[] = {"input", "output", "motion"};  // role names, indexed by Role
 
-// What is looked at: recordings and their channels.
+// Recordings under inspection, and the names of their inputs and outputs.
 struct Subject {
   std::span<const Recording> recordings;
   std::vector<std::string> inputs, outputs;
@@ -40,7 +40,7 @@ struct Subject {
     return channel ? &recording.channels[*channel].samples : nullptr;
   }
 
-  // Of all recordings, one after the other.
+  // Samples of one channel over all recordings, concatenated.
   Samples all_of(const std::string& name) const {
     Samples all;
     for (const Recording& one : recordings) {
@@ -61,7 +61,7 @@ Samples present(Samples all) {
   return all;
 }
 
-// The last decimal that the samples are written with; 0 where none up to the ninth is.
+// Returns the unit of the last decimal that the samples are written with, 1 to 1e-9; 0 where more decimals are used.
 double last_digit(const Samples& all) {
   double unit = 1;
   for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
@@ -115,7 +115,7 @@ std::vector<std::size_t> outliers_in(const Samples& all) {
   for (std::size_t k = 0; k < apart.size(); ++k) {
     if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 3);
   }
-  if (rows.size() * 20 > all.size()) rows.clear();  // too many: that is how it moves
+  if (rows.size() * 20 > all.size()) rows.clear();  // too many for outliers: the channel jumps by nature
   return rows;
 }
 
@@ -153,7 +153,7 @@ void look_at_samples(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// y ≈ slope x + level over the rows that have both, and the root mean square of what is left.
+// Line y ≈ slope x + level fitted over rows that have both samples, and the root mean square of its residual.
 struct Line {
   double slope = 0, level = 0, rest = 0, size = 0;
 };
@@ -175,7 +175,7 @@ Line line_of(const Samples& x, const Samples& y) {
 }
 
 void look_for_redundancy(const Subject& subject, std::vector<Remark>& out) {
-  constexpr double kSame = 1e-5;  // of a deviation: a model in single precision cannot tell less
+  constexpr double kSame = 1e-5;  // share of a deviation: single precision resolves no smaller difference
   const auto names = subject.names();
   for (std::size_t l = 1; l < names.size(); ++l) {
     const Samples y = subject.all_of(names[l]);
@@ -213,12 +213,12 @@ void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// Mean squared error of least squares; rows are sampled where they are many.
+// Mean squared residual of the least-squares fit of y on x.
 double squared_rest(const MatrixXd& x, const VectorXd& y) {
   return (y - x * x.colPivHouseholderQr().solve(y)).squaredNorm() / static_cast<double>(y.size());
 }
 
-// Whether the output's past tells of the input what the input's own past does not.
+// Reports feedback where the output's past improves the prediction of the input beyond the input's own past.
 void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
   constexpr std::size_t kOwn = 20, kLags = 5;
   constexpr double kShare = 0.05, kChance = 1e-6;
@@ -246,7 +246,7 @@ void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
       const double own = squared_rest(x.leftCols(1 + kOwn), target), both = squared_rest(x, target);
       const double size = (target.array() - target.mean()).square().mean();
       if (!(own > 1e-8 * size) || both > (1 - kShare) * own) continue;
-      // Where an input stands still it tells nothing.
+      // Rows in which the input does not change carry no information.
       const auto moves = static_cast<double>((target.array() != x.col(1).array()).count());
       if (moves * std::log(own / both) < chi_squared_quantile(1 - kChance, kLags)) continue;
       out.push_back({RemarkKind::kFeedback, input,
@@ -276,7 +276,7 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// The output less its straight line; nothing where it has hardly one, or an input has one too.
+// The recording with the output's linear trend removed. Empty where the trend is small or an input has a trend too.
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
   constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
   Recording recording = subject.recordings.front();
@@ -296,7 +296,7 @@ std::optional<Recording> without_drift(const Subject& subject, const std::string
   return recording;
 }
 
-// An output that integrates does so without its straight line too; one that only drifts does not.
+// An output that integrates still does so after detrending; one that only drifts does not.
 void look_for_wandering(const Subject& subject, std::vector<Remark>& out) {
   for (const std::string& output : subject.outputs) {
     double drift = 0;

@@ -21,9 +21,9 @@ namespace arx {
 namespace {
 
 constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kRowsAtATime = 65536;  // of a table, in memory
+constexpr std::size_t kRowsAtATime = 65536;  // rows of a table held in memory at a time
 
-// A CSV file that was taken in whole or in its range.
+// A CSV file of which all rows, or a range of rows, were taken in.
 struct Table {
   std::filesystem::path path;
   CsvOptions options;
@@ -32,7 +32,7 @@ struct Table {
   std::string name() const { return path.string(); }
 };
 
-// A CSV file being read, standing at the first row of its range.
+// A CSV file being read; the reader is at the first row of the file's range.
 struct OpenTable {
   std::unique_ptr<std::ifstream> stream;  // on the heap, where the reader's view of it survives moves
   std::unique_ptr<CsvReader> reader;
@@ -55,13 +55,13 @@ Error beyond(const std::string& name, const TableShare& share) {
           " were requested, which reach beyond its end"};
 }
 
-// The rows of a share of `rows`, shared out evenly.
+// Rows of part share.index of share.count: `rows` divided into equal parts.
 RowPart share_of(std::size_t rows, const TableShare& share) {
   const auto start = [&](std::size_t k) { return k * (rows / share.count) + std::min(k, rows % share.count); };
   return {start(share.index), start(share.index + 1), share.index + 1 == share.count};
 }
 
-// Of a file's bytes, read once more: two parts know by it that they are of one recording, wherever it lies.
+// Hash of a file's bytes (a second read). By it two parts recognise the same recording under any path.
 Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> block(std::size_t{1} << 20);
@@ -73,7 +73,7 @@ Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
   return hash;
 }
 
-// The mean of the samples that are there; NaN where none is.
+// Mean of the samples that are not missing; NaN where all are.
 double mean_of(std::span<const double> samples) {
   double sum = 0, count = 0;
   for (double sample : samples) {
@@ -82,8 +82,8 @@ double mean_of(std::span<const double> samples) {
   return count > 0 ? sum / count : kMissing;
 }
 
-// Takes in rows of a recording, with what came before them in their episode as history.
-// Errors: a channel that the recording has not, another rate than before, infinite samples.
+// Adds rows of a recording to the state; the rows of the episode before them serve as history.
+// Errors: a missing channel, a rate other than the earlier recordings', infinite samples.
 Result<void> take_rows(const Recording& recording, const RowPart& part, PartState& state) {
   auto signals = find_signals({&recording, 1}, state.names);
   if (!signals) return signals.error();
@@ -111,9 +111,9 @@ Result<void> take_rows(const Recording& recording, const RowPart& part, PartStat
   return {};
 }
 
-// Takes in rows of a table, counted from where the reader stands, a stretch at a time. Returns how many there are.
+// Adds rows of a table, counted from the reader's position, chunk by chunk. Returns the number of rows.
 Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState& state) {
-  // One row more than the history, so that an episode that goes on is never taken for one that is too short.
+  // One row more than the history: otherwise an episode that continues would count as one that is too short.
   const auto kept = static_cast<std::size_t>(state.orders.history()) + 1;
   const std::size_t before = std::min(kept, part.begin);
   Recording window = reader.header();
@@ -157,7 +157,7 @@ Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
   return facts;
 }
 
-// The fit of all that was taken in, as fit_arx() makes it, but for free simulation.
+// The fit of all rows taken in, as fit_arx() computes it, without figures of free simulation.
 Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
   if (auto ok = check_options(options, state.names); !ok) return ok.error();
   const ArxDesign design = make_design(options.orders, options.offset, options.kernel != ArxKernel::kNone);
@@ -179,8 +179,8 @@ Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
   return fit;
 }
 
-// Simulates the model over the tables, a stretch at a time and each from its measured start, and adds what that says to
-// the fit's summary.
+// Simulates the model over the tables, chunk by chunk from the measured state at each chunk's start, and adds the
+// figures to the fit's summary.
 Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoice& channels, const Progress& progress,
                             ArxFit& fit) {
   Tally tally(fit.model.orders.outputs());
@@ -214,10 +214,10 @@ Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoic
 using arx::PartState;
 
 struct ArxPart::State : PartState {
-  std::vector<arx::Table> tables{};  // that were taken in whole
-  bool only_tables = true;           // nothing else was taken in
+  std::vector<arx::Table> tables{};  // tables taken in as a whole
+  bool only_tables = true;           // false once anything but a table was taken in
 
-  // What was just read of a recording, which takes all of it or nothing.
+  // Merges the part just read from a recording; on an error nothing of it is merged.
   Result<void> take(const std::string& source, PartState&& part, const arx::SeenRows& read) {
     part.seen = {read};
     auto ok = merge(part);
@@ -261,7 +261,7 @@ Result<void> ArxPart::add(const std::filesystem::path& path, const CsvOptions& o
   const arx::Table table{path, options, share.first, share.rows};
   RowPart part{0, share.rows, true};
   std::size_t rows = share.rows;
-  if (share.count > 1) {  // a reading of its own, which looks for ends of lines only
+  if (share.count > 1) {  // counts the rows in a separate read that only looks for line ends
     const auto counting = arx::open_table(table);
     if (!counting) return counting.error();
     const auto counted = counting->reader->skip(share.rows);

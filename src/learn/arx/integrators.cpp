@@ -12,8 +12,8 @@ namespace wisp::arx {
 namespace {
 
 constexpr double kDickeyFuller = 8.2;  // 2.86²
-constexpr double kExact = 99.9;        // a one-step fit in percent beyond which rounding decides the test
-constexpr double kGain = 2;            // percent of fit by which simulation has to be better
+constexpr double kExact = 99.9;        // percent: above this one-step fit, rounding errors would decide the test
+constexpr double kGain = 2;            // percent: required gain of the free-run fit
 
 bool remembers_itself_only(const OrderMatrix& na, int output) {
   for (int j = 0; j < na.rows(); ++j) {

@@ -1,5 +1,5 @@
 #pragma once
-// Outputs that integrate: whose dynamics have a pole at 1, or two.
+// Detection and fitting of integrating outputs, those with one or two poles at 1.
 
 #include <span>
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace wisp::arx {
 
-/// Poles at 1, 0 to 2, of every output that remembers no other output; 0 elsewhere. A pole is at 1 where holding it
-/// there costs no more of the squared error than the test of Dickey and Fuller allows (5 %), and where the model
-/// simulates better with it than the given options do; `plain` is fit_arx() with these.
+/// Returns the number of poles at 1, 0 to 2, of every output without lags of other outputs; 0 for the others. A pole
+/// counts where fixing it at 1 raises the squared error by no more than the Dickey–Fuller test allows (5 %), and where
+/// the model then simulates better than `plain`, the result of fit_arx() with the given options.
 std::vector<int> find_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options, const ArxFit& plain);
 
-/// Sets the poles, held as near to 1 as the stored model stays stable in single precision, and a constant beside them.
+/// Fits with poles fixed as near to 1 as single precision keeps the model stable, and with an estimated constant.
 /// Errors: as fit_arx.
 Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                const std::vector<int>& integrators, ArxOptions& options);
 
-/// How many poles at 1 one output has from some inputs, with four lags.
+/// Number of poles at 1 of one output, given some inputs and four lags.
 int integrators_in(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                    const std::string& output);
 

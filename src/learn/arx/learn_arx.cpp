@@ -26,7 +26,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const bool apart = coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
-  const auto& levels = fit.model.constant;  // the focus may have estimated them
+  const auto& levels = fit.model.constant;  // non-zero also where the refinement for free simulation estimated them
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
   notes.push_back({"offset", std::string(word_of(level ? ArxOffset::kEstimate : recipe.offset))});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
@@ -97,7 +97,7 @@ ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders) {
   options.orders = orders;
   options.offset = recipe.offset;
   options.kernel = recipe.kernel;
-  options.covariance = recipe.responses;  // for the bands
+  options.covariance = recipe.responses;  // needed by the confidence bands
   options.stabilise = !recipe.keep_unstable;
   options.stability_margin = 1 - recipe.radius;
   return options;
@@ -118,12 +118,12 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 namespace {
 
-// Recordings as they are learned from: about their own levels.
+// Recordings prepared for learning: each about its own means where there are several.
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;
   std::vector<Recording> middle{};
-  std::span<const Recording> judged{};  // of very long ones the middle
+  std::span<const Recording> judged{};  // all rows, or the central part of very long recordings
   ArxOptions options{};
   Sources sources{};
 };
@@ -159,7 +159,7 @@ Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Repo
   return fit_integrators(prepared.seen, channels, integrators, options);
 }
 
-// What was learned, judged by rows that were held out and by what is remarkable of the recordings.
+// Judges the learned model by held-out rows and by remarks on the recordings.
 void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const ArxOptions& options,
                const ResidualTests* tests, ArxSummary& summary) {
   VerdictEvidence evidence{channels, options.orders, persistence_errors(prepared.judged, channels), tests};
@@ -170,7 +170,7 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
   judge_use(evidence, summary);
 }
 
-// Learns from prepared recordings, and writes the preparation down.
+// Learns from recordings after preparation, and records the preparation in the model.
 Result<Fit> learn_prepared(std::span<const Recording> recordings, ArxRecipe recipe, const Progress& progress) {
   const Preparation preparation = std::exchange(recipe.preparation, {});
   auto ready = prepare_all(recordings, preparation);
@@ -215,7 +215,7 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
     fit.report.sections.push_back(arx::focus_section(focused->outcome, channels.outputs));
   }
   fit.report.append(std::move(chosen));
-  if (tests) arx::add_tests(*tests, channels, fit.report);  // too short: nothing can be said
+  if (tests) arx::add_tests(*tests, channels, fit.report);  // without tests the recordings are too short for them
   return fit;
 }
 

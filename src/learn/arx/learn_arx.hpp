@@ -1,5 +1,5 @@
 #pragma once
-// From recordings and a recipe to an ARX model and its report; and a model on a recording.
+// Learns an ARX model and its report from recordings and a recipe, and validates a model on a recording.
 
 #include <span>
 
@@ -13,15 +13,15 @@
 
 namespace wisp {
 
-/// Learns as the recipe says; with `ArxRecipe::search` the best orders first, with open delays those first. A model
-/// that cannot be played (an unstable one that was to be kept) is returned too, and its verdict says so. Errors: no
-/// recordings, channels that they have not, settings out of range, too few rows, kStopped.
+/// Learns by the recipe. `ArxRecipe::search` first finds the best orders, and unset delays are estimated first. A model
+/// that cannot be played (an unstable one with stabilisation off) is returned too, with a verdict that says so. Errors:
+/// no recordings, channels missing from them, settings out of range, too few rows, kStopped.
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress = {});
 
 /// Predictions, free simulation and residuals of a plain ARX model on a recording, with the shares of rows within its
 /// own intervals. Series, I an output: `measured.I`, `simulated.I`, `predicted.I` with `.low` and `.high`, all over
 /// seconds; residual tests; and where requested `error.I` and `error.I.model` over steps, `error.I.inf`, and responses.
-/// Errors: the recording has not the model's channels or is too short, steps out of range, kStopped.
+/// Errors: the recording lacks the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are an ArxModel.
 Result<Report> validate_arx(const Model& model, const Recording& recording, const ValidationOptions& options = {},
@@ -29,13 +29,13 @@ Result<Report> validate_arx(const Model& model, const Recording& recording, cons
 
 namespace arx {
 
-/// How the recipe fits.
+/// Options of fit_arx() from the recipe.
 ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders);
 
-/// Model, training and the fit's part of the report.
+/// Assembles the model, its training record and the fit's part of the report.
 Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& channels, const Sources& sources);
 
-/// The error that stopped work ends with, unless it is to go on.
+/// Reports progress. Error: kStopped where the caller stops the work.
 Result<void> check_progress(const Progress& progress, std::string_view stage, double share);
 
 }  // namespace arx

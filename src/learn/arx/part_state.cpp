@@ -19,8 +19,8 @@ constexpr std::size_t kHeader = 4 * 8;
 
 LagLayout layout_of(const ArxOrders& orders) { return make_design(orders, ArxOffset::kMean).layout; }
 
-// One walk over a state both writes it and reads it, as 8 bytes a number or letter, little-endian. Reads past the end
-// give zeros and are remembered.
+// Reads or writes a state by the same walk over its fields: 8 bytes per number or letter, little-endian. Reads past the
+// end return zeros and set an error flag.
 class Archive {
  public:
   Archive() = default;
@@ -31,7 +31,7 @@ class Archive {
   bool at_end() const { return fine_ && left_.empty(); }
   std::vector<std::byte> take() { return std::move(bytes_); }
 
-  /// Whether so many numbers may follow: asked before memory is allocated for them.
+  /// Whether `count` more numbers can follow; checked before memory is allocated for them.
   bool has_room(std::size_t count) { return fine_ = fine_ && (!reading_ || count <= left_.size() / 8); }
 
   void number(std::uint64_t& value) {
@@ -48,7 +48,7 @@ class Archive {
     number(bits);
     value = std::bit_cast<double>(bits);
   }
-  /// Resizes what is read to the size that was written.
+  /// Reads or writes the list's size; on reading, resizes the list.
   template <class List>
   void size(List& list) {
     std::uint64_t count = list.size();
@@ -91,7 +91,7 @@ void walk(Archive& archive, ChannelChoice& names, ArxOrders& orders) {
   archive.matrix(orders.nk, ny, nu);
 }
 
-// All but names and orders.
+// Walks over all fields except names and orders.
 void walk(Archive& archive, PartState& state) {
   archive.real(state.rate_hz);
   for (auto* count : {&state.rows, &state.episodes_used, &state.episodes_skipped, &state.rows_left_out, &state.jobs}) {

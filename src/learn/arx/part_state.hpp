@@ -1,10 +1,10 @@
 #pragma once
-// What some rows have to say about an ARX model: a small triangle that can be stored, sent and merged.
+// Sufficient statistics of some rows for an ARX fit: a small triangle that can be stored, sent and merged.
 //
 // Source: the merging of triangular factors by orthogonal rotations is that of tall-skinny QR (J. Demmel et al., SIAM
-// J. Sci. Comput. 34, 2012); see also Å. Björck, Numerical Methods for Least Squares Problems, section 6.2. However the
-// rows are cut into parts and in whatever order these are merged, the fit is the same but for rounding, and has the
-// accuracy of QR. Memory does not grow with the rows.
+// J. Sci. Comput. 34, 2012); see also Å. Björck, Numerical Methods for Least Squares Problems, section 6.2. The fit
+// does not depend, but for rounding, on how rows are divided into parts or on the order of merging, and has the
+// accuracy of QR. Memory does not grow with the number of rows.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -20,19 +20,19 @@
 
 namespace wisp::arx {
 
-/// Rows [begin, end) of a recording whose rows [first, last) are to be taken in, by this part and its siblings;
-/// 0-based.
+/// Rows [begin, end) that this part covers, of a recording whose rows [first, last) are covered by this part and its
+/// siblings together; 0-based.
 struct SeenRows {
   std::string source;
-  std::uint64_t hash = 0;  ///< of the recording's contents, whatever it is called
+  std::uint64_t hash = 0;  ///< hash of the recording's contents, independent of its name
   std::uint64_t first = 0, last = 0;
   std::uint64_t begin = 0, end = 0;
 };
 
-/// Sums over the samples of a channel, about a reference near their mean, so that little is lost when it is taken off.
+/// Sums over a channel's samples about a reference near their mean, which limits cancellation.
 struct PartChannel {
-  double reference = std::numeric_limits<double>::quiet_NaN();  ///< NaN: there was no sample yet
-  double sum = 0, square = 0;                                   ///< of sample − reference
+  double reference = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first sample
+  double sum = 0, square = 0;                                   ///< sums of (sample − reference) and of its square
   std::uint64_t samples = 0;
   ChannelSpan span;
 
@@ -42,36 +42,36 @@ struct PartChannel {
 struct PartState {
   ChannelChoice names;
   ArxOrders orders;
-  double rate_hz = 0;                 ///< 0: nothing was taken in
+  double rate_hz = 0;                 ///< sampling rate; 0: nothing was taken in
   std::vector<PartChannel> channels;  ///< outputs, then inputs
-  Eigen::MatrixXd triangle;           ///< of all columns of the design's layout
+  Eigen::MatrixXd triangle;           ///< R of all columns of the design's layout
   std::uint64_t rows = 0, episodes_used = 0, episodes_skipped = 0, rows_left_out = 0;
-  std::uint64_t jobs = 1;  ///< that made it
+  std::uint64_t jobs = 1;  ///< number of jobs that made the part
   std::vector<SeenRows> seen;
 
-  /// Nothing taken in yet. Precondition: check_orders() of both.
+  /// An empty part. Precondition: check_orders() accepts both.
   PartState(ChannelChoice channel_names, ArxOrders model_orders);
 
-  /// Takes in all that another part knows, but for its number of jobs.
-  /// Errors: a part of another model, rows that are in both; then nothing is taken in.
+  /// Merges another part, except for its number of jobs.
+  /// Errors: a part of another model, rows that are in both parts; nothing is merged then.
   Result<void> merge(const PartState& more);
 
-  /// As bytes, the same on every machine, with a hash.
+  /// Serialises the part to bytes with a hash; identical on every machine.
   std::vector<std::byte> bytes() const;
 
-  /// From bytes. Errors: not a part, cut short, changed, of another version, or not meaningful.
+  /// Deserialises a part. Errors: not a part, truncated, corrupted, of another version, or with invalid values.
   static Result<PartState> from_bytes(std::span<const std::byte> bytes);
 };
 
-/// (x − from)·1 becomes (x − to)·scale with shift = from − to: columns change by a multiple of the constant's.
+/// Turns columns (x − from) into (x − to)·scale, shift = from − to, by adding multiples of the constant's column.
 void shift_columns(const ArxOrders& orders, const std::vector<double>& shift, const std::vector<double>& scale,
                    Eigen::MatrixXd& triangle);
 
-/// The rows that are taken in, one entry a recording. Errors: rows between the first and the last one of a recording
-/// that are in no part.
+/// Rows covered by the parts, one entry per recording. Errors: a recording with rows between its first and last that
+/// are in no part.
 Result<std::vector<SeenRows>> covered(std::vector<SeenRows> seen);
 
-/// "1:500", counted from 1.
+/// Text of a row range, such as "1:500", counted from 1.
 std::string rows_text(std::uint64_t begin, std::uint64_t end);
 
 }  // namespace wisp::arx

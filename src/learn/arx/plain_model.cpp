@@ -12,7 +12,7 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kMinRange = 1e-120;  // of a channel: its square, and that of its square, are numbers
+constexpr double kMinRange = 1e-120;  // of a channel: smaller ranges underflow when squared twice
 
 ChannelSpan span_of(const std::string& name, std::span<const Recording> recordings) {
   ChannelSpan span;
@@ -35,7 +35,7 @@ OrderMatrix matrix_of(const OrderChoice& choice, std::size_t rows, std::size_t c
   return OrderMatrix(static_cast<int>(rows), static_cast<int>(columns), std::get<int>(choice));
 }
 
-// One number where all are the same, else row by row: "4,2;3,4".
+// Text of an order matrix: one number where all entries are equal, otherwise row by row, as in "4,2;3,4".
 std::string text_of(const OrderMatrix& orders) {
   const auto values = orders.values();
   if (std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end()) {

@@ -1,4 +1,4 @@
-// What a plain ARX model is worth on a recording.
+// Validation of a plain ARX model on a recording.
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +17,18 @@ namespace wisp {
 namespace arx {
 namespace {
 
-constexpr int kSettled = 2000;        // steps after which the noise of free simulation has its full size
-constexpr int kMaxPlottedSteps = 15;  // a prediction much longer than that is a simulation
-constexpr int kErrorSteps = 20;       // of the plot of errors by steps
+constexpr int kSettled = 2000;        // steps after which the noise of free simulation has reached full variance
+constexpr int kMaxPlottedSteps = 15;  // above this, a prediction is practically a simulation
+constexpr int kErrorSteps = 20;       // number of steps in the plot of errors over steps
 
-// All that is judged with.
+// Model, recording and options under validation.
 struct Subject {
   const Model& model;
   const ArxModel& arx;
   const ChannelChoice& channels;
   const Recording& recording;
   const ValidationOptions& options;
-  std::vector<std::vector<double>> sd;  // of prediction errors, per output, then per step
+  std::vector<std::vector<double>> sd;  // of prediction errors: [output][step − 1]
 
   const std::vector<double>& measured(std::size_t output) const {
     return recording.channels[*find_channel(recording, channels.outputs[output])].samples;
@@ -38,11 +38,11 @@ struct Subject {
   }
 };
 
-// Predictions of every number of steps: [step][output][row], and how good they are.
+// Predictions for each number of steps: [step][output][row], and their accuracy.
 struct Judged {
   std::vector<PredictionFigures> figures;
   std::vector<std::vector<std::vector<double>>> predictions;
-  std::optional<ResidualTests> tests{};  // none: too short, nothing can be said
+  std::optional<ResidualTests> tests{};  // empty where the recording is too short
 };
 
 Result<void> check_steps(const std::vector<int>& steps) {
@@ -54,7 +54,7 @@ Result<void> check_steps(const std::vector<int>& steps) {
   return {};
 }
 
-// Standard deviations as far as the longest prediction, or until they settle.
+// Standard deviations up to the longest prediction, or until they settle for free simulation.
 std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector<int>& steps) {
   int longest = *std::max_element(steps.begin(), steps.end());
   if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettled);
@@ -80,7 +80,7 @@ Result<Judged> judge(const Subject& subject, const Progress& progress) {
   return judged;
 }
 
-// The share of measured rows within the model's own 95 % interval.
+// Share of measured rows within the model's own 95 % interval.
 double share_inside(const std::vector<double>& measured, const std::vector<double>& predicted, double sd) {
   std::size_t rows = 0, inside = 0;
   for (std::size_t t = 0; t < measured.size(); ++t) {
@@ -133,7 +133,7 @@ ReportTable channel_table(const Subject& subject, const Judged& judged) {
   return table;
 }
 
-// Measured, simulated and predicted: of the predictions the longest that is still one.
+// Adds measured, simulated and predicted series; predicted is the longest prediction of at most kMaxPlottedSteps.
 void add_plots(const Subject& subject, const Judged& judged, ReportSection& section) {
   const std::vector<double> seconds = seconds_of(subject.recording);
   const auto& steps = subject.options.steps;
@@ -163,8 +163,8 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
   }
 }
 
-// The paper's figure of prediction: error against the number of steps, beside what the model itself expects. Nothing
-// where the recording is shorter than twenty steps.
+// Error against the number of steps (the paper's figure of prediction), with the error that the model itself expects.
+// Omitted where the recording is shorter than twenty steps.
 void add_error_growth(const Subject& subject, ReportSection& section) {
   FigureOptions options;
   options.steps.clear();

@@ -20,10 +20,10 @@ namespace {
 
 constexpr double kPercentile = 0.99;
 constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
-constexpr std::size_t kMaxWindows = 500;  // a side
-constexpr int kSynthesizedPerReal = 2;    // falls
+constexpr std::size_t kMaxWindows = 500;  // maximum number on each side
+constexpr int kSynthesizedPerReal = 2;    // synthesized falls per recorded fall
 constexpr double kLongWindowSeconds = 2;
-constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // no eye sees less
+constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // below what an eye can see
 
 struct Jumps {
   std::vector<double> position;
@@ -51,7 +51,7 @@ double share_above(const std::vector<double>& joins, const std::vector<double>& 
   return static_cast<double>(above) / static_cast<double>(joins.size());
 }
 
-// Jumps at the join show in its row and in the one after.
+// Jumps at a join appear in the join's row and in the row after it.
 Jumps jumps_at(const Motion& motion, std::span<const std::vector<std::size_t>> rows) {
   Jumps jumps;
   for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
@@ -78,9 +78,9 @@ JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, co
           share_above(natural.position, all.position), share_above(natural.rotation, all.rotation)};
 }
 
-constexpr std::size_t kTiltColumn = 3;  // of poses
-constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°: no eye sees less, so that much noise is on every figure of it
-constexpr double kMinSpeed = 0.05;      // m/s: slower than this, a thing has no heading to change
+constexpr std::size_t kTiltColumn = 3;  // column of tilt in the series of poses
+constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°, the limit of the eye: noise of this size enters every tilt figure
+constexpr double kMinSpeed = 0.05;      // m/s: below this speed heading is undefined
 
 void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, double segment_seconds,
              std::vector<double>& out) {
@@ -101,7 +101,7 @@ void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, do
   out.push_back(segment_seconds);
 }
 
-// Mean, standard deviation, least and most of one column over some rows.
+// Appends mean, standard deviation, minimum and maximum of one column over a range of rows.
 void add_figures(const Stretch& series, std::size_t first, std::size_t rows, std::size_t column,
                  std::vector<double>& out) {
   double sum = 0, square = 0, least = 0, most = 0;
@@ -117,7 +117,7 @@ void add_figures(const Stretch& series, std::size_t first, std::size_t rows, std
   out.insert(out.end(), {mean, std::sqrt(variance), least, most});
 }
 
-constexpr double kFlipMargin = 0.2;  // of the normal's height: nearer to the horizon, no side lies up
+constexpr double kFlipMargin = 0.2;  // magnitude of the normal's z below which neither side counts as facing up
 
 Recording empty_fall(const Model& model) {
   Recording fall;
@@ -158,7 +158,7 @@ FallFigures figures_of(const Motion& motion, std::span<const Segment> segments) 
   return figures;
 }
 
-// Energy distance of windows, of at most so many a side.
+// Energy distance between windows, at most kMaxWindows on each side.
 double energy_of(const FeatureWindows& reference, const FeatureWindows& other) {
   FeatureWindows x = thinned(reference, kMaxWindows);
   FeatureWindows y = thinned(other, kMaxWindows);
@@ -167,8 +167,8 @@ double energy_of(const FeatureWindows& reference, const FeatureWindows& other) {
   return energy_distance(x, y);
 }
 
-// Between what two halves of the real falls differ by (every other fall to a side; a single one is cut in time) and
-// what their rows in random order do. `windows_of`: of series.
+// Places a value between its floor (distance of two halves of the real falls: every other fall, or a single one cut in
+// time) and its ceiling (distance to their rows in random order). `windows_of`: windows of a series.
 template <typename Windows>
 Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::uint64_t seed,
                  const Windows& windows_of) {
@@ -183,8 +183,8 @@ Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, s
   return {apart(real, made), apart(halves.first, halves.second), apart(real, shuffled(real, seed))};
 }
 
-// What an eye follows: descent and speed over ground, and of poses the height of the normal, velocities and spins in
-// the body's axes; with noise of the size that no eye sees.
+// Signals that an eye follows: descent and speed over ground; for poses also the height of the normal, and velocities
+// and spins in body axes. Noise at the limit of visibility is added.
 std::vector<Stretch> signals_of(const Motion& motion, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto noise = [&] { return std::sqrt(12.0) * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
@@ -292,13 +292,13 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   const int falls = static_cast<int>(seen->pieces.size()) * kSynthesizedPerReal;
   auto made = made_falls(model, falls, longest, options.seed);
   if (!made) return made.error();
-  // A fall that was seen only so far is only so far compared.
+  // Each made fall is cut to the length of the recorded fall that it is compared with.
   for (std::size_t k = 0; k < made->falls.size(); ++k) {
     made->falls[k] = slice(made->falls[k], 0, seen->pieces[k % seen->pieces.size()].rows());
   }
   auto played = motion_of(made->falls, options.smooth_rows);
   if (!played) return played.error();
-  // What plays no events has no segments to compare, which is said of it.
+  // A model whose play has no events has no segments to compare; the report says so.
   const auto played_cut = segment(*played, made->falls, options.segmentation);
   const std::vector<Segment> played_segments = played_cut ? played_cut->segments : std::vector<Segment>();
   ChainFidelity out;
@@ -351,7 +351,7 @@ Bounded spectra_apart(const Motion& real, const Motion& synthesized, std::uint64
 
 namespace {
 
-constexpr double kMaxShareOfCeiling = 0.5;  // a distance above it is nearer to rows in random order than to falls
+constexpr double kMaxShareOfCeiling = 0.5;  // share of the ceiling above which falls count as unlike the recorded ones
 
 std::array<std::pair<const char*, const Bounded*>, 3> measures_of(const ChainFidelity& fidelity) {
   return {{{"over half a second", &fidelity.energy_distance},
@@ -359,7 +359,7 @@ std::array<std::pair<const char*, const Bounded*>, 3> measures_of(const ChainFid
            {"by spectra", &fidelity.spectra}}};
 }
 
-// Entries with a value, a label (empty: for programs only), a unit and a meaning.
+// Report entries: value, label (empty: for programs only), unit and meaning.
 class Entries {
  public:
   explicit Entries(ReportSection& section) : section_(section) {}
@@ -458,7 +458,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 Judged judged_by(const ChainFidelity& fidelity) {
   Judged out;
   for (const auto& [name, measure] : measures_of(fidelity)) {
-    // Where halves of the recorded falls are as far apart as rows in random order, nothing can be told from them.
+    // The measure is uninformative where the two recorded halves are as far apart as rows in random order.
     const bool told = measure->floor < kMaxShareOfCeiling * measure->ceiling;
     std::string& names = told ? out.judged : out.unjudged;
     names += (names.empty() ? "" : ", ") + std::string(name);
@@ -472,7 +472,7 @@ std::optional<std::string> fault_of(const ChainFidelity& fidelity) {
            " s: record more, or choose another event, realisation or number of modes";
   }
   for (const auto& [name, measure] : measures_of(fidelity)) {
-    // Few windows are far apart by chance, recorded ones too.
+    // With few windows the distance is large by chance, even between recorded falls.
     if (!(measure->value > kMaxShareOfCeiling * measure->ceiling) || measure->value <= measure->floor) continue;
     return "its falls are not like the recorded ones (energy distance " + std::string(name) + " " +
            number_text(measure->value, 3) + "; rows in random order have " + number_text(measure->ceiling, 3) +

@@ -16,11 +16,11 @@
 namespace wisp::chain {
 namespace {
 
-// ---- Where a walk leads: what it is steered by ----
+// ---- Expected displacement of a walk, used for steering ----
 
-constexpr int kRounds = 40;          // segments: more than direction is kept for
-constexpr int kSettlingRounds = 60;  // until segments are visited as often as in a long walk
-constexpr std::size_t kAnyOf = 8;    // of a mode whose segments all follow alike
+constexpr int kRounds = 40;          // horizon in segments, longer than a heading persists
+constexpr int kSettlingRounds = 60;  // iterations until visit shares are stationary
+constexpr std::size_t kAnyOf = 8;    // successors considered in a mode whose segments are equally probable
 constexpr double kMaxStored = 32767;
 constexpr double kMinSpread = 1e-9;
 
@@ -31,11 +31,11 @@ struct Way {
   double height = 0;
 };
 
-// One thing that may follow a segment.
+// A possible successor of a segment.
 struct Next {
   std::size_t segment;
   double probability;
-  Complex turn;  // that it is placed with
+  Complex turn;  // rotation applied when it is placed
 };
 
 class Walk {
@@ -54,7 +54,7 @@ class Walk {
   const Way& stored_way(std::size_t s) const { return ways_[s]; }
   std::span<const Next> next(std::size_t s) const { return next_[s]; }
 
-  // How often each segment is visited.
+  // Stationary share of visits of each segment.
   std::vector<double> visits() const {
     std::vector<double> share(size(), 1.0 / static_cast<double>(size()));
     for (int round = 0; round < kSettlingRounds; ++round) {
@@ -125,10 +125,10 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// What follows a segment on average, beyond the mean velocity.
+// Expected displacement after each segment, beyond that of the mean velocity.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
-  std::vector<double> size;  // root-mean-square, after each round
+  std::vector<double> size;  // root mean square after each iteration
   double mean_seconds = 0;
   for (std::size_t s = 0; s < walk.size(); ++s) mean_seconds += visits[s] * walk.seconds(s);
   for (int round = 0; round < kRounds; ++round) {
@@ -143,7 +143,7 @@ std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<
       }
       square += visits[s] * std::norm(after[s].ground);
     }
-    // Heights are known but for a constant.
+    // Heights are determined up to a constant: their mean is set to 0.
     double mean = 0;
     for (std::size_t s = 0; s < walk.size(); ++s) mean += visits[s] * after[s].height;
     for (Way& one : after) one.height -= mean;
@@ -192,14 +192,14 @@ ChainDrift drift_of(const ChainModel& chain, double rate_hz) {
 }
 
 constexpr int kModesWithoutOrientation = 6;
-constexpr std::size_t kMinSegments = 30;  // with fewer, transitions are anecdotes
+constexpr std::size_t kMinSegments = 30;  // with fewer, transition counts are not reliable
 
-// The data, cut.
+// Motion cut into segments.
 struct Cut {
   Motion motion;
   Segmentation segmentation;
-  std::size_t learned_pieces = 0;    // the first ones: the others are held out
-  std::size_t learned_segments = 0;  // those of the learned pieces
+  std::size_t learned_pieces = 0;    // number of pieces learned from, the first ones; the others are held out
+  std::size_t learned_segments = 0;  // number of segments in those pieces
 
   std::span<const Segment> segments() const { return segmentation.segments; }
 };
@@ -222,7 +222,7 @@ Result<Cut> cut(std::span<const Recording> recordings, const ChainRecipe& recipe
   return out;
 }
 
-// Positions begin at the origin, but for a height that is bounded.
+// Ranges of the outputs. Positions start at the origin, except for a bounded height.
 std::vector<Output> outputs_of(const Motion& motion, bool bounded_height) {
   std::vector<Output> outputs;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -273,8 +273,8 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// A segment is followed by one of its best-joining ones where orientation says how the body lies in the air. Without it
-// successors that join well are too often short ones, and modes are what keeps the mean.
+// Without requested modes, one mode where orientation is known: a segment is then followed by a well-joining one.
+// Without orientation well-joining successors are too often short ones; modes preserve the mean.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {
@@ -286,12 +286,12 @@ Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   return sorted_into_modes(features, data.learned_segments, modes, recipe.seed);
 }
 
-// How modes follow each other, and the segments that play them.
+// Transition probabilities of modes, and the segments that realise them.
 struct FittedWalk {
   ModeChain chain;
-  double log_likelihood = 0;  // of the stretches that were held out, or, where none are, of those learned
+  double log_likelihood = 0;  // of the held-out stretches or, without any, of the learned ones
   ChainModel dynamics;
-  std::vector<std::uint64_t> origin;  // as ChainFit's
+  std::vector<std::uint64_t> origin;  // as in ChainFit
 };
 
 ModeChain chain_of(const Cut& data, const Modes& modes, const ChainRecipe& recipe, double& likelihood) {

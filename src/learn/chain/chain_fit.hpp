@@ -1,9 +1,9 @@
 #pragma once
-// From recordings of something that moves to a segment chain: cut at events, described, sorted into modes, counted,
+// Learns a segment chain from recorded motion: segments between events are described, clustered into modes, counted and
 // stored. Source: sections 2.2 and 4 of the paper.
 //
-// Departs from it where orientation is known and no modes are asked for: a segment is then followed by one of those
-// that join it best.
+// Departure where orientation is known and no modes are requested: a segment is followed by one of the segments that
+// join it best.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@
 namespace wisp::chain {
 
 struct ChainSummary {
-  std::size_t segments = 0;  ///< found in the data that were learned from
+  std::size_t segments = 0;  ///< number of segments in the training data
   std::size_t stored = 0;
   std::size_t stretches_learned = 0;
   std::size_t stretches_held_out = 0;
@@ -31,7 +31,7 @@ struct ChainSummary {
   std::vector<double> transitions;  ///< modes × modes
   double mean_segment_seconds = 0;
   double silhouette = 0;
-  double log_likelihood = 0;  ///< nats a segment, of held-out mode sequences (of the learned ones where nothing was
+  double log_likelihood = 0;  ///< nats per segment, of held-out mode sequences (of the learned ones where nothing was
                               ///< held out)
   std::vector<std::string> warnings;
 };
@@ -39,13 +39,13 @@ struct ChainSummary {
 struct ChainFit {
   Model model;
   ChainSummary summary;
-  std::vector<Recording> learned;     ///< the stretches that were learned from,
-  std::vector<Recording> held_out;    ///< and those that were not
-  std::vector<std::uint64_t> origin;  ///< per stored segment: its place among all segments, with a gap between
-                                      ///< stretches; two in sequence are each other's continuation
+  std::vector<Recording> learned;     ///< stretches learned from
+  std::vector<Recording> held_out;    ///< stretches held out
+  std::vector<std::uint64_t> origin;  ///< per stored segment: its index among all segments, with a gap between
+                                      ///< stretches; consecutive indices continue each other
 };
 
-/// Fits a chain to falls, gusts apart.
+/// Fits a chain to falls. Gusts are learned separately.
 /// Errors: as check_fields(), motion_of(), segment(), segment_features(), k_means(), system_segments(); stopped by
 /// `progress`.
 Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,

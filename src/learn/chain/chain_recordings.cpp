@@ -14,15 +14,15 @@
 namespace wisp {
 namespace {
 
-constexpr double kFarthest = 1e6;     // metres: players hold positions no further
-constexpr double kMaxClones = 10000;  // as `simulate leaf --clones`
+constexpr double kFarthest = 1e6;     // metres: limit of positions in players
+constexpr double kMaxClones = 10000;  // limit of `simulate leaf --clones`
 constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 
 std::string place(const Recording& recording, std::size_t row) {
   return recording.source + ": row " + std::to_string(row + 1);
 }
 
-// A channel of the pose that is only a name.
+// Checks that no channel of the pose is empty of samples.
 Result<void> check_filled(const Recording& recording) {
   for (const char* name : {"pos.x", "pos.y", "pos.z", "q.w", "q.x", "q.y", "q.z"}) {
     const auto channel = find_channel(recording, name);
@@ -69,7 +69,7 @@ Result<void> check_paired(const Recording& recording) {
                ": how many episodes in a row belong to one gust"};
 }
 
-// Of all samples of an episode. Two episodes that differ have the same one once in 10^19.
+// Hash of all samples of an episode. Different episodes collide with a probability of 1e-19.
 std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
   std::uint64_t hash = hash_bytes({});
   for (const Channel& channel : recording.channels) {

@@ -1,5 +1,5 @@
 #pragma once
-// Recordings as chains are learned from them: falls, and pairs that tell what wind does.
+// Prepares recordings for chains: falls, and windy–calm pairs that show the effect of wind.
 
 #include <span>
 #include <vector>
@@ -12,16 +12,16 @@ namespace wisp::chain {
 /// Whether all inputs of a recording are 0 throughout.
 bool is_calm(const Recording& recording);
 
-/// Recordings by whether they have the attribute `pair`, whose value those share that differ only in their wind.
+/// Recordings split by the attribute `pair`, whose value is shared by recordings that differ only in their wind.
 struct SortedRecordings {
   std::vector<Recording> falls;
-  std::vector<Recording> paired;  ///< the windy one and its calm twin, or none
+  std::vector<Recording> paired;  ///< the windy recording and its calm twin, or empty
 };
 
-/// Errors: as check_motion(); paired ones that are not a windy recording and its calm twin.
+/// Errors: as check_motion(); paired recordings other than one windy recording and its calm twin.
 Result<SortedRecordings> sorted_recordings(std::span<const Recording> recordings);
 
-/// How many episodes repeat an earlier one, row by row: they teach nothing, and judge nothing where they are held out.
+/// Number of episodes that repeat an earlier one row by row. They add nothing to training or to validation.
 struct Repeats {
   std::size_t episodes = 0;
   std::size_t repeated = 0;

@@ -1,4 +1,4 @@
-// From recordings to a judged chain: sorting of recordings, fit, fidelity, gusts, verdict.
+// Learns and judges a chain from recordings: sorting, fit, fidelity, gusts, verdict.
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@ namespace wisp {
 namespace chain {
 namespace {
 
-constexpr double kMaxSpeed = 100;  // m/s: nothing falls as fast; millimetres read as metres do
+constexpr double kMaxSpeed = 100;  // m/s: no fall is as fast, but one in millimetres read as metres is
 constexpr std::size_t kVerbatimSegments = 20000;
 
-// Full axes of the leaf, where its maker has said them.
+// Takes the leaf's full axes from the recording's attributes, where they are given.
 Result<void> take_size(const Recording& first, ChainRecipe& recipe) {
   if (recipe.half_width > 0 || recipe.half_length > 0) return {};
   const auto size = numbers_attribute(first, "leaf_length_width_density");
@@ -34,7 +34,7 @@ Result<void> take_size(const Recording& first, ChainRecipe& recipe) {
                number_text((**size)[1], 3) + ", expected a length and a width above 0, in metres"};
 }
 
-// What learning says is wrong, with the file that it is about.
+// A learning error, with the name of the file that it concerns.
 Error about(std::span<const Recording> recordings, const Error& error) {
   if (error.message == kStopped) return error;
   for (const Recording& recording : recordings) {
@@ -43,7 +43,7 @@ Error about(std::span<const Recording> recordings, const Error& error) {
   return {recordings.front().source + ": " + error.message};
 }
 
-// Falls that repeat each other judge nothing.
+// Warns of repeated falls, which add nothing to the judgement.
 void take_repeats(std::span<const Recording> falls, Fit& fit) {
   const Repeats repeats = repeats_in(falls);
   if (repeats.repeated == 0) return;
@@ -65,7 +65,7 @@ void judge_speed(std::span<const Recording> falls, Usable& usable) {
                        " m/s on average: give positions in metres, not in millimetres"};
 }
 
-// How like the stretches that were held out, or, where none were, those that were learned from.
+// Fidelity to the held-out stretches or, without any, to the training stretches.
 void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   const ChainFidelityOptions judging{
       .segmentation = segmentation_of(recipe), .smooth_rows = recipe.smooth_rows, .seed = recipe.seed};
@@ -91,18 +91,18 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   }
 }
 
-// The response to gusts, from a windy recording and its calm twin.
+// Learns the response to gusts from a windy recording and its calm twin.
 Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, Fit& fit) {
   if (paired.empty()) return {};
   const auto pairs = gust_pairs(paired[0], paired[1]);
   if (!pairs) return pairs.error();
-  const std::size_t told = pairs->gusts() * 3 / 5;  // the others judge
+  const std::size_t told = pairs->gusts() * 3 / 5;  // number of gusts to learn from; the others judge
   auto gusts = learn_gusts(*pairs, told);
   if (!gusts) return gusts.error();
   std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
   fit.model.inputs = std::move(gusts->inputs);
   Training& training = fit.model.training;
-  training.inputs.assign(fit.model.inputs.size(), {});  // metres a second
+  training.inputs.assign(fit.model.inputs.size(), {});  // m/s
   for (const Recording& one : paired) {
     training.sources.push_back(std::filesystem::path(one.source).filename().string());
   }

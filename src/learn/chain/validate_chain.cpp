@@ -1,4 +1,4 @@
-// A chain against recordings that it has not seen: falls, or gusts and their calm twins.
+// Validation of a chain on unseen recordings: falls, or gusts with their calm twins.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,11 +16,11 @@ namespace wisp {
 namespace chain {
 namespace {
 
-// ---- Tracks of recorded and synthesized falls, to be plotted ----
+// ---- Plotted tracks of recorded and synthesized falls ----
 
-constexpr std::size_t kFalls = 12;    // a side: more would hide each other
-constexpr double kShownSeconds = 6;   // of a fall
-constexpr double kMarkedSeconds = 3;  // of one with its events: later ones could not be distinguished
+constexpr std::size_t kFalls = 12;    // maximum number on each side: more would hide each other
+constexpr double kShownSeconds = 6;   // maximum duration of a plotted fall
+constexpr double kMarkedSeconds = 3;  // maximum duration of the fall with marked events
 
 std::size_t rows_of(const MotionPiece& piece, double seconds, double rate_hz) {
   return std::min(piece.rows(), static_cast<std::size_t>(seconds * rate_hz));
@@ -64,7 +64,7 @@ void add_marked(const Motion& motion, const Segmentation& cut, ReportSection& se
   section.series.push_back(events_of("recorded", piece, events));
 }
 
-// The parts of a fall's first rows that are of one mode.
+// Stretches of one mode in the plotted rows of a fall.
 ReportSeries mode_track(const MotionPiece& piece, std::span<const int> modes, int mode) {
   const std::string number = std::to_string(mode);
   ReportSeries track{"segments.synthesized.mode_" + number, "mode " + number, "x, m", "height, m", {}, {}};
@@ -108,7 +108,7 @@ Result<ReportSection> fall_tracks(const Model& model, std::span<const Recording>
   return section;
 }
 
-// How the model's motion was cut when it was learned.
+// Segmentation options and seed for judging, from the model's training record.
 Result<ChainFidelityOptions> judging_of(const Model& model, std::uint64_t seed) {
   if (!model.training.motion) return Error{model.name + ": does not say how its motion was cut; learn it again"};
   const MotionTraining& motion = *model.training.motion;
@@ -163,7 +163,7 @@ Result<Report> validate_gusts(const Model& model, const Recording& windy, const 
   if (!play) return play.error();
   Report report;
   report.sections = {counts_of(windy.rows()), gusts_section(play->figures)};
-  report.sections.front().entries.push_back({"fidelity", {}, "", ""});  // clones are no falls of their own
+  report.sections.front().entries.push_back({"fidelity", {}, "", ""});  // clones of gusts are not independent falls
   for (std::size_t k = 0; k < play->scenes.size(); ++k) {
     report.sections.push_back(scene_section(play->scenes[k], k));
   }

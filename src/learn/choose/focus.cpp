@@ -16,11 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kManyRows = 8192;    // with more rows, candidates are compared
-constexpr std::size_t kRowsOfMany = 4096;  // on this many of them
-constexpr double kMaxKernelWork = 2e7;     // sum of the cubes of the rows' numbers of coefficients
-constexpr double kWorthIt = 0.02;          // of the squared error: a gain below is no reason
-constexpr int kRowsALag = 10;              // a stretch must be this many times longer than a kernel's lags
+constexpr std::size_t kManyRows = 8192;    // above this, candidates are compared on a sample of the rows
+constexpr std::size_t kRowsOfMany = 4096;  // number of rows in that sample
+constexpr double kMaxKernelWork = 2e7;     // maximum of the sum over rows of (number of coefficients)³
+constexpr double kWorthIt = 0.02;          // minimum gain, as a share of the squared error
+constexpr int kRowsALag = 10;              // minimum length of a stretch, in lags of the kernel
 constexpr double kMeasuredStarts[] = {0, 0.25, 0.5, 0.75};  // shares of a held-out recording at which runs start
 
 ArxOrders decoupled_orders(ArxOrders orders) {
@@ -46,7 +46,7 @@ ArxOrders kernel_orders(ArxOrders orders, int lags) {
   return orders;
 }
 
-// The options of one candidate for all outputs.
+// Options of one candidate for all outputs.
 ArxOptions options_of(const ArxOptions& given, const FocusCandidate& candidate) {
   ArxOptions out = given;
   if (candidate.decoupled) out.orders = decoupled_orders(std::move(out.orders));
@@ -58,7 +58,7 @@ ArxOptions options_of(const ArxOptions& given, const FocusCandidate& candidate) 
   return out;
 }
 
-// The given outputs of a model. They feed no others and are fed by no others.
+// The submodel of a set of outputs that is not coupled to other outputs.
 ArxModel part_of(const ArxModel& model, const std::vector<int>& outputs) {
   const auto size = static_cast<int>(outputs.size()), inputs = model.orders.inputs();
   ArxModel part;
@@ -78,7 +78,7 @@ ArxModel part_of(const ArxModel& model, const std::vector<int>& outputs) {
   return part;
 }
 
-// Errors of one candidate for one block over all folds, kParts rows a fold and one column an output.
+// Errors of one candidate for one block over all folds: kParts rows per fold, one column per output.
 struct Errors {
   MatrixXd estimated;
   MatrixXd measured;
@@ -89,7 +89,7 @@ void append(const MatrixXd& more, MatrixXd& to) {
   to.bottomRows(more.rows()) = more;
 }
 
-// One block of coupled outputs, and the candidates' errors; no value where a fold has too few rows for a candidate.
+// One block of coupled outputs with the candidates' errors; unset where a fold has too few rows for a candidate.
 struct Block {
   FocusChoice choice;
   std::vector<std::optional<Errors>> errors{};
@@ -129,7 +129,7 @@ class Chooser {
     return {};
   }
 
-  /// Whether anything could be judged.
+  /// Chooses a candidate per block. Returns whether any block could be judged.
   bool choose(bool leave_least_squares) {
     bool judged = false;
     for (Block& block : blocks_) {
@@ -152,7 +152,7 @@ class Chooser {
     return std::any_of(blocks_.begin(), blocks_.end(), [](const Block& one) { return one.choice.chosen > 0; });
   }
 
-  /// The options of the chosen model.
+  /// Options of the chosen model.
   ArxOptions chosen(const ArxOptions& given) const {
     ArxOptions out = given;
     for (const Block& block : blocks_) {
@@ -176,8 +176,8 @@ class Chooser {
  private:
   const std::vector<FocusCandidate>& candidates() const { return blocks_.front().choice.candidates; }
 
-  // A kernel is tried where every stretch is long compared with it, no other prior is set, and the coefficients are few
-  // enough for the time that a kernel takes.
+  // Whether to try a kernel: every stretch is long compared with its lags, no other prior is set, and the number of
+  // coefficients keeps the computation affordable.
   bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders, int lags) const {
     double work = 0;
     const ArxOrders many = kernel_orders(orders, lags);
@@ -249,7 +249,7 @@ class Chooser {
   std::vector<Block> blocks_;
 };
 
-// The reason why there is nothing to choose; empty where there is a choice.
+// Reason why no choice is possible; empty where one is.
 std::string obstacle(const ArxOptions& options, const ArxFit& plain, ArxFocus focus) {
   const auto& nb = options.orders.nb.values();
   const auto& na = options.orders.na.values();

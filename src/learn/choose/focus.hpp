@@ -1,6 +1,6 @@
 #pragma once
-// Which ARX model simulates best: least squares at the given orders, or 15 or 30 lags under a kernel, by free
-// simulation of rows that were not learned from.
+// Chooses the ARX model that simulates best: least squares at the given orders, or 15 or 30 lags under a kernel, judged
+// by free simulation of held-out rows.
 //
 // Source: G. Pillonetto et al., Automatica 50 (2014), for the kernel as a choice without orders; forward chaining as
 // in C. Bergmeir and J. Benítez, Information Sciences 191 (2012).
@@ -16,44 +16,44 @@
 
 namespace wisp::arx {
 
-/// Numbers of lags of every channel under the kernel, where the orders have fewer: two damped resonances and what lies
-/// between, and slow responses.
+/// Numbers of lags of every channel under the kernel, where the orders have fewer. 15 cover two damped resonances and
+/// intermediate cases, 30 cover slow responses.
 inline constexpr int kKernelLags[] = {15, 30};
 
-/// One candidate for outputs that feed each other, and its errors over held-out free runs.
+/// One candidate for a block of coupled outputs, with its errors over held-out free runs.
 struct FocusCandidate {
-  int kernel_lags = 0;         ///< under the TC kernel; 0: least squares at the given orders
-  bool decoupled = false;      ///< every output has feedback from itself alone
-  double estimated_error = 0;  ///< root mean square as a share of the outputs' deviation, from the best initial state
-  double measured_error = 0;   ///< the same from measured samples
+  int kernel_lags = 0;         ///< number of lags under the TC kernel; 0: least squares at the given orders
+  bool decoupled = false;      ///< without feedback between outputs
+  double estimated_error = 0;  ///< RMS divided by the outputs' standard deviation, from the best initial state
+  double measured_error = 0;   ///< the same ratio, from measured initial samples
 };
 
-/// The choice for outputs that feed each other.
+/// The choice for a block of coupled outputs.
 struct FocusChoice {
   std::vector<int> outputs;
   std::size_t chosen = 0;
   std::vector<FocusCandidate> candidates{};  ///< least squares at the given orders first; empty: none could be judged
 };
 
-/// What was chosen, and why.
+/// The outcome of the choice, with its reason.
 struct FocusOutcome {
-  bool changed = false;  ///< whether the model is another than least squares at the given orders
+  bool changed = false;  ///< whether the model differs from least squares at the given orders
   std::string reason{};  ///< one sentence
   std::vector<FocusChoice> choices{};
 };
 
 struct FocusedFit {
   ArxFit fit;
-  ArxOptions options;  ///< `fit` is fit_arx() with these
+  ArxOptions options;  ///< options with which fit_arx() gives `fit`
   FocusOutcome outcome{};
 };
 
-/// Judges least squares at the given orders and either of kKernelLags under the TC kernel, both with the given coupling
-/// and with every output on its own, by free simulation of held-out rows, for each set of coupled outputs. With kAuto a
-/// candidate replaces least squares at the given orders where it is surely_better(), from measured samples and from
-/// fitted initial states; with kSimulation the one of the least error is taken. Returns `plain` with the reason where
-/// nothing is to be simulated (no inputs, no feedback), where the data do not determine all coefficients, or where
-/// there are too few rows to hold some out. Errors: as fit_arx, kStopped.
+/// Chooses, for each block of coupled outputs, between least squares at the given orders and each of kKernelLags under
+/// the TC kernel, both with the given coupling and with decoupled outputs, by free simulation of held-out rows. kAuto
+/// replaces least squares only by a candidate that is surely_better(), both from measured samples and from fitted
+/// initial states; kSimulation takes the candidate with the least error. Returns `plain` with the reason where
+/// simulation is impossible (no inputs, no feedback), where the data do not determine all coefficients, or where too
+/// few rows can be held out. Errors: as fit_arx, kStopped.
 ///
 /// Precondition: `plain` is fit_arx() of the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,

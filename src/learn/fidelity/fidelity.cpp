@@ -12,12 +12,12 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kMinRows = 16;
-constexpr double kWindowSeconds = 0.5;       // a few flickers
-constexpr double kVerbatimTolerance = 0.02;  // in standard deviations of a channel: below what an eye can distinguish
+constexpr double kWindowSeconds = 0.5;       // the length of a few flickers
+constexpr double kVerbatimTolerance = 0.02;  // in standard deviations of a channel: below what the eye can distinguish
 
 using Stretches = std::vector<Stretch>;
 
-// Lengths of windows and stretches, common to a comparison and its two bounds, so that the three are comparable.
+// Lengths of windows and stretches, equal for a comparison and its two bounds, which makes them comparable.
 struct Lengths {
   double rate_hz = 0;
   std::size_t welch = 0;
@@ -25,7 +25,7 @@ struct Lengths {
 };
 
 struct Distances {
-  std::vector<double> log_spectral;  // per channel
+  std::vector<double> log_spectral;  // one value per channel
   double energy = kMissing;
 };
 
@@ -48,7 +48,7 @@ std::vector<double> joined(const std::vector<std::vector<double>>& stretches) {
 }
 
 FeatureWindows windows_of(const Stretches& stretches, const Lengths& lengths, std::size_t most) {
-  // Twice as many as are wanted, then evenly thinned: most of the spread without holding every window.
+  // Extracts twice the number of windows, then thins them evenly: most of the spread without storing every window.
   const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / (2 * most));
   return thinned(motion_windows(stretches, lengths.window, hop), most);
 }
@@ -92,7 +92,7 @@ Result<Stretches> all_stretches(std::span<const Recording> recordings, const std
   return all;
 }
 
-// Several recordings are split by recording, every other one to a side; a single one in time.
+// Splits several recordings alternately into two sides, and a single recording at half its time.
 Result<Halves> split(std::span<const Recording> real, const std::vector<std::string>& names, const Stretches& all) {
   if (real.size() == 1) return halves_of(all);
   Halves halves;

@@ -22,7 +22,7 @@ Stretch rows_of(const Stretch& stretch, std::size_t first, std::size_t last) {
   return {stretch.channels, {begin + first * stretch.channels, begin + last * stretch.channels}};
 }
 
-// Behaviour has memory.
+// Length of a block of correlated windows.
 constexpr std::size_t kBlockWindows = 4;
 
 double distance(std::span<const double> a, std::span<const double> b) {
@@ -31,7 +31,7 @@ double distance(std::span<const double> a, std::span<const double> b) {
   return std::sqrt(sum);
 }
 
-// Mean distance of all pairs.
+// Mean distance over all pairs of windows.
 double mean_distance(const FeatureWindows& x, const FeatureWindows& y) {
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -52,11 +52,11 @@ void append_window(const Stretch& stretch, std::size_t first, std::size_t rows, 
 
 constexpr double kThinnedHz = 15;
 constexpr int kBands = 13;
-constexpr std::size_t kMinWindows = 8;           // a side: with fewer, chance rules
-constexpr double kTailShares[] = {0.99, 0.999};  // of the sizes of second differences
-constexpr std::size_t kMinTail = 1000;           // fewest rows for the 99.9th percentile
+constexpr std::size_t kMinWindows = 8;           // on each side; with fewer, distances are dominated by chance
+constexpr double kTailShares[] = {0.99, 0.999};  // quantiles of the sizes of second differences
+constexpr std::size_t kMinTail = 1000;           // minimum number of rows for the 99.9th percentile
 
-// Bands [first, last) of frequencies that grow by a factor, each at least one wide.
+// Frequency bands [first, last) with widths in geometric progression, at least one frequency each.
 std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencies) {
   std::vector<std::pair<std::size_t, std::size_t>> bands;
   std::size_t first = 0;
@@ -71,7 +71,7 @@ std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencie
 }
 
 void append_spectra(const Stretch& stretch, std::size_t first, std::size_t rows, std::vector<double>& out) {
-  constexpr double kMin = 1e-12;  // the power of a channel that does not move
+  constexpr double kMin = 1e-12;  // power floor, for channels that do not move
   for (std::size_t c = 0; c < stretch.channels; ++c) {
     std::vector<double> samples(rows);
     for (std::size_t t = 0; t < rows; ++t) samples[t] = stretch(first + t, c);
@@ -151,7 +151,7 @@ bool alike(std::span<const double> a, std::span<const double> b, std::span<const
   return true;
 }
 
-// run[j]: rows of a common run that ends at row i of one and row j of the other.
+// run[j]: length of the common run that ends at row i of `a` and row j of `b`.
 std::size_t longest_common_run(const Stretch& a, const Stretch& b, std::span<const double> tolerance) {
   std::vector<std::size_t> run(b.rows() + 1, 0);
   std::size_t longest = 0;
@@ -245,7 +245,7 @@ FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t ro
   std::size_t block_base = 0;
   for (const Stretch& stretch : stretches) {
     out.features = 2 * rows * stretch.channels;
-    // The first row of a stretch has no row before it, so it starts no window.
+    // The first row of a stretch has no difference to a row before, so no window starts there.
     for (std::size_t first = 1; first + rows <= stretch.rows(); first += hop) {
       append_window(stretch, first, rows, out);
       out.blocks.push_back(block_base + (first - 1) / (kBlockWindows * rows));
@@ -271,7 +271,7 @@ FeatureWindows thinned(const FeatureWindows& windows, std::size_t most) {
 }
 
 void standardise(FeatureWindows& reference, FeatureWindows& other) {
-  // A feature that never moves differs by rounding alone, which must not be blown up to the size of the others.
+  // A constant feature differs by rounding only, which must not be scaled up to the size of the others.
   constexpr double kStill = 1e-9;
   const auto n = static_cast<double>(reference.size());
   std::vector<double> mean(reference.features), sd(reference.features);

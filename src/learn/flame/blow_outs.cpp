@@ -12,12 +12,12 @@
 namespace wisp {
 namespace {
 
-constexpr double kUsual = 0.95;        // percentile of the wind in which the flame burns
-constexpr double kMinGone = 0.5;       // seconds: a flame that comes back by itself does so sooner
-constexpr double kLookedBack = 0.6;    // seconds before that in which wind may have killed it
-constexpr double kMinBlown = 0.15;     // seconds over which that wind is averaged: hiss has peaks, wind lasts
-constexpr double kSettling = 0.5;      // seconds after it is back in which it is not yet itself
-constexpr double kMinPresence = 0.15;  // seconds: a shorter sight of something between two absences is an ember's
+constexpr double kUsual = 0.95;        // quantile of the wind while the flame burns
+constexpr double kMinGone = 0.5;       // seconds: spontaneous disappearances are shorter
+constexpr double kLookedBack = 0.6;    // seconds before the disappearance that are searched for the wind
+constexpr double kMinBlown = 0.15;     // seconds over which that wind is averaged: noise has short peaks, wind lasts
+constexpr double kSettling = 0.5;      // seconds after re-ignition that are excluded as transient
+constexpr double kMinPresence = 0.15;  // seconds: shorter appearances between two absences are an ember's
 
 constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;
 
@@ -26,7 +26,7 @@ struct Run {
   std::size_t end = 0;
 };
 
-// Rows without an outline, glimpses of next to nothing between them included.
+// Runs of rows without an outline, including appearances between them shorter than kMinPresence.
 std::vector<Run> absences(const Recording& recording, const OutlineLayout& layout) {
   std::vector<Run> runs;
   const std::size_t least = rows_of(kMinPresence, recording.rate_hz);
@@ -43,7 +43,7 @@ std::vector<Run> absences(const Recording& recording, const OutlineLayout& layou
   return runs;
 }
 
-// Strength of an input, averaged over the `window` rows up to each; missing samples are calm.
+// Strength of an input, averaged over the last `window` rows; missing samples count as calm.
 std::vector<double> averaged(const std::vector<double>& samples, std::size_t window) {
   std::vector<double> out;
   double sum = 0;
@@ -56,7 +56,7 @@ std::vector<double> averaged(const std::vector<double>& samples, std::size_t win
   return out;
 }
 
-// The wind in which the flame burns: where it is seen and is not about to go out.
+// kUsual quantile of the wind in rows where the flame is visible and not about to go out.
 double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone, std::size_t looked_back) {
   std::vector<double> lived;
   std::size_t next = 0;
@@ -68,7 +68,7 @@ double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone,
   return quantile(lived, kUsual);
 }
 
-// The row at which the wind that blew the flame out began: where it last had half of its peak strength.
+// Row at which the extinguishing wind began: the last at which it rose through half of its peak.
 std::size_t onset(const Recording& recording, const BlowOut& blow_out) {
   const std::size_t back = std::min(blow_out.gone, rows_of(kLookedBack, recording.rate_hz));
   std::size_t first = blow_out.gone;
@@ -82,7 +82,7 @@ std::size_t onset(const Recording& recording, const BlowOut& blow_out) {
   return first;
 }
 
-// How far control points moved since the row before, root mean square; and the median height of outlines.
+// RMS motion of the control points since the row before; `height` receives the median height of outlines.
 std::vector<double> steps_of(const Recording& recording, const OutlineLayout& layout, double& height) {
   std::vector<double> steps(recording.rows(), kMissing), heights;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
@@ -150,7 +150,7 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
   std::vector<BlowOut> out;
   for (const Run& run : gone) {
     if (run.begin == 0) continue;
-    // A strong puff makes a flame invisible within a few frames, and lasts longer.
+    // A strong puff lasts beyond the few frames in which the flame disappears, so rows of the absence count too.
     const std::size_t first = run.begin - std::min(run.begin, looked_back);
     const std::size_t last = std::min(run.end, run.begin + window);
     const double strongest = *std::max_element(wind.begin() + static_cast<std::ptrdiff_t>(first),

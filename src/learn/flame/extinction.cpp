@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-// ---- The lives of flames in recordings, and the gusts that they survived ----
+// ---- Lives of flames in recordings, and the gusts that they survived ----
 
 /// Rows [begin, end) of a life, or of a gust, in the samples of one recording.
 struct WindSpan {
@@ -22,14 +22,14 @@ struct WindSpan {
   std::size_t end = 0;
 };
 
-/// A flame from its lighting to its death or to the recording's end.
+/// A flame from its ignition to its extinction or to the recording's end.
 struct FlameLife {
-  WindSpan rows;  ///< ends where the flame was gone
+  WindSpan rows;  ///< ends at the row where the flame is gone
   double rate_hz = 0;
   bool died = false;
-  std::size_t watched = 0;        ///< first row in which its death may be found,
-  std::size_t until = 0;          ///< and one past the last; later than its end, within the recording
-  std::vector<WindSpan> gusts{};  ///< gusts that it survived
+  std::size_t watched = 0;        ///< first row in which its extinction is accepted,
+  std::size_t until = 0;          ///< and one past the last; after the life's end, within the recording
+  std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
 class FlameLives {
@@ -39,7 +39,7 @@ class FlameLives {
   const std::vector<FlameLife>& lives() const { return lives_; }
   std::size_t deaths() const;
   std::size_t gusts() const;
-  double weakest_death() const { return weakest_death_; }            ///< averaged wind; 0 where none died
+  double weakest_death() const { return weakest_death_; }            ///< averaged wind; 0 where no flame was blown out
   double strongest_survived() const { return strongest_survived_; }  ///< averaged wind; 0 where there was no gust
 
  private:
@@ -52,11 +52,11 @@ class FlameLives {
   double strongest_survived_ = 0;
 };
 
-constexpr double kWatchedBefore = 0.5;  // a death counts as the recorded one from so many seconds before that
-constexpr double kWatchedAfter = 0.5;   // to so many after: capture loses a dying flame early
-constexpr double kAveraged = 0.15;      // seconds
-constexpr double kGustShare = 0.5;      // a gust has at least this share of the weakest wind that killed
-constexpr double kOneGust = 0.15;       // seconds of calmer wind within a gust
+constexpr double kWatchedBefore = 0.5;  // seconds before the recorded extinction from which one counts as reproduced
+constexpr double kWatchedAfter = 0.5;   // seconds after it until which one counts: capture loses a decaying flame early
+constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
+constexpr double kGustShare = 0.5;      // minimum of a gust, as a share of the weakest wind that extinguished
+constexpr double kOneGust = 0.15;       // seconds of calmer wind that do not divide a gust
 
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   std::vector<double> out;
@@ -66,7 +66,7 @@ std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   return out;
 }
 
-// The strongest mean of `window` successive rows of a span.
+// Maximum mean over `window` successive rows of a span.
 double strongest_mean(const WindSpan& span, std::size_t window) {
   double sum = 0, strongest = 0;
   for (std::size_t row = span.begin; row < span.end; ++row) {
@@ -122,7 +122,7 @@ void FlameLives::find_gusts(FlameLife& life, double least) {
       life.gusts.push_back({life.rows.wind, row, row + 1});
     }
   }
-  // The killing gust began before it is watched: the flame did not live through it.
+  // The extinguishing gust begins before the watched rows; it was not survived.
   if (life.died && !life.gusts.empty() && life.gusts.back().end + apart > life.watched) life.gusts.pop_back();
   for (const WindSpan& gust : life.gusts) {
     strongest_survived_ = std::max(strongest_survived_, strongest_mean(gust, rows_of(kAveraged, life.rate_hz)));
@@ -140,23 +140,23 @@ std::size_t FlameLives::gusts() const {
   return count;
 }
 
-// The grid. Levels and durations in steps of 6 and 12 %: finer than any recording tells.
+// Search grid. Steps of 6 % (level) and 12 % (duration) are finer than recordings resolve.
 constexpr int kLevels = 40;
 constexpr int kDurations = 40;
 constexpr double kShortest = 0.02;  // seconds
 constexpr double kLongest = 4;
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
-constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // recovery a second, as a share of the level's harm
+constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // recovery per second, as a share of the level's harm
 
-// The cost of errors. A gust that is judged wrongly costs 1, a death that is early or late by 0.1 s 0.3.
+// Costs of errors: 1 for a gust judged wrongly, 0.3 for an extinction that is early or late by 0.1 s.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
-// Rules whose cost exceeds the least by no more than this are as good: nearly nothing, plus one error for every fifty
-// possible ones, since the grid does not contain the true rule and no sensor measures the true wind.
+// Rules count as equally good up to this excess cost, plus the cost of one error per fifty gusts and extinctions: the
+// grid does not contain the true rule and no sensor measures the true wind.
 constexpr double kAsWell = 0.25;
 constexpr double kAsWellEach = 0.02;
 
-// A rule without its duration: harm in seconds at the level.
+// A rule without its duration. Harm is accumulated exposure, in seconds of wind at the level.
 struct Shape {
   double level = 1;
   double haste = 0;
@@ -168,12 +168,12 @@ struct Shape {
   }
 };
 
-// The harm that a shape does in the recordings, before a duration is chosen.
+// Harm accumulated under a shape in the recordings, before a duration is chosen.
 struct Harms {
-  std::vector<double> gusts;                // largest harm in each gust that was survived
-  std::vector<std::vector<double>> deaths;  // harm in the rows in which each death is expected
-  std::vector<double> first;                // seconds from a death's first watched row to where it was gone
-  std::vector<double> step;                 // seconds of a row
+  std::vector<double> gusts;                // maximum harm in each gust that was survived
+  std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
+  std::vector<double> first;                // seconds from an extinction's first watched row to its end
+  std::vector<double> step;                 // seconds per row, for each extinction
 };
 
 Harms harms_of(const Shape& shape, const FlameLives& lives) {
@@ -211,14 +211,14 @@ double cost_of(const Harms& harms, double seconds) {
       cost += 1;
       continue;
     }
-    // A death shows one row after the harm is done.
+    // An extinction is visible one row after the harm reached the duration.
     const double late = static_cast<double>(dies - harm.begin() + 1) * harms.step[k] - harms.first[k];
     cost += std::min(1.0, kOffCost * (late / kOff) * (late / kOff));
   }
   return cost;
 }
 
-// A weak prior on rules, far less than the cost of one error.
+// Weak prior on rules, small against the cost of one error.
 double remarkable(const Shape& shape, double middle) {
   const Extinction usual;
   const auto square = [](double x) { return x * x; };
@@ -230,7 +230,7 @@ double remarkable(const Shape& shape, double middle) {
 struct Trial {
   Shape shape;
   double seconds = 0;
-  double cost = 0;  // of errors
+  double cost = 0;  // cost of errors
   double remarkable = 0;
 };
 
@@ -268,10 +268,10 @@ Extinction rule_of(const Trial& trial) {
   return rule;
 }
 
-// The harm in the next row under a complete rule.
+// Harm after the next row under a complete rule.
 double harmed(const Extinction& rule, double harm, double wind, double step) {
   const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
-  constexpr double kMaxHarm = 0.5;  // of a step, as a bank has it
+  constexpr double kMaxHarm = 0.5;  // maximum harm per step, as in Bank
   return std::min(shape.next(harm * rule.seconds, wind, step) / rule.seconds, harm + kMaxHarm);
 }
 
@@ -287,13 +287,13 @@ void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& 
     if (harm < 1) continue;
     died = life.died && row >= life.watched;
     if (died) {
-      const double now = static_cast<double>(row) + 1;  // a death shows one row after the harm is done
+      const double now = static_cast<double>(row) + 1;  // an extinction is visible one row after harm reached 1
       out.late_seconds.push_back((now - static_cast<double>(life.rows.end)) * step);
     } else if (gust < killed.size() && row >= life.gusts[gust].begin) {
       killed[gust] = true;
       harm = 0;
     } else {
-      harm = 1;  // a flame that the rise of a gust has put out does not survive the gust
+      harm = 1;  // a flame extinguished by the rise of a gust does not survive the gust
     }
   }
   out.died += died ? 1 : 0;
@@ -347,7 +347,7 @@ Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evide
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence) {
   constexpr double kRaised = 1.05;
   constexpr double kToSpare = 1.25;
-  constexpr int kMaxSteps = 200;  // a level 17 000 times the default
+  constexpr int kMaxSteps = 200;  // limits the level to 17,000 times the default
   Extinction rule;
   const FlameLives lives(evidence);
   for (int k = 0; k < kMaxSteps; ++k) {

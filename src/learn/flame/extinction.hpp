@@ -1,10 +1,10 @@
 #pragma once
-// Learning when a flame goes out (wisp/model/extinction.hpp) from recordings in which it did.
+// Learns the extinction rule of a flame (wisp/model/extinction.hpp) from recorded extinctions.
 //
-// Survivals bound the rule from below, deaths from above, and the moment at which a flame vanished says how fast. All
-// rules of a grid are tried on the whole recordings; the one that errs least is taken, and how far others that err as
-// little lie apart says how sure that is. Where few deaths leave it open, the least remarkable rule is taken: the level
-// midway between what was survived and what killed, haste and recovery near the defaults.
+// Survived gusts bound the rule from below, extinctions from above, and the time of extinction determines its speed.
+// All rules of a grid are tried on the whole recordings. The rule with the least error is chosen; the spread of rules
+// with similar error is its uncertainty. Among these the prior prefers a level midway between the wind survived and the
+// wind that extinguished, with haste and recovery near the defaults.
 
 #include <array>
 #include <span>
@@ -21,45 +21,45 @@ namespace wisp {
 /// A recording, its wind, and where the flame went out.
 struct ExtinctionEvidence {
   const Recording* recording = nullptr;
-  std::string input;               ///< the channel of the wind
-  double scale = 1;                ///< the channel's value that is 1 in the model, > 0
-  std::vector<BlowOut> blow_outs;  ///< of find_blow_outs()
-  double vanishing = 0;            ///< seconds for which a flame that has gone out is still seen
+  std::string input;               ///< name of the wind channel
+  double scale = 1;                ///< value of that channel that equals 1 in the model, > 0
+  std::vector<BlowOut> blow_outs;  ///< result of find_blow_outs()
+  double vanishing = 0;            ///< seconds for which an extinguished flame remains visible
 };
 
-/// The agreement of a rule with recordings. A gust is wind of at least half of the strength that killed, between calmer
-/// winds; in recordings without deaths, of at least half of the strongest.
+/// Agreement of a rule with recordings. A gust is a run of wind with at least half the strength that extinguished a
+/// flame (in recordings without extinctions half of the maximum), between calmer winds.
 struct ExtinctionAgreement {
-  std::size_t deaths = 0;            ///< number of deaths in the recordings
-  std::size_t died = 0;              ///< deaths that the rule reproduces within half a second
+  std::size_t deaths = 0;            ///< number of recorded extinctions
+  std::size_t died = 0;              ///< number of extinctions that the rule reproduces within half a second
   std::size_t gusts = 0;             ///< number of gusts that the flame survived
-  std::size_t spared = 0;            ///< gusts that it survives under the rule
-  std::vector<double> late_seconds;  ///< for each reproduced death: how long after the recorded one
-  double strongest_survived = 0;     ///< wind averaged over 0.15 s, in the model's units; 0: no gust
+  std::size_t spared = 0;            ///< number of those gusts that it survives under the rule
+  std::vector<double> late_seconds;  ///< for each reproduced extinction: delay against the recorded one
+  double strongest_survived = 0;     ///< wind averaged over 0.15 s, in the model's units; 0 without gusts
 
-  /// Median of |late_seconds|; 0 where none died.
+  /// Median of |late_seconds|; 0 where no extinction was reproduced.
   double median_off() const;
 };
 
-/// Follows a rule through recordings, from each lighting on.
+/// Simulates a rule over recordings, restarting at each ignition.
 ///
-/// Precondition: rates are positive, and `evidence` has what find_blow_outs() found in its recordings.
+/// Precondition: rates are positive, and `evidence` has the result of find_blow_outs() for its recordings.
 ExtinctionAgreement agreement(const Extinction& rule, std::span<const ExtinctionEvidence> evidence);
 
-/// A learned rule and how sure it is.
+/// A learned rule and its uncertainty.
 struct ExtinctionFit {
   Extinction rule;                        ///< level in the model's units
-  std::array<double, 2> level_range{};    ///< over all rules that are as good
-  std::array<double, 2> seconds_range{};  ///< likewise
-  ExtinctionAgreement agreement;          ///< with the recordings that it was learned from
+  std::array<double, 2> level_range{};    ///< range over all equally good rules
+  std::array<double, 2> seconds_range{};  ///< range over all equally good rules
+  ExtinctionAgreement agreement;          ///< with the training recordings
 };
 
-/// Learns a rule from recordings with at least one death.
-/// Errors: no death in any of them, or no rule that reproduces more than half of the deaths.
+/// Learns a rule from recordings with at least one extinction.
+/// Errors: no extinction, or no rule that reproduces more than half of them.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
-/// The rule for a flame that was never seen to go out: the default with its level raised until every recorded gust is
-/// survived with a quarter to spare.
+/// Rule for a flame that was never extinguished: the default with its level raised until every recorded gust is
+/// survived with a margin of a quarter.
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence);
 
 }  // namespace wisp

@@ -19,7 +19,7 @@ std::string sentence_of(const Extinction& rule) {
          (rule.haste > 0 ? ", of twice that in " + number_text(twice, 2) + " s" : "");
 }
 
-// The fields of a mode whose size is that of recorded events: source, seconds, events.
+// Report cells of a mode whose size replays recorded events: source, seconds, events.
 std::vector<ReportValue> event_cells(const SizeEvents& events, const SizeEvents& played, double rate_hz) {
   std::vector<double> seconds;
   for (std::size_t k = 0; k < played.ends.size(); ++k) {
@@ -81,7 +81,7 @@ std::size_t unexplained(std::span<const ExtinctionEvidence> evidence) {
   return count;
 }
 
-// A rule that the recipe gives is used as it is, without haste.
+// A rule given by the recipe is used unchanged, without haste.
 Extinction given_rule(const ExtinctionRecipe& recipe) {
   return {.level = recipe.level, .seconds = recipe.seconds, .haste = 0, .recovery = recipe.seconds};
 }
@@ -112,7 +112,7 @@ ExtinctionTraining training_of(const LearnedExtinction& found) {
           .spared = count(found.agreement.spared)};
 }
 
-// The recording's value of the input that is 1 in the model.
+// The input's value in the recording that equals 1 in the model.
 Result<double> scale_for(const Model& model, const Recording& recording, std::span<const BlowOut> blow_outs,
                          bool own_scale) {
   const std::string& input = model.inputs[model.extinction->input].name;

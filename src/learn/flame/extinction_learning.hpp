@@ -1,5 +1,5 @@
 #pragma once
-// Recordings in which a flame may have been put out: its burning and its rule of extinction are learned from them.
+// Learns the burning of a flame and its extinction rule from recordings that may contain extinctions.
 
 #include <optional>
 #include <span>
@@ -17,66 +17,66 @@
 
 namespace wisp {
 
-/// A model's rule of extinction, and what the recordings say of it.
+/// A model's extinction rule, and its evidence in the recordings.
 struct LearnedExtinction {
-  std::string input;  ///< the channel whose wind puts it out
+  std::string input;  ///< the wind channel that extinguishes the flame
   Origin origin = Origin::kDefault;
-  std::optional<ExtinctionFit> fit;  ///< where the rule was learned
+  std::optional<ExtinctionFit> fit;  ///< set where the rule was learned
   ExtinctionAgreement agreement;     ///< of the rule with the recordings
-  std::size_t unexplained = 0;       ///< stretches without an outline that no wind explains
+  std::size_t unexplained = 0;       ///< number of absences of the outline without wind
   std::optional<std::string> warning;
 };
 
-/// Recordings of an outline whose first input may have put it out.
+/// Recordings of an outline that the first input may have extinguished.
 class ExtinguishedRecordings {
  public:
-  /// Finds the extinctions, and leaves them out of what burning is learned from. Without an input, or with a recipe
-  /// without extinction, nothing is found and the recordings stay as they are.
+  /// Finds extinctions and removes them from the recordings that burning is learned from. Without an input, or with a
+  /// recipe without extinction, recordings stay unchanged.
   /// Errors: as find_blow_outs(); a given rule out of range.
   static Result<ExtinguishedRecordings> find(std::vector<Recording> recordings, const ExtinctionRecipe& recipe);
 
-  /// What the outline is learned from.
+  /// Recordings to learn the outline's dynamics from.
   const std::vector<Recording>& burning() const { return burning_; }
 
-  /// Gives a model that was learned from burning() its rule of extinction, durations and training included. `scale` is
-  /// the input's value that is 1 in the model. Nothing where the recipe has no extinction or the model no input.
+  /// Adds the extinction rule, durations and training record to a model learned from burning(). `scale` is the input's
+  /// value that is 1 in the model. Empty where the recipe has no extinction or the model no input.
   /// Errors: a given rule without an input; as flame_sizes().
   Result<std::optional<LearnedExtinction>> complete(Model& model, const ExtinctionRecipe& recipe) const;
 
  private:
   std::vector<ExtinctionEvidence> evidence(double scale, double vanishing) const;
 
-  std::string input_;  // empty: there is none
+  std::string input_;  // empty: no input
   std::vector<Recording> recordings_;
   std::vector<Recording> burning_;
   std::vector<std::vector<BlowOut>> found_;
 };
 
-/// The agreement of a model's rule with a recording that it was not learned from.
+/// Agreement of a model's rule with an unseen recording.
 struct JudgedExtinction {
   ExtinctionAgreement agreement;
   std::size_t unexplained = 0;
 };
 
-/// Nothing where the model has no rule. With `own_scale` an input of 1 is the 95th percentile of this recording's
+/// Empty where the model has no rule. With `own_scale` an input of 1 is the 95th percentile of this recording's input
 /// while the flame burns.
 /// Errors: as find_blow_outs(), and as scaled_input().
 Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, const Recording& recording,
                                                          bool own_scale);
 
-/// The recording without extinctions, as the model was learned from; the whole of it where the model has no rule.
+/// The recording without extinctions, as in training; the whole recording where the model has no rule.
 /// Errors: as find_blow_outs().
 Result<Recording> burning_part(const Model& model, const Recording& recording);
 
-/// `extinction` {input, level, seconds, haste, recovery, modes […]} as model_report() has it; none where nothing puts
-/// the model out.
+/// Section `extinction` {input, level, seconds, haste, recovery, modes […]} as in model_report(); empty where the model
+/// has no rule.
 ReportSection extinction_section(const Model& model);
 
-/// extinction_section() of a model that was just learned, with `source`, `agreement` {…}, `unexplained`, `level_range`
-/// and `seconds_range`.
+/// extinction_section() of a freshly learned model, with `source`, `agreement` {…}, `unexplained`, `level_range` and
+/// `seconds_range`.
 ReportSection extinction_section(const Model& model, const std::optional<LearnedExtinction>& learned);
 
-/// `extinction` {deaths, died, gusts, spared, …}; none where the model has no rule.
+/// Section `extinction` {deaths, died, gusts, spared, …}; empty where the model has no rule.
 ReportSection extinction_section(const std::optional<JudgedExtinction>& judged);
 
 }  // namespace wisp

@@ -11,11 +11,11 @@
 namespace wisp {
 namespace {
 
-constexpr double kDyingSeen = 0.3;  // seconds before it is gone; earlier changes belong to the gust
-constexpr double kShrinks = 0.97;   // of what it was; less has begun to go out
-constexpr double kDim = 0.05;       // seconds in which it glows without an outline
-constexpr double kMaxCatching = 1, kMinCatching = 0.25;  // seconds after it is seen again
-constexpr double kFading = 0.3;                          // share of catching, its end
+constexpr double kDyingSeen = 0.3;  // maximum seconds of decay before extinction; earlier changes belong to the gust
+constexpr double kShrinks = 0.97;   // share of the previous size below which decay has begun
+constexpr double kDim = 0.05;       // seconds of glow without an outline
+constexpr double kMaxCatching = 1, kMinCatching = 0.25;  // seconds of re-ignition after the flame is visible
+constexpr double kFading = 0.3;                          // share of re-ignition, at its end, that fades to full size
 constexpr std::size_t kMaxEvents = 8;
 
 using Sizes = std::vector<double>;
@@ -27,7 +27,7 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
   return std::sqrt(enclosed_area(points));
 }
 
-// The sizes that the camera saw while the flame died, as shares of its size before: rows from `lit` on.
+// Sizes during visible decay, relative to the size before: rows from `lit` on.
 Sizes seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
   const std::size_t rows = rows_of(kDyingSeen, rate_hz), first = std::max(lit + rows, gone) - rows;
   Sizes before;

@@ -1,6 +1,5 @@
 #pragma once
-// Recorded events of a flame's size, to be played again: how it goes when it is blown out, and how it comes when it is
-// lit.
+// Recorded time courses of a flame's size for playback: decay when it is blown out, and re-ignition.
 
 #include <span>
 #include <vector>
@@ -12,21 +11,20 @@
 
 namespace wisp {
 
-/// The size of the flame in every row, NaN where it has no outline: the square root of its control points' polygon's
-/// area, which shrinks as the flame does, over the median of that while it burns. All are NaN where it never burns
-/// undisturbed.
+/// Size of the flame in every row, NaN without an outline: the square root of the control polygon's area, divided by
+/// its median while the flame burns. All NaN where the flame never burns undisturbed.
 /// Errors: not a recording of an outline.
 Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs);
 
-/// The events of some recordings, at most eight of a kind, evenly spread; none where none was seen.
+/// Recorded events, at most eight of a kind, equally spaced; empty where none was seen.
 struct RecordedEvents {
-  SizeEvents dying;              ///< from where it begins to shrink, over what it was before; then three dim frames of
-                                 ///< 60 a second, in which no camera finds an outline
-  SizeEvents catching;           ///< over a second, the last third of it fading into full size
-  double vanishing_seconds = 0;  ///< median, of what is seen of dying
+  SizeEvents dying;              ///< from the beginning of decay, relative to the size before; then 0.05 s of glow
+                                 ///< without an outline
+  SizeEvents catching;           ///< up to a second; the last 30 % fade into full size
+  double vanishing_seconds = 0;  ///< median duration of visible decay
 };
 
-/// Cuts the events at what was blown out. All recordings have one rate.
+/// Extracts the events around the blow-outs. All recordings must have one rate.
 /// Errors: as flame_sizes().
 Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence);
 

@@ -17,7 +17,7 @@ ReportSection gain_section(const std::vector<double>& factors) {
   return {"Gain of the inputs", {{"gain.factors", factors, "winds on one scale, times", ""}}};
 }
 
-// Whether the motion is not significantly correlated with any input of any recording.
+// Whether no input of any recording correlates significantly with the motion.
 bool driven_by_nothing(const OutlineSummary& summary) {
   const auto stands_out = [](const InputAlignment& one) {
     return one.found.chance > 0 && std::abs(one.found.correlation) >= one.found.chance;
@@ -25,7 +25,7 @@ bool driven_by_nothing(const OutlineSummary& summary) {
   return !summary.inputs.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
 }
 
-// Whether no input of any recording is ever other than 0.
+// Whether all inputs of all recordings are 0 throughout.
 bool are_silent(std::span<const Recording> recordings) {
   const auto is_zero = [](double u) { return !(std::abs(u) > 0); };
   for (const Recording& recording : recordings) {
@@ -49,8 +49,8 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
   return fit;
 }
 
-// Most films have sound, and in most of them nobody blows. Where the caller did not name the inputs, an input that is
-// silent or unrelated to the motion is left out: over a few seconds of held-out motion any wind may seem to help.
+// Most films have sound, and in most nobody blows. Where the caller did not name inputs, silent inputs and inputs
+// unrelated to the motion are dropped: over a few seconds of held-out motion any input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
@@ -66,7 +66,7 @@ Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const 
   return flicker;
 }
 
-// What no recording shows is played as a simulated candle does it, which the verdict says.
+// Events missing from the recordings are played from a simulated candle, and the verdict says so.
 void note_what_is_borrowed(OutlineFit& fit) {
   if (!fit.model.extinction || !fit.summary.usable.verdict) return;
   const bool dying = fit.model.extinction->dying.empty(), catching = fit.model.extinction->catching.empty();
@@ -77,7 +77,7 @@ void note_what_is_borrowed(OutlineFit& fit) {
   fit.model.training.usable = fit.summary.usable;
 }
 
-// The candle that the first film with one shows: its width in heights of the flame, and its colour.
+// Stores the first visible candle of the films: its width in flame heights, and its colour.
 void keep_candle(std::span<const Recording> recordings, Training& training) {
   for (const Recording& recording : recordings) {
     const auto look = numbers_attribute(recording, "candle");

@@ -27,8 +27,8 @@ Result<OutlineRows> outline_rows(const Recording& recording) {
   return rows;
 }
 
-// The predictions that pictures show: free simulation where an input drives the model, else the longest prediction up
-// to five frames ahead.
+// Predictions shown in pictures: free simulation where an input drives the model, else the longest prediction of at
+// most five frames.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
@@ -47,7 +47,7 @@ std::string label_of(const PredictedOutlines& predicted) {
   return "predicted " + std::to_string(predicted.steps) + (predicted.steps == 1 ? " frame ahead" : " frames ahead");
 }
 
-// The tip's place beside (0) or above (1) the base, in the model's units, row by row; NaN where missing.
+// The tip's position relative to the base, in the model's units, per row: x (0) or y (1); NaN where missing.
 std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::size_t coordinate) {
   std::vector<double> values;
   const double unit = coordinate == 0 ? pixels_per_unit : -pixels_per_unit;
@@ -62,7 +62,7 @@ std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::s
   return values;
 }
 
-// The prediction one step ahead, where pictures show another.
+// The one-step prediction, where pictures show another.
 const PredictedOutlines* one_step(const OutlineJudgement& found) {
   for (const PredictedOutlines& predicted : found.predicted) {
     if (predicted.steps == 1 && &predicted != &shown(found)) return &predicted;
@@ -92,7 +92,7 @@ ReportSection input_series(const Channel& input, const std::vector<double>& seco
   return {input.name, {}, {}, {{"input." + input.name, "", "seconds", unit, seconds, input.samples}}};
 }
 
-// Runs of samples between missing ones.
+// Runs of consecutive samples that are not missing.
 std::vector<std::vector<double>> whole_stretches(const std::vector<double>& values) {
   std::vector<std::vector<double>> stretches(1);
   for (double value : values) {
@@ -135,7 +135,7 @@ Result<void> add_series(const Recording& recording, const OutlineJudgement& foun
   return {};
 }
 
-// Readers overlook that another microphone measures the same wind at another level.
+// Reports the input's gain: another microphone measures the same wind at another level, which readers overlook.
 ReportSection gain_section(double factor) {
   ReportSection section{"", {{"gain", factor, "", ""}}};
   if (std::abs(factor - 1) < kSameGain) return section;

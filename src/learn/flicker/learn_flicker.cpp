@@ -1,7 +1,7 @@
 // A light that is calm and restless by turns: Markov-switched autoregressions (J. D. Hamilton, "A new approach to the
 // economic analysis of nonstationary time series and the business cycle", Econometrica 57, 1989). The regimes are not
-// inferred from the regressions' residuals, whose tails would make regimes of single shocks, but from how much half
-// seconds vary; and shocks are scaled until the play varies as much, as a least-squares fit to heavy tails does not.
+// inferred from the regressions' residuals, whose tails would make regimes of single shocks, but from the variation
+// within half seconds. Shocks are scaled until the play varies as much, as least squares underfits heavy tails.
 
 #include "learn/flicker/learn_flicker.hpp"
 
@@ -33,14 +33,14 @@ std::vector<double> joined(const Traces& traces) {
 }
 
 constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
-constexpr double kHoldout = 0.3;                           // share of every stretch, its end, that judges
+constexpr double kHoldout = 0.3;                           // share at every stretch's end that is held out
 constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
 
-// Below this standard deviation within half a second, of a mean of 1, a light looks still: a few times what an eye can
-// see.
+// Standard deviation within half a second, relative to the mean, below which a light looks still: a few times the eye's
+// threshold.
 constexpr double kCalm = 0.02;
 
-// Smaller variation is a photodiode's own noise.
+// Logarithm of the variation, with a floor of 1e-5: smaller variation is the photodiode's noise.
 double level(double restless) { return std::log(restless + 1e-5); }
 
 std::size_t nearest(double value, std::span<const double> levels) {
@@ -51,12 +51,12 @@ std::size_t nearest(double value, std::span<const double> levels) {
   return best;
 }
 
-// Rows of half a second.
+// Number of rows in half a second, at least 4.
 std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2))); }
 
-// Standard deviation around each row of a trace, over `window` of its rows.
+// Standard deviation around each row of a trace over `window` rows.
 std::vector<double> restlessness(std::span<const double> trace, std::size_t window) {
-  // Sums of deviations from a value of the trace avoid cancellation.
+  // Subtracting a value of the trace avoids cancellation in the sums.
   const double origin = trace.front();
   std::vector<double> sum{0}, square{0};
   for (const double value : trace) {
@@ -76,7 +76,7 @@ std::vector<double> restlessness(std::span<const double> trace, std::size_t wind
 struct Figures {
   double mean = 0;
   double sd = 0;
-  double calm_share = 0;  // of consecutive half seconds: those calmer than kCalm
+  double calm_share = 0;  // share of consecutive half seconds that are calmer than kCalm
 };
 
 Figures figures_of(const Traces& traces, double rate_hz) {
@@ -96,7 +96,7 @@ Figures figures_of(const Traces& traces, double rate_hz) {
   return figures;
 }
 
-// Centroids of k-means of the logarithm of restlessness, calmest first.
+// k-means centroids of the logarithm of restlessness, calmest first.
 std::vector<double> levels_of(const Traces& restless, int modes, std::uint64_t seed) {
   std::vector<double> values = joined(restless);
   for (double& value : values) value = level(value);
@@ -113,10 +113,10 @@ std::vector<int> nearest_levels(std::span<const double> restless, std::span<cons
 
 struct Light {
   double rate_hz = 0;
-  Traces learned, held_out;  // mean 1 over all of them
+  Traces learned, held_out;  // normalised to a mean of 1 over both
 };
 
-// The channel that is named, or "brightness", or the only output: which of several is light cannot be guessed.
+// Index of the named channel, else of "brightness", else of the only output; of several outputs none is assumed.
 Result<std::size_t> channel_of(const Recording& recording, const std::string& name) {
   if (const auto found = find_channel(recording, name.empty() ? "brightness" : name)) return *found;
   if (!name.empty()) return Error{recording.source + ": has no channel \"" + name + "\""};
@@ -126,7 +126,7 @@ Result<std::size_t> channel_of(const Recording& recording, const std::string& na
                " outputs, expected one; name the one that is light"};
 }
 
-// Stretches without a gap, averaged over `every` rows.
+// Appends gap-free stretches, averaged over `every` rows.
 void add_stretches(const Recording& recording, std::size_t channel, std::size_t every, Traces& traces) {
   const auto& samples = recording.channels[channel].samples;
   for (const Episode& episode : episodes(recording)) {
@@ -149,7 +149,7 @@ void add_stretches(const Recording& recording, std::size_t channel, std::size_t 
   }
 }
 
-// All stretches of the recordings, at the rate that all of them come to.
+// Collects all stretches of the recordings at their common rate.
 Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
   Light light;
   for (const Recording& recording : recordings) {
@@ -167,7 +167,7 @@ Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecip
   return light;
 }
 
-// The last part of each stretch is held out; half a second at least lies on either side of the cut.
+// Holds out the last part of each stretch, with at least half a second on either side of the cut.
 void hold_out(Light& light) {
   for (auto& trace : light.learned) {
     const auto kept = static_cast<std::ptrdiff_t>((1 - kHoldout) * static_cast<double>(trace.size()));
@@ -197,7 +197,7 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
   return light;
 }
 
-// One mode's regression of its rows on the rows before them, as deviations from 1; nothing where there are too few.
+// Regression of one mode's rows on the rows before them, as deviations from 1; empty where there are too few rows.
 std::optional<ArxMode> regress(const markov::Rows& rows, const std::vector<int>& modes, int mode) {
   Eigen::VectorXd weights(rows.rows());
   for (Eigen::Index t = 0; t < rows.rows(); ++t) {
@@ -210,7 +210,7 @@ std::optional<ArxMode> regress(const markov::Rows& rows, const std::vector<int>&
   return markov::model_mode(found, rows);
 }
 
-// Of the shocks that a mode leaves over in its own rows, over their standard deviation.
+// Quantiles of a mode's shocks in its own rows, divided by their standard deviation.
 std::vector<double> quantiles_of(const Light& light, const std::vector<std::vector<int>>& modes, int mode,
                                  const SwitchedArxModel& model) {
   const ArxModel arx = mode_model(model, static_cast<std::size_t>(mode));
@@ -231,7 +231,7 @@ std::vector<double> quantiles_of(const Light& light, const std::vector<std::vect
   return quantiles;
 }
 
-// All traces as one recording, an episode each.
+// All traces as one recording with one episode each.
 Recording recording_of(const Traces& traces, double rate_hz) {
   Recording recording{.source = "light", .rate_hz = rate_hz, .channels = {{"brightness", "", Role::kOutput, {}}}};
   for (std::size_t k = 0; k < traces.size(); ++k) {
@@ -242,7 +242,7 @@ Recording recording_of(const Traces& traces, double rate_hz) {
   return recording;
 }
 
-// The chain of modes as it was seen.
+// Sets the transition counts of the observed modes.
 void count_transitions(const std::vector<std::vector<int>>& modes, SwitchedArxModel& model) {
   const std::size_t count = model.modes.size();
   std::vector<double> seen(count * count, 0.0), share(count, 0.0);
@@ -262,14 +262,14 @@ void count_transitions(const std::vector<std::vector<int>>& modes, SwitchedArxMo
   }
 }
 
-// A model's play: light, and the mode of each row.
+// Played light, and the mode of each row.
 struct Play {
   Traces traces;
   std::vector<std::vector<int>> modes;
 };
 
 Play play_of(const Model& model, std::uint64_t seed) {
-  constexpr int kInstances = 64;  // the play's own figures are known to a few per cent then
+  constexpr int kInstances = 64;  // enough to determine the play's figures to a few per cent
   constexpr double kSeconds = 150, kSettle = 5;
   auto bank = Bank::create(model, {.capacity = kInstances, .seed = seed});
   Play play{Traces(kInstances), std::vector<std::vector<int>>(kInstances)};
@@ -286,7 +286,7 @@ Play play_of(const Model& model, std::uint64_t seed) {
   return play;
 }
 
-// Mean variance within half seconds around the rows of each mode.
+// Mean variance within half seconds around each mode's rows.
 std::vector<double> variances(const Traces& traces, const std::vector<std::vector<int>>& modes, std::size_t count,
                               double rate_hz) {
   std::vector<double> sum(count, 0.0), rows(count, 0.0);
@@ -314,9 +314,9 @@ void match_shocks(const Light& light, const std::vector<std::vector<int>>& modes
     const auto found = variances(play.traces, play.modes, count, light.rate_hz);
     for (std::size_t k = 0; k < count; ++k) {
       double scale = std::sqrt(wanted[k] / std::max(found[k], 1e-12));
-      // The most restless mode makes nearly all of the whole's variance.
+      // The most restless mode dominates the total variance.
       if (k + 1 == count) scale = whole.sd / figures_of(play.traces, light.rate_hz).sd;
-      // A calm mode begins while the restless one before it still rings; its shocks are not reduced for that.
+      // A calm mode begins while the restless one before it still decays; its shocks are not reduced for that.
       const double most = k + 1 == count ? 16 : 2;
       dynamics.modes[k].shock[0] =
           std::clamp(dynamics.modes[k].shock[0] * std::clamp(scale, 0.5, 2.0), fitted[k] / most, fitted[k] * most);
@@ -334,7 +334,7 @@ Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Rec
   return model;
 }
 
-// Decibels of the play over a trace, band by band.
+// Band power of the play relative to a trace, in decibels.
 ReportTable bands_of(const Traces& play, const Light& light) {
   constexpr std::size_t kSegment = 128;
   ReportTable table{"spectrum",
@@ -433,7 +433,7 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
     dynamics.modes.push_back(std::move(*found));
   }
   count_transitions(modes, dynamics);
-  // The most restless mode makes the flares.
+  // Quantiles of the most restless mode, which makes the flares.
   dynamics.shock_quantiles = quantiles_of(light, modes, recipe.modes - 1, dynamics);
   Fit fit{plain(light, recipe, recordings), {}};
   fit.model.dynamics = std::move(dynamics);

@@ -1,5 +1,5 @@
 #pragma once
-// From the brightness of a flame to switched dynamics that a lamp can play.
+// Learns switched dynamics that a lamp can play from the brightness of a flame.
 
 #include <span>
 
@@ -9,8 +9,8 @@
 
 namespace wisp {
 
-/// Errors: no recordings, a channel that they have not, light that is not above 0 on average, settings out of range,
-/// fewer than 20 s, a trace that never changes, kStopped.
+/// Errors: no recordings, a missing channel, light whose mean is not above 0, settings out of range, fewer than 20 s, a
+/// constant trace, kStopped.
 Result<Fit> learn_flicker(std::span<const Recording> recordings, const FlickerRecipe& recipe,
                           const Progress& progress = {});
 

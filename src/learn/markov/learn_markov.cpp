@@ -30,7 +30,7 @@ Training training_of(const Fitted& fitted, const SwitchedRecipe& recipe, Trainin
   return training;
 }
 
-// How many modes were tried, and which of them act.
+// Adds the number of modes tried, and which of them act.
 void add_modes(const Fitted& fitted, ReportSection& section) {
   ReportTable tried{"candidates",
                     "numbers of modes that were tried",

@@ -1,5 +1,5 @@
 #pragma once
-// From recordings and a recipe to a Markov-switched model and its report; and a model on a recording.
+// Learns a Markov-switched model and its report from recordings and a recipe, and validates a model on a recording.
 
 #include <span>
 
@@ -15,7 +15,7 @@ namespace wisp {
 Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
                            const Progress& progress = {});
 
-/// Predictions, free simulation, likelihood, and how often each mode acts.
+/// Reports predictions, free simulation, likelihood, and the share of rows in which each mode acts.
 /// Errors: the recording does not have the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are a SwitchedArxModel.
@@ -24,8 +24,8 @@ Result<Report> validate_switched(const Model& model, const Recording& recording,
 
 namespace markov {
 
-/// For programs, their ids after `prefix`: `modes` [{A, B, constant, shock, radius, std_error}], `initial` and
-/// `transitions`.
+/// Adds for programs, with `prefix` before their ids: `modes` [{A, B, constant, shock, radius, std_error}], `initial`
+/// and `transitions`.
 void describe(const SwitchedArxModel& model, const std::string& prefix, ReportSection& section);
 
 }  // namespace markov

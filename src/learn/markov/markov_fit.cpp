@@ -17,18 +17,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMaxTried = 6;             // most modes that are tried where the recipe does not say
+constexpr int kMaxTried = 6;             // maximum number of modes tried where the recipe leaves it open
 constexpr int kStarts = 12;              // random starts for each number of modes
-constexpr int kFirstRounds = 25;         // rounds of expectation and maximisation of every start
-constexpr int kMaxRounds = 300;          // and of the best one
-constexpr double kHoldout = 0.3;         // share of every stretch, its end
+constexpr int kFirstRounds = 25;         // iterations of expectation–maximisation of every start
+constexpr int kMaxRounds = 300;          // iterations of the best start
+constexpr double kHoldout = 0.3;         // share at the end of every stretch that is held out
 constexpr double kSureGain = 2;          // standard errors by which a further mode must gain on held-out rows
-constexpr double kSmallResidual = 0.01;  // share of the single model's
-constexpr double kGain = 1e-6;           // rounds end where one gains less than this per row
-constexpr double kUnseenSteps = 0.1;     // added to each count of transitions: none is impossible
-constexpr double kMaxRadius = 0.9999;    // of a mode that was unstable
-constexpr double kUsableFit = 10;        // per cent, one step ahead
-constexpr double kDifferent = 3;         // standard errors; by chance 1 in 370
+constexpr double kSmallResidual = 0.01;  // minimum residual, as a share of the single model's
+constexpr double kGain = 1e-6;           // iterations end where one gains less than this per row
+constexpr double kUnseenSteps = 0.1;     // added to each transition count, so that none is impossible
+constexpr double kMaxRadius = 0.9999;    // of a mode after stabilisation
+constexpr double kUsableFit = 10;        // percent, one step ahead
+constexpr double kDifferent = 3;         // standard errors; chance exceeds it once in 370
 
 struct State {
   Chain chain;
@@ -42,7 +42,7 @@ int row_size(const Rows& rows) {
   return static_cast<int>(most);
 }
 
-// The rows, by weight, that one mode's coefficients need.
+// Number of rows, counted by weight, that the coefficients of one mode need.
 double min_rows(const Rows& rows) { return 1.5 * row_size(rows) + 3; }
 
 VectorXd min_variance(const Rows& rows) {
@@ -51,7 +51,7 @@ VectorXd min_variance(const Rows& rows) {
   return (factor.rowwise().squaredNorm() * kSmallResidual * kSmallResidual).cwiseMax(1e-300);
 }
 
-// Maximisation: modes and chain for the given weights.
+// Maximisation step: modes and chain for the given weights.
 void maximise(const Rows& rows, const VectorXd& least, const MatrixXd& steps, State& state) {
   state.chain.modes.clear();
   for (Index k = 0; k < state.weights.cols(); ++k) {
@@ -74,8 +74,8 @@ void alternate(const Rows& rows, const VectorXd& least, int rounds, State& state
   }
 }
 
-// A random start: models are fitted to stretches of consecutive rows drawn at random, and every row is given to the
-// model that fits it best.
+// A random start: fits models to randomly drawn stretches of consecutive rows, then assigns every row to the model that
+// fits it best.
 State drawn_start(const Rows& rows, const VectorXd& least, int modes, Index near, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   MatrixXd error(rows.rows(), modes);
@@ -119,7 +119,7 @@ Result<State> best_of_starts(const Rows& rows, int modes, std::uint64_t seed, co
   return best;
 }
 
-// Sorts modes by how often they act, most often first.
+// Sorts modes by the share of rows in which they act, largest first.
 void sort_modes(State& state) {
   std::vector<Index> order(state.chain.modes.size());
   std::iota(order.begin(), order.end(), Index{0});
@@ -152,12 +152,12 @@ std::vector<std::size_t> rows_of_modes(const std::vector<int>& modes, std::size_
 struct Choice {
   std::vector<Candidate> candidates;
   int modes = 1;
-  double gain = 0;  // of held-out rows over a single mode
+  double gain = 0;  // log likelihood per held-out row, minus a single mode's
   double gain_std_error = 0;
 };
 
-// Learns every number of modes from the first part of each stretch and judges it by the rest. A number is taken where
-// its gain over the last one taken is sure.
+// Fits each number of modes on the first part of each stretch and judges it on the rest. A number is taken where its
+// gain over the last one taken is significant.
 Result<Choice> choose(const Rows& rows, const FitOptions& options, const Progress& progress) {
   const Rows learned = share_of(rows, 0, 1 - kHoldout), unseen = share_of(rows, 1 - kHoldout, 1);
   Choice out;
@@ -188,7 +188,7 @@ Result<Choice> choose(const Rows& rows, const FitOptions& options, const Progres
   return out;
 }
 
-// Standard errors of one mode's coefficients, the constant's last.
+// Standard errors of one mode's coefficients; the constant's is last.
 std::vector<std::vector<double>> errors_of(const Rows& rows, const MatrixXd& theta, const VectorXd& weights) {
   std::vector<std::vector<double>> out;
   for (int i = 0; i < rows.outputs(); ++i) {
@@ -208,10 +208,10 @@ std::vector<std::vector<double>> errors_of(const Rows& rows, const MatrixXd& the
   return out;
 }
 
-using ModeErrors = std::vector<std::vector<std::vector<double>>>;  // mode, output, coefficient
+using ModeErrors = std::vector<std::vector<std::vector<double>>>;  // [mode][output][coefficient]
 
-// Whether no coefficient of any two modes differs by more than kDifferent standard errors. How rows belong to modes is
-// taken as known, so the errors are a little too small.
+// Whether no coefficient differs between any two modes by more than kDifferent standard errors. The assignment of rows
+// to modes is taken as known, so the errors are slightly too small.
 bool same_coefficients(const SwitchedArxModel& model, const ModeErrors& errors) {
   for (std::size_t b = 1; b < errors.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {

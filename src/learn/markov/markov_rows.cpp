@@ -24,7 +24,7 @@ Result<Rows> rows_of(const SwitchedArxModel& model, const Recording& recording, 
   return make_rows({&recording, 1}, channels, model.orders, std::move(offset));
 }
 
-// Outputs, then inputs, about the operating point; outputs are overwritten where they are simulated.
+// Outputs, then inputs, as deviations from the operating point; simulation overwrites the outputs.
 using Series = std::vector<std::vector<double>>;
 
 Series deviations(const Rows& rows, const Recording& recording, const ChannelChoice& channels) {
@@ -47,7 +47,7 @@ class Predictor {
     given_past_ = believe(chain_, rows).given_past;
   }
 
-  // Every row from the samples up to `steps` before it, or from the episode's first rows.
+  // Predicts every row from the samples up to `steps` rows before it, or from the episode's first rows.
   void predict(const Episode& episode, int steps, Series& out) {
     const std::size_t first = episode.begin + static_cast<std::size_t>(rows_.orders.history());
     if (steps == kFreeRun) {
@@ -67,8 +67,8 @@ class Predictor {
   }
 
  private:
-  // The mean of row t, which takes the measured one's place; no number where a sample is missing, and the measured row
-  // stays then. `chance`: of the modes at the row before.
+  // Mean of row t, which replaces the measured row; NaN where a sample is missing, and the measured row then stays.
+  // `chance`: probabilities of the modes at the row before.
   RowVectorXd step(std::size_t t, bool first, RowVectorXd& chance) {
     const Index known = belief_row_[t];
     chance = !first       ? RowVectorXd(chance * chain_.transitions)
@@ -108,7 +108,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double kRidge = 1e-9;  // of columns scaled to one size, so that a column that a mode never sees is 0
+constexpr double kRidge = 1e-9;  // of columns scaled to one size: a column always 0 in a mode gets coefficient 0
 
 std::vector<double> means_of(const Signals& signals) {
   std::vector<double> means;
@@ -124,14 +124,14 @@ std::vector<double> means_of(const Signals& signals) {
   return means;
 }
 
-// A of the model has the sign opposite to the prediction's.
+// Sign of a coefficient: −1 for those of A, which the model has on the left side.
 double sign_of(const LaggedChannel& column, int outputs) {
   return column.channel != kConstantChannel && column.channel < outputs ? -1 : 1;
 }
 
 MatrixXd residuals(const Rows& rows, const MatrixXd& theta) { return rows.y - rows.phi * theta; }
 
-// Lower factor of the weighted covariance.
+// Lower Cholesky factor of the weighted covariance.
 MatrixXd residual_factor(const MatrixXd& residual, const VectorXd& weights, const VectorXd& min_variance) {
   MatrixXd covariance = residual.transpose() * weights.asDiagonal() * residual / std::max(weights.sum(), 1e-9);
   for (Index i = 0; i < min_variance.size(); ++i) {
@@ -327,7 +327,7 @@ bool limit_radius(double max_radius, const Rows& rows, const VectorXd& weights, 
 
 MatrixXd log_densities(const Chain& chain, const Rows& rows) {
   MatrixXd out(rows.rows(), static_cast<Index>(chain.modes.size()));
-  const RowVectorXd least = 1e-9 * rows.y.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-150);  // a mode without noise
+  const RowVectorXd least = 1e-9 * rows.y.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-150);  // floor of the noise
   for (std::size_t k = 0; k < chain.modes.size(); ++k) {
     MatrixXd factor = chain.modes[k].factor;
     double size = 0.5 * rows.outputs() * std::log(2 * std::numbers::pi);

@@ -1,5 +1,5 @@
 #pragma once
-// The regression that the modes of a switched model share, and a Markov chain of modes on it.
+// The regression shared by the modes of a switched model, and the Markov chain of its modes.
 //
 // Source: forward and backward passes as in L. E. Baum et al. (1970) and J. D. Hamilton, Econometrica 57 (1989).
 
@@ -17,44 +17,43 @@
 
 namespace wisp::markov {
 
-/// All usable rows of some recordings as one regression, as deviations from the operating point.
+/// All usable rows of the recordings as one regression, as deviations from the operating point.
 struct Rows {
   struct Place {
     std::size_t recording = 0, row = 0;
   };
-  /// Rows [begin, end) that follow each other in time.
+  /// Rows [begin, end) that are consecutive in time.
   struct Run {
     Eigen::Index begin = 0, end = 0;
   };
 
   ArxOrders orders;
-  ArxDesign design;             ///< an output a group; its columns are those of phi, the constant's last
+  ArxDesign design;             ///< one group per output; its columns are those of phi, the constant's last
   std::vector<double> offset;   ///< the operating point: outputs, then inputs
   Eigen::MatrixXd phi;          ///< rows × columns of the layout
   Eigen::MatrixXd y;            ///< rows × outputs
-  std::vector<Place> places{};  ///< of every row
+  std::vector<Place> places{};  ///< origin of every row
   std::vector<Run> runs{};
 
   Eigen::Index rows() const { return phi.rows(); }
   int outputs() const { return orders.outputs(); }
 };
 
-/// `offset`: outputs, then inputs; empty: the channels' means over all recordings.
-/// Errors: orders that do not fit, a channel that a recording does not have, rates that differ, infinite samples, no
-/// usable row.
+/// Builds the rows. `offset`: outputs, then inputs; empty: the channels' means over all recordings.
+/// Errors: orders that do not fit, a missing channel, rates that differ, infinite samples, no usable row.
 Result<Rows> make_rows(std::span<const Recording> recordings, const ChannelChoice& channels, const ArxOrders& orders,
                        std::vector<double> offset = {});
 
-/// The rows between two shares (0 to 1) of every run. Runs are cut, none is joined.
+/// Rows between two shares (0 to 1) of every run. Runs are cut, never joined.
 Rows share_of(const Rows& rows, double from, double to);
 
-/// One mode on the columns of the rows.
+/// Coefficients and noise of one mode, on the columns of the rows.
 struct Mode {
-  Eigen::MatrixXd theta;   ///< columns × outputs, signs of the prediction, 0 where a row has no such coefficient
-  Eigen::MatrixXd factor;  ///< lower triangular, of the residuals' covariance
+  Eigen::MatrixXd theta;   ///< columns × outputs, signs of the prediction, 0 where an output lacks the coefficient
+  Eigen::MatrixXd factor;  ///< lower triangular factor of the residuals' covariance
 };
 
-/// A switched model on the columns of the rows.
+/// Modes, initial and transition probabilities, on the columns of the rows.
 struct Chain {
   std::vector<Mode> modes{};
   Eigen::VectorXd initial{};
@@ -68,35 +67,35 @@ SwitchedArxModel model_of(const Chain& chain, const Rows& rows);
 /// Least squares over weighted rows; the variances of residuals are at least `min_variance` (per output).
 Mode fit_mode(const Rows& rows, const Eigen::VectorXd& weights, const Eigen::VectorXd& min_variance);
 
-/// Scales the poles of a mode so that its spectral radius is at most `max_radius`, and fits its constant and residuals
-/// anew. Returns whether that was needed.
+/// Scales the poles of a mode so that its spectral radius is at most `max_radius`, and refits its constant and
+/// residuals. Returns whether that was needed.
 bool limit_radius(double max_radius, const Rows& rows, const Eigen::VectorXd& weights,
                   const Eigen::VectorXd& min_variance, Mode& mode);
 
 /// ln of the Gaussian density of every row's outputs under every mode, rows × modes.
 Eigen::MatrixXd log_densities(const Chain& chain, const Rows& rows);
 
-/// Probabilities of the modes by forward and backward passes over the runs.
+/// Probabilities of the modes, by forward and backward passes over the runs.
 struct Belief {
-  Eigen::MatrixXd given_all;       ///< rows × modes: by all rows of the run
-  Eigen::MatrixXd given_past;      ///< by the rows before
+  Eigen::MatrixXd given_all;       ///< rows × modes, given all rows of the run
+  Eigen::MatrixXd given_past;      ///< rows × modes, given the rows before
   Eigen::MatrixXd steps;           ///< modes × modes: expected number of transitions
-  Eigen::VectorXd log_likelihood;  ///< of each row, given those before it
+  Eigen::VectorXd log_likelihood;  ///< of each row, given the rows before
 
-  std::vector<int> likeliest() const;  ///< mode of every row, by all rows of its run
+  std::vector<int> likeliest() const;  ///< likeliest mode of every row, given all rows of its run
 };
 Belief believe(const Chain& chain, const Rows& rows);
 
-/// How likely the rows of a recording are, and which modes acted. Errors: channels that do not fit the model or are
+/// Likelihood of a recording's rows, and probabilities of the modes. Errors: channels that do not fit the model or are
 /// missing, rates that differ, no usable row.
 Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording, const ChannelChoice& channels);
 
-/// One series an output, as predict() of an ARX model has them, from measured samples: `steps` ahead, or kFreeRun.
+/// One series per output, as predict() of an ARX model returns them, from measured samples: `steps` ahead, or kFreeRun.
 /// Errors: as believe().
 Result<std::vector<std::vector<double>>> predict(const SwitchedArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, int steps);
 
-/// Figures of those predictions over all recordings together, as prediction_figures() has them.
+/// Figures of those predictions over all recordings together, as in prediction_figures().
 /// Errors: as predict; steps below 0 or above 100000.
 Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const Recording> recordings,
                                   const ChannelChoice& channels, int steps);

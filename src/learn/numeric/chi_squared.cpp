@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// Both expansions need some √a terms near the mean; beyond this many the rest is rounding.
+// Maximum number of terms. Near the mean both expansions need about √a; beyond this, terms are below rounding.
 constexpr int kMaxTerms = 100000;
 constexpr double kEnough = 1e-16;
 
@@ -43,7 +43,7 @@ double upper_by_fraction(double a, double x) {
   return value * std::exp(log_density(a, x));
 }
 
-// Wilson and Hilferty's cube, with Hastings' rational approximation of the normal quantile.
+// Wilson–Hilferty approximation, with Hastings' rational approximation of the normal quantile.
 double first_guess(double p, double freedom) {
   const double tail = std::min(p, 1 - p);
   const double t = std::sqrt(-2 * std::log(tail));
@@ -71,7 +71,7 @@ double chi_squared_quantile(double p, double freedom) {
   while (1 - chi_squared_tail(high, freedom) < p) low = high, high *= 2;
   double value = first_guess(p, freedom);
   if (!(value > low && value < high)) value = low + (high - low) / 2;
-  // Newton's steps, and the middle where one would leave the bracket.
+  // Newton's method; a step that would leave the bracket is replaced by bisection.
   for (int step = 0; step < 200; ++step) {
     const double excess = 1 - chi_squared_tail(value, freedom) - p;
     (excess < 0 ? low : high) = value;

@@ -11,7 +11,7 @@ namespace wisp {
 /// Precondition: freedom > 0.
 double chi_squared_tail(double value, double freedom);
 
-/// The value that such a variable stays below with probability `p`.
+/// Quantile: the value that such a variable is below with probability `p`.
 ///
 /// Preconditions: freedom > 0; 0 < p < 1.
 double chi_squared_quantile(double p, double freedom);

@@ -10,10 +10,10 @@
 namespace wisp {
 namespace {
 
-constexpr int kStarts = 10;      // the best of them is taken
-constexpr int kMaxRounds = 300;  // of each
-// A round that moves the centroids by less than this share of the variance is the last of a start; the best of them is
-// then run on until no row changes sides.
+constexpr int kStarts = 10;      // random starts; the best one is taken
+constexpr int kMaxRounds = 300;  // maximum number of iterations of each
+// A start ends where an iteration moves the centroids by less than this share of the variance. The best start is then
+// iterated until no row changes cluster.
 constexpr double kTolerance = 1e-4;
 
 struct Rows {
@@ -25,7 +25,7 @@ struct Rows {
 };
 
 double squared_distance(const double* a, const double* b, std::size_t columns) {
-  // Two sums: additions that wait for one another are what this costs.
+  // Two sums, so that additions need not wait for each other's results.
   double even = 0, odd = 0;
   std::size_t k = 0;
   for (; k + 1 < columns; k += 2) {
@@ -39,7 +39,7 @@ double squared_distance(const double* a, const double* b, std::size_t columns) {
 
 double unit_interval(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-// The first row of which the running sum of weights exceeds a share of all.
+// Index of the first row at which the cumulative sum of weights exceeds a random share of the total.
 std::size_t drawn_row(const std::vector<double>& weights, double total, std::mt19937_64& random) {
   double left = unit_interval(random) * total;
   for (std::size_t row = 0; row < weights.size(); ++row) {
@@ -49,7 +49,7 @@ std::size_t drawn_row(const std::vector<double>& weights, double total, std::mt1
   return weights.size() - 1;
 }
 
-// Squared distances of all rows to one row, none above what it was before; their sum.
+// Updates squared distances to the nearest centroid with row `to` as a further one; returns their sum.
 double nearer(const Rows& rows, std::size_t to, const std::vector<double>& before, std::vector<double>& out) {
   double sum = 0;
   for (std::size_t row = 0; row < rows.count; ++row) {
@@ -59,7 +59,7 @@ double nearer(const Rows& rows, std::size_t to, const std::vector<double>& befor
   return sum;
 }
 
-// Greedy k-means++: of a few rows drawn in proportion to their squared distance, the one that helps most.
+// Greedy k-means++: draws a few rows in proportion to their squared distance and keeps the one that helps most.
 std::vector<double> start_centroids(const Rows& rows, int clusters, std::mt19937_64& random) {
   const int trials = 2 + static_cast<int>(std::log(static_cast<double>(clusters)));
   std::vector<double> centroids, distance(rows.count, std::numeric_limits<double>::max());
@@ -89,7 +89,7 @@ std::vector<double> start_centroids(const Rows& rows, int clusters, std::mt19937
   return centroids;
 }
 
-// Every row to its nearest centroid; a cluster that is left without one gets the row that is farthest from its own.
+// Assigns every row to its nearest centroid; an empty cluster gets the row farthest from its own centroid.
 void assign(const Rows& rows, KMeans& found) {
   std::vector<double> away(rows.count);
   std::fill(found.sizes.begin(), found.sizes.end(), 0);
@@ -120,7 +120,7 @@ void assign(const Rows& rows, KMeans& found) {
   found.inertia = std::accumulate(away.begin(), away.end(), 0.0);
 }
 
-// Centroids to the means of their rows; the sum of their squared movements.
+// Moves centroids to the means of their rows; returns the sum of squared movements.
 double move_centroids(const Rows& rows, KMeans& found) {
   std::vector<double> sums(found.centroids.size());
   for (std::size_t row = 0; row < rows.count; ++row) {
@@ -136,7 +136,7 @@ double move_centroids(const Rows& rows, KMeans& found) {
   return moved;
 }
 
-// From its centroids on, until a round moves them by no more than `least`.
+// Alternates both steps until centroids move by at most `least`.
 void alternate(const Rows& rows, double least, KMeans& found) {
   while (found.rounds < kMaxRounds) {
     ++found.rounds;
@@ -155,7 +155,7 @@ KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance
   return found;
 }
 
-// Mean variance of the columns: what movements of the centroids are measured against.
+// Mean variance of the columns, the scale of kTolerance.
 double mean_variance(const Rows& rows) {
   double sum = 0;
   for (std::size_t column = 0; column < rows.columns; ++column) {
@@ -196,7 +196,7 @@ Result<KMeans> k_means(std::span<const double> values, std::size_t columns, cons
   }
   const auto less = [](const KMeans& a, const KMeans& b) { return a.inertia < b.inertia; };
   KMeans best = std::move(*std::min_element(found.begin(), found.end(), less));
-  alternate(rows, 0, best);  // until no row changes sides: only the best start is worth it
+  alternate(rows, 0, best);  // runs to convergence; worth its time for the best start only
   return best;
 }
 

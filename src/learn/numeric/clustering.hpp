@@ -1,5 +1,5 @@
 #pragma once
-// K-means: rows of numbers into K clusters of least squared distance to their centroid.
+// K-means: clusters rows of numbers so that the squared distances to K centroids are least.
 //
 // Sources: S. P. Lloyd (1982) for the alternation; D. Arthur & S. Vassilvitskii, k-means++ (SODA 2007), greedy variant,
 // for the starts.
@@ -21,20 +21,20 @@ struct KMeansOptions {
 struct KMeans {
   std::size_t columns = 0;
   std::vector<double> centroids;       ///< clusters × columns
-  std::vector<std::uint16_t> cluster;  ///< per row
-  std::vector<std::size_t> sizes;      ///< per cluster; none is empty unless rows coincide
+  std::vector<std::uint16_t> cluster;  ///< cluster of each row
+  std::vector<std::size_t> sizes;      ///< rows per cluster; none is empty unless rows coincide
   double inertia = 0;                  ///< sum of squared distances to the centroids
-  int rounds = 0;                      ///< of the best start
+  int rounds = 0;                      ///< iterations of the best start
 };
 
-/// Rows lie one after the other. A cluster that loses its last row is given the row farthest from its centroid.
+/// Clusters rows, which are stored consecutively. A cluster that becomes empty gets the row farthest from its centroid.
 /// Errors: no rows, more clusters than rows, a number of clusters that is out of range.
 ///
-/// Precondition: rows.size() is a multiple of columns, which is not 0, and all are finite.
+/// Precondition: rows.size() is a multiple of columns, which is not 0; all values are finite.
 Result<KMeans> k_means(std::span<const double> rows, std::size_t columns, const KMeansOptions& options);
 
-/// Mean silhouette of at most `most` rows, evenly spread: −1 … 1, high where clusters are tight and apart (P. J.
-/// Rousseeuw 1987). 0 for one cluster.
+/// Mean silhouette of at most `most` equally spaced rows: −1 … 1, high for compact, separated clusters (P. J. Rousseeuw
+/// 1987). 0 for one cluster.
 double silhouette(std::span<const double> rows, std::size_t columns, const KMeans& found, std::size_t most = 1000);
 
 }  // namespace wisp

@@ -1,4 +1,4 @@
-// What has complex results, apart from the rest: either half takes as long to compile as all else of the folder.
+// Decompositions with complex results, in a separate source: each half takes as long to compile as the rest together.
 
 #include <Eigen/Dense>
 

@@ -1,14 +1,14 @@
 #pragma once
-// Constants that several folders use.
+// Constants shared by several folders.
 
 #include <limits>
 
 namespace wisp {
 
-/// A value that is missing.
+/// Value of a missing sample.
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-/// Standard deviations to either side of a normal variable's 95 %.
+/// Half width of the central 95 % of a normal distribution, in standard deviations.
 inline constexpr double kNormal95 = 1.959963985;
 
 }  // namespace wisp

@@ -8,8 +8,8 @@ namespace wisp {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Source: G. H. Golub and C. F. Van Loan, Matrix Computations, section 8.6: they are the positive eigenvalues of
-// [0 A; Aᵀ 0].
+// Source: G. H. Golub and C. F. Van Loan, Matrix Computations, section 8.6: singular values are the positive
+// eigenvalues of [0 A; Aᵀ 0].
 VectorXd singular_values(const MatrixXd& matrix) {
   const Eigen::Index rows = matrix.rows(), all = rows + matrix.cols();
   MatrixXd both = MatrixXd::Zero(all, all);

@@ -1,39 +1,38 @@
 #pragma once
-// Those of Eigen's decompositions that take long to compile, compiled once: each costs a source that uses it five to
-// twenty seconds.
+// Wrappers that compile Eigen's slow-to-compile decompositions once: each costs a source that uses it 5 to 20 s.
 
 #include <Eigen/Core>
 
 namespace wisp {
 
-/// The largest first, each within rounding of the largest. Takes eight times what bidiagonalising would, which itself
-/// takes half a minute to compile.
+/// Singular values, largest first, each within rounding of the largest. Runs eight times longer than bidiagonalisation,
+/// which takes half a minute to compile.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// Of a symmetric matrix: the smallest first.
+/// Eigenvalues of a symmetric matrix, smallest first.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 
 struct SymmetricEigensystem {
-  Eigen::VectorXd values;   ///< the smallest first
-  Eigen::MatrixXd vectors;  ///< a column each
+  Eigen::VectorXd values;   ///< eigenvalues, smallest first
+  Eigen::MatrixXd vectors;  ///< one eigenvector per column
 };
 
 SymmetricEigensystem symmetric_eigensystem(const Eigen::MatrixXd& matrix);
 
-/// Of all x with the least |`matrix` x − `right`| the shortest.
+/// Minimum-norm solution of the least-squares problem |`matrix` x − `right`|.
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 struct RankedSolution {
   Eigen::VectorXd x;
-  Eigen::Index rank;  ///< of the matrix
+  Eigen::Index rank;  ///< rank of the matrix
 };
 
-/// The same, and how many columns count.
+/// shortest_solution() together with the numerical rank.
 RankedSolution ranked_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
-/// Of a symmetric matrix that is not indefinite, of which only the lower triangle is read.
+/// Solves with a positive or negative semidefinite matrix, of which only the lower triangle is read.
 Eigen::VectorXd symmetric_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 Eigen::MatrixXd symmetric_solutions(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The columns of a regression: which channels at which lags, and where each stands.
+// Columns of a regression: channels with their lags, and the position of each column.
 
 #include <span>
 #include <vector>
@@ -15,8 +15,8 @@ struct LaggedChannel {
 };
 inline constexpr int kConstantChannel = -1;
 
-/// Columns in a fixed order: the constant, then channel by channel the lags in use, ascending. Lag 0 of every output is
-/// among them: the targets.
+/// Columns in a fixed order: the constant, then for each channel the lags in use, ascending. Lag 0 of every output is
+/// included as the target.
 class LagLayout {
  public:
   LagLayout(int outputs, int inputs, std::span<const LaggedChannel> used);
@@ -25,7 +25,7 @@ class LagLayout {
   int channels() const { return static_cast<int>(lags_.size()); }
   int size() const { return static_cast<int>(columns_.size()); }
 
-  /// Largest lag in use: rows of history.
+  /// Largest lag in use, the number of rows of history.
   int history() const { return history_; }
 
   /// Lags in use of one channel, ascending.
@@ -33,7 +33,7 @@ class LagLayout {
 
   LaggedChannel operator[](int column) const { return columns_[column]; }
 
-  /// Position of a column, or −1 where it is not in use.
+  /// Position of a column, or −1 where it is absent.
   int find(LaggedChannel column) const;
 
   int target(int output) const { return find({output, 0}); }
@@ -42,7 +42,7 @@ class LagLayout {
   int outputs_;
   int history_ = 0;
   std::vector<std::vector<int>> lags_;
-  std::vector<int> first_;  // column of a channel's first lag
+  std::vector<int> first_;  // position of each channel's first lag
   std::vector<LaggedChannel> columns_;
 };
 

@@ -20,7 +20,7 @@ std::vector<double> hann(std::size_t length) {
   return window;
 }
 
-// cos and sin of 2π k i / length for k = 0 … length/2: a few dozen samples need no fast transform.
+// Table of cos and sin of 2π k i / length for k = 0 … length/2: fast enough for segments of a few dozen samples.
 struct Fourier {
   explicit Fourier(std::size_t length) : length_(length), cosine_(length), sine_(length) {
     for (std::size_t i = 0; i < length; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// Inner loops over several series at once: the lagged channels of a regression are the same samples, shifted, so a
-// block of them stays in the first-level cache while all products of it are taken.
+// Inner loops over several series at once: lagged channels are shifted views of the same samples, so a block of them
+// stays in the first-level cache while all of its products are computed.
 
 #include <cstddef>
 #include <cstring>
@@ -8,8 +8,8 @@
 
 namespace wisp {
 
-/// Two doubles in one register on every machine that has one (SSE2, NEON, WebAssembly); elsewhere the compiler splits
-/// it. Wider registers are left alone on purpose: the same recording gives the same model on every machine.
+/// Two doubles in one register where the machine has such (SSE2, NEON, WebAssembly); elsewhere the compiler splits it.
+/// Wider registers are avoided on purpose: a recording must give the same model on every machine.
 #ifdef __GNUC__
 using Pair = double __attribute__((vector_size(16)));
 #else
@@ -47,7 +47,7 @@ void add_products_of(const double* x, const double* const* y, std::size_t rows, 
   }
 }
 
-// Of fewer than kMore series.
+// Remainder loop for fewer than kMore series.
 template <std::size_t kMore>
 void add_products_of_rest(const double* x, std::span<const double* const> y, std::size_t rows, double* sums) {
   if (y.size() + 1 == kMore) return add_products_of<kMore - 1>(x, y.data(), rows, sums);

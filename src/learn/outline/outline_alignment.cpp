@@ -16,13 +16,13 @@ namespace {
 
 using Series = std::vector<double>;
 
-constexpr std::size_t kWhiteningOrder = 4;  // lags that carry a gust's shape at 25 to 60 frames a second
+constexpr std::size_t kWhiteningOrder = 4;  // autoregressive order, which covers a gust's shape at 25 to 60 Hz
 constexpr double kFalseAlarm = 0.01;
-constexpr int kResamples = 400;          // of the bootstrap
+constexpr int kResamples = 400;          // bootstrap resamples
 constexpr double kBlockSeconds = 2;      // longer than a gust, so that blocks are nearly independent
-constexpr double kTail = 0.025;          // of resamples on either side of the interval
-constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may well be an end
-constexpr double kAtItsEnd = 0.05;       // of a wider interval, from an end: two offsets are in it, or none
+constexpr double kTail = 0.025;          // share of resamples beyond either end of the interval
+constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may be at an end
+constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an end this near means two offsets, or none
 
 Error bad(const std::string& what) { return Error{"alignment: " + what}; }
 
@@ -32,7 +32,7 @@ std::string milliseconds(double seconds) {
   return text;
 }
 
-/// The series less its mean; missing samples stay missing.
+/// The series minus its mean; missing samples stay missing.
 Series centred(std::span<const double> series) {
   double sum = 0;
   double count = 0;
@@ -46,7 +46,7 @@ Series centred(std::span<const double> series) {
   return out;
 }
 
-/// Mean of a(t) b(t + lag) where both are known; 0 where that is nowhere.
+/// Mean of a(t) b(t + lag) over pairs without missing samples; 0 without such pairs.
 double covariance(const Series& a, const Series& b, std::ptrdiff_t lag) {
   double sum = 0;
   double count = 0;
@@ -63,7 +63,7 @@ double covariance(const Series& a, const Series& b, std::ptrdiff_t lag) {
 /// Predictor coefficients a1 … ap of the series (Yule–Walker equations, Levinson–Durbin recursion).
 std::array<double, kWhiteningOrder> predictor(const Series& series) {
   std::array<double, kWhiteningOrder + 1> r{};
-  // A missing sample takes its products out of each lag's mean alike; a little added to lag 0 keeps it solvable.
+  // Missing samples reduce each lag's mean alike; a small addition to lag 0 keeps the equations solvable.
   for (std::size_t lag = 0; lag < r.size(); ++lag)
     r[lag] = covariance(series, series, static_cast<std::ptrdiff_t>(lag));
   double error = r[0] * (1 + 1e-6);
@@ -89,7 +89,7 @@ Series whitened(const Series& series, const std::array<double, kWhiteningOrder>&
   return out;
 }
 
-/// Sums and counts of wind(t) motion(t + lag) per block of time, for each lag.
+/// Sums and counts of wind(t) motion(t + lag) per block of time and lag.
 struct BlockSums {
   std::size_t lags = 0;
   std::size_t blocks = 0;
@@ -113,7 +113,7 @@ struct BlockSums {
     }
   }
 
-  /// Means over the blocks that `weights` names so many times.
+  /// Means over blocks, each block counted as often as `weights` says.
   Series means(const Series& weights) const {
     Series sum(lags, 0.0);
     Series count(lags, 0.0);
@@ -129,7 +129,7 @@ struct BlockSums {
   }
 };
 
-/// Where |values| is largest, refined by the parabola through it and its neighbours.
+/// Index of the largest |value|, refined by a parabola through it and its neighbours.
 double peak_of(const Series& values) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < values.size(); ++k) {
@@ -144,8 +144,8 @@ double peak_of(const Series& values) {
   return static_cast<double>(best) + std::clamp(shift, -0.5, 0.5);
 }
 
-/// |correlation| that the largest of `lags` independent chance correlations of unrelated series stays below with
-/// probability 1 − kFalseAlarm: Bartlett's variance with both autocorrelations, Bonferroni over the lags.
+/// Level of |correlation| that the largest of `lags` correlations of unrelated series exceeds with probability
+/// kFalseAlarm: Bartlett's variance with both autocorrelations, Bonferroni over the lags.
 double chance_level(const Series& wind, const Series& motion, std::size_t lags, double pairs) {
   const double wind_power = covariance(wind, wind, 0);
   const double motion_power = covariance(motion, motion, 0);
@@ -153,7 +153,7 @@ double chance_level(const Series& wind, const Series& motion, std::size_t lags, 
   for (std::ptrdiff_t lag = 1; lag < static_cast<std::ptrdiff_t>(lags / 2); ++lag) {
     sum += 2 * covariance(wind, wind, lag) / wind_power * covariance(motion, motion, lag) / motion_power;
   }
-  // Gaussian tail P(|z| > x) < exp(−x²/2) for x > 0.7, so this errs on the safe side.
+  // P(|z| > x) < exp(−x²/2) for x > 0.7 (Gaussian tail), so the level is conservative.
   const double z = std::sqrt(2 * std::log(static_cast<double>(lags) / kFalseAlarm));
   return z * std::sqrt(std::max(sum, 1.0) / pairs);
 }
@@ -200,9 +200,9 @@ void judge(Alignment& found, double max_seconds) {
   }
 }
 
-constexpr double kMinSearch = 0.05;  // seconds either way; align_offset() takes no less
+constexpr double kMinSearch = 0.05;  // seconds on either side, the minimum of align_offset()
 
-// Short recordings are searched less far: the search takes a quarter of what there is.
+// Search range: at most a quarter of the recording.
 AlignmentOptions options_for(const Recording& recording, const std::vector<double>& input,
                              const std::vector<double>& motion) {
   double rows = 0;
@@ -221,12 +221,12 @@ Alignment found_or_reason(const Recording& recording, const std::vector<double>&
   return none;
 }
 
-// The correlation over the level that chance reaches.
+// Ratio of the correlation to its chance level.
 double clarity(const Alignment& alignment) {
   return alignment.chance > 0 ? std::abs(alignment.correlation) / alignment.chance : 0;
 }
 
-// Frames by which the input must be moved so that the motion comes no earlier; 0 unless that is sure.
+// Frames by which the input lags the motion and must be moved; 0 unless the lag is significant.
 int frames_too_late(const Alignment& alignment, double rate_hz) {
   if (!alignment.usable || alignment.high_seconds >= 0) return 0;
   return static_cast<int>(std::lround(-alignment.offset_seconds * rate_hz));

@@ -1,9 +1,9 @@
 #pragma once
-// Sound against picture for an outline: by how much its motion comes after each input, and what is done about it.
+// Synchronises sound and picture of an outline: estimates the lag of its motion after each input, and corrects it.
 //
-// A motion that comes later than its input is nothing to mend: a flame takes some 50 ms to answer, and whatever more
-// the recording added is left to the lags and to the search for the delay. A motion that comes before its input is the
-// recording's doing alone, and no model can follow what it has not heard yet: that input is moved.
+// Motion that lags its input needs no correction: a flame takes some 50 ms to respond, and any further lag of the
+// recording is covered by the model's lags and the search for the delay. Motion that leads its input is an error of the
+// recording, which no causal model can follow: that input is moved.
 
 #include <span>
 #include <string>
@@ -15,59 +15,58 @@
 
 namespace wisp {
 
-/// How the offset is searched.
+/// Options of align_offset().
 struct AlignmentOptions {
   double rate_hz = 60;     ///< of both series, > 0
-  double max_seconds = 1;  ///< offsets searched: from minus to plus this, > 0
+  double max_seconds = 1;  ///< range of offsets searched, ±, > 0
 };
 
-/// By how much the motion comes after the wind.
+/// Lag of the motion behind the wind.
 struct Alignment {
-  double offset_seconds = 0;  ///< motion(t) goes with wind(t − offset): positive where the motion comes later
-  double low_seconds = 0;     ///< the ends of its 95 % interval
+  double offset_seconds = 0;  ///< motion(t) corresponds to wind(t − offset): positive where the motion is later
+  double low_seconds = 0;     ///< ends of its 95 % interval
   double high_seconds = 0;
   double correlation = 0;  ///< of the whitened series at that offset, −1 to 1
-  double chance = 0;       ///< largest |correlation| that unrelated recordings reach in one of a hundred
-  bool usable = false;     ///< the offset stands out from chance, lies within the search and is sharp
-  std::string reason;      ///< one clause: what was found, or why it is not usable
+  double chance = 0;       ///< 99th percentile of the largest |correlation| of unrelated recordings
+  bool usable = false;     ///< whether the offset is significant, within the search range and sharp
+  std::string reason;      ///< one clause: the finding, or why it is not usable
 };
 
-/// Estimates how much later `motion` follows `wind`, by the cross-correlation of both after an autoregressive filter
-/// that whitens the wind (Box & Jenkins, Time Series Analysis, section on prewhitening): it peaks where the response of
-/// motion to wind does. So the offset is that of the recording plus the time that the thing itself takes to answer (a
-/// flame's tip: some 50 ms). Its interval comes from a bootstrap over blocks of time.
-/// Both series have one value a frame; NaN is missing.
-/// Errors: lengths differ; less than four times max_seconds in which both are known; a series that never changes.
+/// Estimates the lag of `motion` behind `wind` by the cross-correlation of both after an autoregressive filter that
+/// whitens the wind (Box & Jenkins, Time Series Analysis, section on prewhitening): its peak is that of the impulse
+/// response. The offset therefore includes the response time of the object (some 50 ms for a flame's tip). Its interval
+/// comes from a bootstrap over blocks of time.
+/// Both series have one value per frame; NaN is missing.
+/// Errors: lengths differ; less than four times max_seconds with both known; a constant series.
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});
 
-/// The tip beside and above the middle of its base, row by row; NaN where missing.
+/// Position of the tip relative to the middle of its base, per row; NaN where missing.
 struct TipMotion {
   std::vector<double> sway;
   std::vector<double> height;
 };
 TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout);
 
-/// One input of one recording.
+/// Alignment of one input of one recording.
 struct InputAlignment {
-  std::string source;        ///< the recording
-  std::string input;         ///< its channel
-  std::string motion;        ///< "sway" or "height" of the tip: whichever goes with the input more clearly
-  Alignment found;           ///< not usable, with the reason, where nothing could be found
-  int frames_moved = 0;      ///< by so many frames the input was moved to earlier times
-  std::string note() const;  ///< one clause for people: what was found and what was done
+  std::string source;        ///< name of the recording
+  std::string input;         ///< name of its input channel
+  std::string motion;        ///< "sway" or "height" of the tip, whichever correlates more clearly with the input
+  Alignment found;           ///< not usable, with the reason, where no offset could be estimated
+  int frames_moved = 0;      ///< number of frames by which the input was moved earlier
+  std::string note() const;  ///< one clause for people: the finding and the correction
 };
 
-/// A recording whose inputs are in step with its outline, and what was found.
+/// A recording whose inputs are synchronised with its outline, and the estimated offsets.
 struct AlignedOutline {
   Recording recording;
   std::vector<InputAlignment> inputs;
 };
 
-/// Finds by how much an outline's motion comes after each of the named inputs, and moves those inputs to earlier times
-/// by whole frames for which the motion surely comes first (the whole interval below 0): what an input tells beyond the
-/// end of its episode is then missing there (NaN).
-/// Inputs that the recording has not are left to whoever needs them.
+/// Estimates the lag of an outline's motion behind each named input. Inputs that the motion leads significantly (the
+/// whole interval below 0) are moved earlier by whole frames; samples missing at the end of an episode become NaN.
+/// Inputs missing from the recording are ignored here.
 /// Errors: as outline_layout().
 Result<AlignedOutline> align_outline(const Recording& recording, const std::vector<std::string>& inputs);
 

@@ -17,25 +17,25 @@ using Matrix = Eigen::MatrixXd;
 using ControlSeries = std::vector<std::vector<double>>;
 
 constexpr int kOrder = 2;
-constexpr int kInputLags = 6;                // 0 to 5: more, out to 20 frames, gain nothing that lasts
-constexpr Eigen::Index kMaxComponents = 14;  // with inputs; without any, all that move are played as recorded
-constexpr double kLeastPower = 1e-7;         // of the largest component's: less is rounding, such as the base's height
-constexpr double kRidge = 1.5;               // rows of whitened components; a mirror image would count as another row
+constexpr int kInputLags = 6;                // lags 0 to 5: further lags, up to 20 frames, brought no lasting gain
+constexpr Eigen::Index kMaxComponents = 14;  // with inputs; without any, all components that move are replayed
+constexpr double kLeastPower = 1e-7;         // share of the largest power: less is rounding, such as the base's height
+constexpr double kRidge = 1.5;               // in rows of whitened components, the weight that mirrored data would add
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
-constexpr double kLeastMotion = 1e-9;  // heights: what moves less does so by rounding
+constexpr double kLeastMotion = 1e-9;  // in heights: smaller motion is rounding
 constexpr Eigen::Index kMinRows = 30;
-constexpr double kFadeSeconds = 0.1;  // without inputs: in which half of a deviation from what was recorded fades
-constexpr std::size_t kPowers = 3;    // of an input's size, then with its sign (regressor_names())
+constexpr double kFadeSeconds = 0.1;  // without inputs: half-life of deviations from the recorded rows
+constexpr std::size_t kPowers = 3;    // powers of an input's size, then signed (regressor_names())
 
-// Whether a regressor is the same in the mirror image.
+// Whether a regressor is invariant under the mirror image.
 bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }
 
 const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
   return recording.channels[*find_channel(recording, name)].samples;
 }
 
-// The mean of the recordings' calm shapes, or of all rows where none is ever calm.
+// Mean of the recordings' calm shapes, or of all rows where no recording has calm rows.
 std::vector<double> shape_at_rest(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   const std::size_t outputs = prepared.layout.outputs.size();
   std::vector<double> sum(outputs, 0.0);
@@ -53,7 +53,7 @@ std::vector<double> shape_at_rest(std::span<const Recording> recordings, const P
   return sum;
 }
 
-// Deviations from rest in shape coordinates, a row each.
+// Deviations from the shape at rest in shape coordinates, one row per frame.
 Matrix deviations(std::span<const Recording> recordings, const OutlineLayout& layout, const std::vector<double>& rest) {
   std::vector<double> all;
   for (const Recording& recording : recordings) {
@@ -70,7 +70,7 @@ Matrix deviations(std::span<const Recording> recordings, const OutlineLayout& la
                                                                                                   columns);
 }
 
-// Principal components of one kind, the strongest first, each scaled to a standard deviation of 1.
+// Principal components of one symmetry, strongest first, each scaled to a standard deviation of 1.
 struct Components {
   Eigen::VectorXd power;  // variances, descending
   Matrix vectors;
@@ -81,7 +81,7 @@ struct Components {
     power = found.values.reverse();
     vectors = found.vectors.rowwise().reverse();
   }
-  // The number of components of at least that power.
+  // Number of components with at least the power `least`.
   std::size_t count(double least) const { return static_cast<std::size_t>((power.array() >= least).count()); }
 
   void append(std::size_t taken, std::vector<double>& basis) const {
@@ -94,7 +94,7 @@ struct Components {
   }
 };
 
-// The least power of the components that are kept, of both kinds together.
+// Minimum power of the retained components of both symmetries together.
 double least_power(const Components& even, const Components& odd, Eigen::Index count) {
   std::vector<double> all(even.power.begin(), even.power.end());
   all.insert(all.end(), odd.power.begin(), odd.power.end());
@@ -103,7 +103,7 @@ double least_power(const Components& even, const Components& odd, Eigen::Index c
   return std::max({last, kLeastPower * all.front(), std::numeric_limits<double>::min()});
 }
 
-// Components of shape coordinates, of which the shape's basis has orthogonal columns.
+// Projects shape coordinates on the components; the shape's basis has orthogonal columns.
 std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates) {
   std::vector<double> out(shape.count(), 0.0), norm(shape.count(), 0.0);
   const double* basis = shape.basis.data();
@@ -119,8 +119,8 @@ std::vector<double> components_of(const ShapeComponents& shape, std::span<const 
   return out;
 }
 
-// The recorded range, which for a component that changes sign in the mirror image is extended to the same distance on
-// the other side.
+// The recorded range. For a component that changes sign under the mirror image it is extended to be symmetric about the
+// middle.
 ValueRange range_of(const Eigen::VectorXd& values, double middle, bool symmetric) {
   const double low = values.minCoeff(), high = values.maxCoeff(), far = std::max(-low, high);
   return symmetric ? ValueRange{middle + low, middle + high} : ValueRange{middle - far, middle + far};
@@ -153,8 +153,8 @@ Result<ShapeComponents> find_shape(std::span<const Recording> recordings, const 
   return shape;
 }
 
-// One row of the regression of either kind: past components, then the inputs' regressors at each lag, even ones for
-// symmetric components, odd ones for antisymmetric ones.
+// Regression rows of one symmetry: past components, then the inputs' regressors at each lag, even regressors for
+// symmetric components and odd ones for antisymmetric components.
 class RowsOf {
  public:
   RowsOf(const ShapeComponents& shape, const Recording& moved, const PreparedOutlines& prepared) : shape_(shape) {
@@ -162,7 +162,7 @@ class RowsOf {
     for (const std::string& name : prepared.channels.inputs) inputs_.push_back(&samples_of(moved, name));
   }
 
-  // Regressors that follow the past components of either kind, the constant included.
+  // Number of regressors after the past components, for either symmetry, including the constant.
   std::size_t functions() const { return inputs_.size() / 2 * kInputLags + 1; }
 
   bool fill(std::size_t row, bool symmetric, Eigen::VectorXd& x, Eigen::VectorXd& y) const {
@@ -186,7 +186,7 @@ class RowsOf {
   std::vector<const std::vector<double>*> inputs_;
 };
 
-// Products of one kind's regressors with themselves and with what they are to make.
+// Products of one symmetry's regressors with themselves and with their targets.
 struct Products {
   Matrix gram, right, squares;
   double rows = 0;
@@ -235,7 +235,7 @@ ArxOrders shape_orders(const ShapeComponents& shape, std::size_t regressors) {
   return orders;
 }
 
-// The coefficients of one output row in the order of ArxModel::theta, from a column of its kind's regression.
+// Coefficients of one output row in the order of ArxModel::theta, from a column of its symmetry's regression.
 void set_row(const Eigen::VectorXd& found, std::size_t of_kind, std::vector<double>& theta, double& constant) {
   for (std::size_t k = 0; k < of_kind; ++k) {
     for (std::size_t lag = 0; lag < kOrder; ++lag) {
@@ -265,8 +265,8 @@ ArxModel shape_model(const ShapeComponents& shape, const Products& even, const P
   return arx;
 }
 
-// Components that nothing drives: all that they have of their own is that deviations fade, so that rows are followed
-// as they were recorded, from wherever a jump to them begins.
+// Dynamics of components without inputs: deviations decay, so that recorded rows are followed from wherever a jump to
+// them begins.
 OutlineDynamics fading_shape(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                              ShapeComponents shape) {
   const auto count = static_cast<int>(shape.count());

@@ -1,14 +1,14 @@
 #pragma once
 // The dynamics of an outline: ARX over components of its shape, or over its control points as in the paper.
 //
-// A flame is nearly its own mirror image. The principal components of its shape coordinates are therefore symmetric
-// (height, width, bulge) or antisymmetric (lean, bend) ones, and a system that commutes with the mirror has two blocks:
-// symmetric components hear symmetric ones and even functions of the wind, antisymmetric components antisymmetric ones
-// and odd functions (for such block structure M. Golubitsky, I. Stewart, "The Symmetry Perspective", 2002, chapter 1).
-// The shape at rest is as it was recorded: wicks and trackers lean.
+// A flame is nearly mirror-symmetric. The principal components of its shape coordinates are therefore symmetric
+// (height, width, bulge) or antisymmetric (lean, bend), and a system that commutes with the mirror has two blocks:
+// symmetric components depend on symmetric ones and even functions of the wind, antisymmetric components on
+// antisymmetric ones and odd functions (for such block structure M. Golubitsky, I. Stewart, "The Symmetry Perspective",
+// 2002, chapter 1). The shape at rest is as recorded, asymmetric where wicks or trackers lean.
 //
-// Without wind nothing is estimated: recorded rows are played as they were (run/arx/lookup_lanes.hpp), and the dynamics
-// only let deviations from them fade.
+// Without wind nothing is estimated: recorded rows are replayed (run/arx/lookup_lanes.hpp), and the dynamics only let
+// deviations from them decay.
 
 #include <span>
 #include <vector>
@@ -21,26 +21,26 @@
 
 namespace wisp {
 
-/// Dynamics and what they move.
+/// Dynamics, with the shape components they act on.
 struct OutlineDynamics {
   ArxModel arx;
-  ShapeComponents shape;    ///< empty: the control points themselves
-  double ridge = 0;         ///< on whitened components, in rows
+  ShapeComponents shape;    ///< empty: dynamics act on the control points
+  double ridge = 0;         ///< regularisation of whitened components, in rows
   bool stabilised = false;  ///< whether the first estimate was unstable
-  std::size_t rows = 0;     ///< that it was estimated from
+  std::size_t rows = 0;     ///< number of rows in the estimation
 };
 
-/// Estimates dynamics from prepared recordings or the first parts of them. `paper`: lags of the paper's point systems
-/// (its section 3.4 has 4), whose noise is Gaussian and independent; 0: components of the shape, order 2, or fading
-/// ones where there are no inputs. Errors: too few complete rows; as fit_arx().
+/// Estimates dynamics from prepared recordings or the first parts of them. `paper`: number of lags of the paper's point
+/// systems (4 in its section 3.4), with independent Gaussian noise; 0: components of the shape with order 2, or
+/// decaying ones without inputs. Errors: too few complete rows; as fit_arx().
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper);
 
-/// A prepared recording with components c0, c1, … of the shape in the place of its control points; as it is where the
-/// shape is empty.
+/// A prepared recording with shape components c0, c1, … in place of its control points; unchanged where the shape is
+/// empty.
 Recording moved_recording(const ShapeComponents& shape, const Recording& recording, const PreparedOutlines& prepared);
 
-/// The channels that the dynamics move in such recordings.
+/// Output and input channels of such recordings.
 ChannelChoice moved_channels(const ShapeComponents& shape, const PreparedOutlines& prepared);
 
 /// Predictions of a prepared recording's control points. Errors: as predict().
@@ -48,8 +48,8 @@ Result<std::vector<std::vector<double>>> predict_outline(const OutlineDynamics& 
                                                          const PreparedOutlines& prepared,
                                                          const PredictOptions& options);
 
-/// Standard deviations of predictions of control points, as prediction_sd(). Covariances between components are left
-/// out.
+/// Standard deviations of predictions of control points, as in prediction_sd(). Covariances between components are
+/// neglected.
 std::vector<std::vector<double>> outline_prediction_sd(const OutlineDynamics& dynamics, int steps);
 
 }  // namespace wisp

@@ -13,11 +13,11 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames add nothing
+constexpr std::size_t kMaxShapes = 2000;  // maximum; neighbouring frames add no information
 
 using Predicted = std::vector<std::vector<double>>;  // [output][row]
 
-// One row of series; empty where a sample is missing.
+// Values of one row over all series; empty where a sample is missing.
 std::vector<double> predicted_row(const Predicted& series, std::size_t row) {
   std::vector<double> control;
   for (const auto& samples : series) {
@@ -27,7 +27,7 @@ std::vector<double> predicted_row(const Predicted& series, std::size_t row) {
   return control;
 }
 
-// Shapes of one number of steps, gathered over recordings.
+// Shapes for one number of steps, collected over recordings.
 struct Shapes {
   std::vector<double> tip_measured;
   std::vector<double> tip_predicted;
@@ -42,7 +42,7 @@ struct Shapes {
   }
 };
 
-// Takes every `stride`-th row.
+// Adds every `stride`-th row.
 void add_shapes(const OutlineCurve& curve, const Recording& recording, const OutlineLayout& layout,
                 const Predicted& predicted, std::size_t stride, Shapes& shapes) {
   for (std::size_t row = 0; row < recording.rows(); row += stride) {
@@ -52,7 +52,7 @@ void add_shapes(const OutlineCurve& curve, const Recording& recording, const Out
   }
 }
 
-// Errors of the rows that were measured and predicted.
+// Error sums over rows that are measured and predicted.
 class Errors {
  public:
   explicit Errors(std::size_t outputs) : tally(static_cast<int>(outputs), 2) {}
@@ -80,11 +80,11 @@ class Errors {
   Tally tally;
 
  private:
-  std::vector<double> origin_;  // so that a still channel is 0 and its spread exactly 0
+  std::vector<double> origin_;  // first value per channel; with it a constant channel has spread exactly 0
 };
 
-// Fits of x and y to that of the point: errors and spreads add up. A fit of 0 is that of a still channel too, whose
-// spread is then taken for its error: it says nothing either way.
+// Combines the fits of x and y into that of the point: errors and spreads add up. A fit of 0 is also that of a constant
+// channel, whose spread is then replaced by its error, so it has no influence.
 std::vector<double> point_fits(const PredictionFigures& figures) {
   std::vector<double> fits;
   for (std::size_t i = 0; i + 1 < figures.fit_percent.size(); i += 2) {

@@ -14,11 +14,11 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kWindows = 120;       // a side: the distance is known to 0.01 then, for a hundredth of a second
-constexpr double kPlayed = 30;              // seconds at least
-constexpr std::size_t kMaxRecorded = 2000;  // outlines that others are compared with
+constexpr std::size_t kWindows = 120;       // per side: gives the distance to 0.01 within 10 ms
+constexpr double kPlayed = 30;              // minimum duration of play, seconds
+constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlines used for comparison
 constexpr std::size_t kMaxPlayed = 500;
-constexpr std::size_t kPlaces = 12;  // along an outline
+constexpr std::size_t kPlaces = 12;  // points per outline
 
 const std::vector<double>& channel_samples(const Recording& recording, const std::string& name) {
   return recording.channels[*find_channel(recording, name)].samples;
@@ -47,7 +47,7 @@ double unsteadiness(const PreparedOutlines& prepared) {
   return any > 0 ? neighbours / any : 0;
 }
 
-// A calm recording among others does not show the effect of the inputs.
+// Index of the recording with most motion; a calm recording would not show the effect of the inputs.
 std::size_t liveliest(const PreparedOutlines& prepared) {
   std::size_t best = 0;
   double most = -1;
@@ -62,8 +62,8 @@ std::size_t liveliest(const PreparedOutlines& prepared) {
 
 using Outline = std::vector<OutlinePoint>;
 
-// Outlines of at most so many rows, evenly spread, as points at equal steps of their length; and how many of them cross
-// themselves.
+// Outlines of at most `most` equally spaced rows, each as points at equal arc lengths; also counts self-intersecting
+// ones.
 std::vector<Outline> outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared, std::size_t most,
                               double* crossed = nullptr) {
   const OutlineCurve curve(prepared.layout.knots, 100);
@@ -85,7 +85,7 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   return out;
 }
 
-// Mean square distance from the nearest of the others.
+// Mean square distance to the nearest of the other outlines.
 double nearest(const Outline& one, std::span<const Outline> others) {
   double best = std::numeric_limits<double>::infinity();
   for (const Outline& other : others) {
@@ -109,9 +109,9 @@ double outside_share(std::span<const Outline> recorded, std::span<const Outline>
   return count / static_cast<double>(played.size());
 }
 
-constexpr std::size_t kMinHeldOut = 16;  // rows that figures can be made from, a history of six among them
+constexpr std::size_t kMinHeldOut = 16;  // minimum number of rows for figures, including a history of six
 
-// Moves inputs that come too late, and notes which and by how much.
+// Moves inputs that are late against the motion, and records which and by how many frames.
 Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                        OutlineSummary& summary) {
   std::vector<Recording> out;
@@ -132,7 +132,7 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
   return out;
 }
 
-// Dynamics of the first parts, judged on the rest.
+// Judges the dynamics of the first parts on the held-out rest.
 Result<void> judge(const PreparedOutlines& prepared, const OutlineRecipe& recipe, OutlineSummary& summary) {
   const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, recipe.holdout);
   summary.rows_learned = complete_rows(parts.learned, prepared.channels);
@@ -165,8 +165,8 @@ Result<std::vector<double>> residual_sd(const OutlineDynamics& dynamics, const P
   return out;
 }
 
-// The ranges of the outputs: what was recorded, and at least three standard deviations about the mean, since a short
-// recording does not contain all of its own flicker. With a shape, its mirror image too.
+// Ranges of the outputs: the recorded range, but at least three standard deviations about the mean, since a short
+// recording does not contain its full range of flicker. With a shape, the mirrored range too.
 std::vector<Output> outputs_of(const PreparedOutlines& prepared, const ShapeComponents& shape) {
   const std::size_t count = prepared.channels.outputs.size();
   std::vector<std::vector<double>> seen(count);
@@ -187,7 +187,7 @@ std::vector<Output> outputs_of(const PreparedOutlines& prepared, const ShapeComp
     const double middle = mean(seen[i]), sd = deviation(seen[i]);
     Output one{prepared.channels.outputs[i], "", std::min(quantile(seen[i], 0), middle - 3 * sd),
                std::max(quantile(seen[i], 1), middle + 3 * sd)};
-    // A channel that never moves (a base cut off by the picture's edge) keeps only what rounding left of it: no range.
+    // Relative range below which a channel (such as a base cut off by the picture's edge) counts as constant: no range.
     constexpr double kStill = 1e-9;
     if (one.highest - one.lowest < kStill) one.lowest = one.highest = middle;
     out.push_back(std::move(one));
@@ -202,7 +202,7 @@ Input input_of(const OutlineInput& input, bool powers) {
           powers ? InputShape::kEvenOdd : InputShape::kLinear};
 }
 
-// Learned from everything.
+// The model, learned from all rows.
 Result<Model> model_of(const PreparedOutlines& prepared, const OutlineRecipe& recipe, OutlineSummary& summary) {
   auto dynamics = fit_dynamics(prepared.recordings, prepared, recipe.paper);
   if (!dynamics) return dynamics.error();

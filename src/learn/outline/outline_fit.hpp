@@ -1,5 +1,5 @@
 #pragma once
-// Learning an outline: from recordings of its control points to a model that moves like it, and what to think of it.
+// Learns the model of an outline from recordings of its control points, with figures and a verdict.
 
 #include <optional>
 #include <span>
@@ -18,59 +18,59 @@
 
 namespace wisp {
 
-/// Figures of a free play along the recording in which most moves.
+/// Figures of a free play driven by the recording with the most motion.
 struct OutlineTrial {
-  double unsteadiness = 0;  ///< of the recordings: mean square difference of neighbouring frames over that of frames
-                            ///< picked at random; 0 moves steadily, 1 is frames in random order (half the ratio of
-                            ///< J. von Neumann, Annals of Mathematical Statistics 12 (1941))
-  double held_share = 0;    ///< of steps in which something was clamped to its range
-  std::vector<double> sd_ratio;  ///< per output, played over recorded; 1 where nothing moves
-  double crossed = 0;            ///< share of played outlines that cross themselves
-  double crossed_recorded = 0;   ///< and of recorded ones
-  double outside = 0;            ///< share of played outlines farther from every recorded one than 99 % of those of the
-                                 ///< last 40 % of the rows are from the rows before
-  std::optional<Bounded> half_second;  ///< normalised energy distance of windows; nothing where that is too short
-  std::optional<Bounded> two_seconds;  ///< likewise
+  double unsteadiness = 0;  ///< of the recordings: mean square difference of neighbouring frames over that of random
+                            ///< pairs; 0: steady, 1: random order (half the ratio of J. von Neumann, Annals of
+                            ///< Mathematical Statistics 12 (1941))
+  double held_share = 0;    ///< share of steps with an output clamped to its range
+  std::vector<double> sd_ratio;  ///< per output, played over recorded; 1 for constant outputs
+  double crossed = 0;            ///< self-intersection rate of played outlines
+  double crossed_recorded = 0;   ///< self-intersection rate of recorded outlines
+  double outside = 0;            ///< share of played outlines farther from all recorded ones than the 99th percentile
+                                 ///< of that distance between the last 40 % of rows and the rows before
+  std::optional<Bounded> half_second;  ///< normalised energy distance of windows; empty if too short
+  std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
 };
 
-/// Plays a model along the inputs of the liveliest of the recordings in the model's units; `original` are the same
-/// recordings with their inputs, in step.
+/// Plays a model along the inputs of the recording with the most motion. `prepared` is in the model's units; `original`
+/// has the same recordings with their synchronised inputs.
 /// Errors: as synthesize().
 Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& prepared,
                                  std::span<const Recording> original, std::uint64_t seed);
 
-/// How good the model is.
+/// Quality of the model.
 struct OutlineSummary {
   double rate_hz = 0;
   std::vector<OutlineInput> inputs;
   std::size_t points = 0;
-  OutlineDynamics dynamics;                ///< of the returned model, without its noise's rows
-  double radius = 0;                       ///< spectral
-  std::vector<InputAlignment> alignment;   ///< of every recording's inputs
-  std::size_t rows_learned = 0;            ///< complete rows that the judged dynamics were learned from,
-  std::size_t rows_held_out = 0;           ///< and those held out; the returned model is learned from both
-  OutlineFigures learned;                  ///< on what was learned from
-  std::optional<OutlineFigures> held_out;  ///< on what was held out; nothing where that is too short
-  std::vector<double> residual_sd;         ///< one step ahead, one an output
-  std::size_t resampled_rows = 0;          ///< of residuals; 0: Gaussian noise
+  OutlineDynamics dynamics;                ///< dynamics of the returned model, without residual rows
+  double radius = 0;                       ///< spectral radius
+  std::vector<InputAlignment> alignment;   ///< per recording and input
+  std::size_t rows_learned = 0;            ///< number of complete rows that the judged dynamics were learned from,
+  std::size_t rows_held_out = 0;           ///< and of those held out; the returned model is learned from both
+  OutlineFigures learned;                  ///< figures on the training rows
+  std::optional<OutlineFigures> held_out;  ///< figures on the held-out rows; empty if too short
+  std::vector<double> residual_sd;         ///< one step ahead, per output
+  std::size_t resampled_rows = 0;          ///< number of residual rows; 0: Gaussian noise
   OutlineTrial trial;
-  double pixels_per_unit = 0;  ///< of the first recording
+  double pixels_per_unit = 0;  ///< pixels per model unit in the first recording
   std::vector<std::string> warnings;
   Usable usable;
-  std::string code{};  ///< of the criterion that was missed
+  std::string code{};  ///< code of the criterion that was missed
 };
 
-/// A model of an outline and what to think of it.
+/// A model of an outline with its summary.
 struct OutlineFit {
   Model model;
   OutlineSummary summary;
 };
 
-/// Learns a model from recordings of an outline in pixels (outline_units.hpp), without a rule of extinction and with
-/// every recording's inputs on the scale that it has. The model has the knots of the first recording; recordings with
-/// others are expressed in those, with a warning.
-/// Errors, naming the recording: not an outline, another number of points than the first, rates that differ, inputs
-/// that it has not, too few rows, a recipe out of range; kStopped.
+/// Learns a model from recordings of an outline in pixels (outline_units.hpp), without an extinction rule and with each
+/// recording's inputs on their own scale. The model has the knots of the first recording; recordings with other knots
+/// are converted, with a warning.
+/// Errors, naming the recording: not an outline, a different number of points, rates that differ, missing inputs, too
+/// few rows, a recipe out of range; kStopped.
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},
                                const Progress& progress = {});
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSame = 0.02;  // factors closer to 1 than this count as 1
 
-// The inputs that say in every recording how loud they are, and the loudest of each.
+// Inputs whose loudness is recorded in every recording, and the loudest level of each.
 struct Loudest {
   std::string input;
   double rms = 0;
@@ -37,23 +37,23 @@ Result<std::vector<Loudest>> loudest_inputs(std::span<const Recording> recording
   return out;
 }
 
-// What the first of these inputs is multiplied by, recording by recording.
+// Factor for the first of these inputs, per recording.
 std::vector<double> factors_of(std::span<const Recording> recordings, const Loudest& loudest) {
   std::vector<double> out;
   for (const Recording& recording : recordings) {
-    out.push_back(*factor_at(recording, loudest.input, loudest.rms));  // says how loud it was: loudest_inputs()
+    out.push_back(*factor_at(recording, loudest.input, loudest.rms));  // present in all: see loudest_inputs()
   }
   return out;
 }
 
-// What of a recording's channel is 1 in an input; 1 where neither says.
+// The channel's value that equals 1 in the model's input; 1 where neither model nor recording says.
 Result<double> value_of_one(const Model& model, std::size_t input, const Recording& recording, const Channel& heard,
                             bool own_gain) {
   if (!heard.unit.empty() && heard.unit == model.inputs[input].unit) return 1.0;
   if (own_gain) {
     if (!std::holds_alternative<OutlineView>(model.view)) return 1.0;
     const auto own = scaled_input({&recording, 1}, heard.name);
-    return own ? own->scale : 1.0;  // in a calm one
+    return own ? own->scale : 1.0;  // of a calm recording
   }
   if (input >= model.training.inputs.size()) return 1.0;
   const InputTraining& trained = model.training.inputs[input];
@@ -63,7 +63,7 @@ Result<double> value_of_one(const Model& model, std::size_t input, const Recordi
   return trained.scale / *factor;
 }
 
-// Divides a channel, and says how loud its 1 is then.
+// Divides a channel by `one`, and updates its recorded loudness.
 Result<void> divide(Recording& recording, Channel& channel, double one) {
   if (one == 1) return {};
   for (double& value : channel.samples) value /= one;
@@ -76,11 +76,11 @@ Result<void> divide(Recording& recording, Channel& channel, double one) {
 constexpr double kWindOne = 0.95;
 constexpr double kLargest = 0.99;
 
-// Fewer calm rows than this say little about the calm height; then all rows are taken.
+// Seconds of calm rows below which the calm height is unreliable; all rows are then used.
 constexpr double kCalmSeconds = 0.5;
 
 struct Strengths {
-  std::vector<double> all;  // |sample|, missing ones left out
+  std::vector<double> all;  // |sample|, without missing samples
   double lowest = 0;
   double highest = 0;
   std::string unit;
@@ -102,21 +102,21 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
   return out;
 }
 
-// Below this an input is calm: its scale stands for its 95th percentile while it blows, which is near enough to the
-// 99th percentile for the same threshold.
+// Threshold below which an input is calm. It uses the scale, the 95th percentile while it blows, in place of the 99th
+// percentile, which is close.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
 double whole(double size) { return size; }
 double root(double size) { return std::sqrt(size); }
 double square(double size) { return size * size; }
 
-// One regressor of an input: a power of its size, with the input's sign or without, and what follows the input's name.
+// One regressor of an input: a power of its size, signed or not, and the suffix of its name.
 struct Form {
   const char* suffix;
   bool has_sign;
   double (*power)(double);
 
-  // NaN stays NaN.
+  // NaN is propagated.
   double of(double u) const { return (has_sign && u < 0 ? -1 : 1) * power(std::abs(u)); }
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-// What drives an outline: inputs in the model's units, signs, and the mirror image.
+// Inputs of an outline: conversion to the model's units, split by sign, and mirror image.
 //
-// A wind of 1 is the 95th percentile of the training wind while it blows. Its sign is carried as two non-negative
-// inputs, NAME+ and NAME-, so that a linear model does not answer a gust from the right by a flame that grows where a
-// gust from the left makes it shrink.
+// A wind of 1 is the 95th percentile of the training wind while it blows. Its sign is represented by two non-negative
+// inputs, NAME+ and NAME-, because a linear model of the signed wind would answer opposite gusts with opposite changes
+// of height.
 
 #include <cstdint>
 #include <span>
@@ -21,76 +21,75 @@ namespace wisp {
 /// one. Inputs whose loudness is not recorded are left unchanged. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
-/// The factor for each recording's first heard input; empty where some recording does not say how loud it was, or where
-/// all are equal within 2 %. Errors: as one_rms().
+/// Factor for each recording's first audio input; empty where a recording lacks its loudness, or where all are equal
+/// within 2 %. Errors: as one_rms().
 Result<std::vector<double>> common_gain_factors(std::span<const Recording> recordings);
 
-/// What a recording's first heard input is multiplied by to be as loud at 1 as in what the model was learned from; 1
-/// where either does not say. Errors: as one_rms().
+/// Factor that brings a recording's first audio input to the training loudness at 1; 1 where the model or the recording
+/// lacks its loudness. Errors: as one_rms().
 Result<double> factor_to_trained_gain(const Model& model, const Recording& recording);
 
-/// A recording whose inputs are as loud at 1 as in those that the model was learned from; as it is where either does
-/// not say how loud that was. Errors: as one_rms().
+/// A recording with its inputs scaled to the training loudness; unchanged where the model or the recording lacks its
+/// loudness. Errors: as one_rms().
 Result<Recording> at_trained_gain(const Model& model, Recording recording);
 
-/// Below this share of its 99th percentile an input counts as calm: microphones and anemometers are never at 0.
+/// Share of an input's 99th percentile below which it counts as calm: sensors never read exactly 0.
 inline constexpr double kCalmShare = 0.1;
 
-/// One input of an outline.
+/// Scale and range of one input of an outline.
 struct OutlineInput {
   std::string name;
-  std::string unit;    ///< of the recording
-  double scale = 1;    ///< the recording's value that is 1 in the model, > 0
-  double lowest = 0;   ///< seen, in the model's units
-  double highest = 0;  ///< seen, in the model's units
+  std::string unit;    ///< unit in the recording
+  double scale = 1;    ///< recording's value that equals 1 in the model, > 0
+  double lowest = 0;   ///< lowest observed value, in the model's units
+  double highest = 0;  ///< highest observed value, in the model's units
 };
 
-/// The 95th percentile of |input| over all rows of all recordings where it is above kCalmShare of its 99th percentile.
-/// Returns the input with its scale and seen range.
-/// Errors: a recording without that channel, no sample, an input that is 0 throughout.
+/// The 95th percentile of |input| over all rows of all recordings in which it exceeds kCalmShare of its 99th
+/// percentile. Returns the input with its scale and observed range.
+/// Errors: a recording without that channel, no sample, an input that is always 0.
 Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name);
 
-/// What of a recording's input was 1 when a model was learned.
-/// Errors: the model has no input of that name, or was not learned from recordings.
+/// The recorded input's value that equalled 1 in training.
+/// Errors: the model has no input of that name, or no training record.
 Result<double> trained_scale(const Model& model, const std::string& input);
 
-/// One byte a row: 1 where every input is calm (all rows where there are no inputs).
+/// Flags per row: 1 where every input is calm (everywhere without inputs).
 std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// How long it must have been calm before what moved by wind counts as being at rest: a flame has come back after a
-/// quarter of a second, larger things later; what is left of their lean would pass for their shape at rest.
+/// Minimum duration of calm before an object counts as at rest: a flame recovers within a quarter of a second, larger
+/// objects take longer, and a remaining lean would be mistaken for the shape at rest.
 inline constexpr double kSettleSeconds = 0.5;
 
-/// One byte a row: 1 where every input has been calm for kSettleSeconds within its episode (all rows where there are no
-/// inputs).
+/// Flags per row: 1 where every input has been calm for kSettleSeconds within its episode (everywhere without inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
 /// Rows of rest; of calm where half a second of rest is not seen, and none where half a second of calm is not either.
 std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// The height in pixels that is 1 in the model: with inputs the median over undisturbed rows, some of which still lean,
-/// since an input may be felt before it is heard; without, or where no row is undisturbed, the mean over all of them.
-/// 0 where no row has an outline.
+/// Height in pixels that equals 1 in the model. With inputs it is the median over undisturbed rows, some of which may
+/// still lean, since an input can act before it is heard. Without inputs or undisturbed rows it is the mean over all
+/// rows. 0 where no row has an outline.
 double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
                              std::span<const OutlineInput> inputs);
 
-/// Which regressors inputs make.
+/// Kinds of regressors made from inputs.
 struct RegressorShape {
-  bool powers = false;  ///< |NAME|, its square root and its square, then the same with NAME's sign, instead of NAME
+  bool powers = false;  ///< |NAME|, its square root and square, then the same signed, in place of NAME
 };
 
-/// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).
+/// Names of the regressors of inputs, in the model's order (regressor_count(InputShape)).
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape);
 
-/// A recording with an input channel for every regressor, in the model's units, in the place of its inputs; missing
-/// samples stay missing.
+/// A recording with an input channel for every regressor, in the model's units, in place of its inputs; missing samples
+/// stay missing.
 ///
 /// Precondition: the recording has the inputs.
 Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, RegressorShape shape);
 
-/// The mean of every output over the chosen rows that are complete, in the layout's order; empty where there is none.
+/// Mean of every output over those chosen rows that are complete, in the layout's order; empty where there are none.
 ///
-/// Precondition: `rows` is empty or has one entry a row.
+/// Precondition: `rows` is empty or has one entry per row.
 std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,
                                std::span<const std::uint8_t> rows);
 

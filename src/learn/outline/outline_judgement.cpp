@@ -14,7 +14,7 @@
 namespace wisp {
 namespace {
 
-// What validation needs of a model, after it was found to be an outline.
+// Data that validation needs of a model known to be an outline.
 struct OutlineModel {
   const Model& whole;
   OutlineDynamics dynamics;
@@ -99,7 +99,7 @@ Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, co
   return out;
 }
 
-// While the outline is missing, its base stays at its last place, so that play has one too.
+// Where the outline is missing, repeats the base's last position, so that play has one.
 void hold_base(Recording& recording) {
   for (const char* name : {"base.x", "base.y"}) {
     auto& samples = recording.channels[*find_channel(recording, name)].samples;
@@ -131,7 +131,7 @@ double self_intersection_rate(const Recording& recording, const OutlineLayout& l
   return recording.rows() == 0 ? 0 : static_cast<double>(crossed) / static_cast<double>(recording.rows());
 }
 
-// A control point that is followed no better than by its mean is worth a word.
+// Warns of control points that are predicted no better than by their mean.
 void warn_of_lost_points(OutlineJudgement& out) {
   const auto& steps = out.figures.steps;
   const auto at = std::find(steps.begin(), steps.end(), kFreeRun) - steps.begin();
@@ -148,7 +148,7 @@ void warn_of_lost_points(OutlineJudgement& out) {
   }
 }
 
-// Play repeats the recording's input; frames that the recording lacks are not compared.
+// Sets play missing in rows where the recording has no outline; those frames are not compared.
 void hide_unseen(const Recording& recorded, const std::vector<std::string>& outputs, Recording& play) {
   for (const std::string& name : outputs) {
     const auto& seen = recorded.channels[*find_channel(recorded, name)].samples;

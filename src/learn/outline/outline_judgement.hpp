@@ -1,6 +1,6 @@
 #pragma once
-// What is found when an outline model is validated on a recording: its predictions, its simulation from the inputs
-// alone, and the fidelity of its free play.
+// Results of validating an outline on a recording: predictions, simulation from the inputs alone, and fidelity of its
+// free play.
 
 #include <optional>
 #include <string>
@@ -17,32 +17,32 @@
 
 namespace wisp {
 
-/// What a model said a number of steps ahead, frame by frame.
+/// Predictions of a model for one number of steps, per frame.
 struct PredictedOutlines {
-  int steps = 1;        ///< or kFreeRun: the simulation without noise
-  Recording recording;  ///< like the validated one, its outputs replaced by predictions in pixels and the model's
+  int steps = 1;        ///< steps ahead; kFreeRun: simulation without noise
+  Recording recording;  ///< the validated recording with outputs replaced by predictions in pixels, in the model's
                         ///< knots (attribute `knots`); NaN where none
 };
 
-/// The outcome.
+/// Result of judge_outline().
 struct OutlineJudgement {
   OutlineFigures figures;
   bool driven = false;                       ///< whether the model has inputs
   std::vector<InputAlignment> alignment;     ///< of the inputs
-  std::vector<PredictedOutlines> predicted;  ///< one a number of steps
-  Recording played;                          ///< the model with noise along the recording's inputs, over the
-                                             ///< recording's rows, in pixels at its base
-  std::optional<Fidelity> fidelity;          ///< of free play with noise; nothing where the recording is too short
-  double held_share = 0;                     ///< of steps of that play in which an output was clamped to its range
-  double self_intersection_rate = 0;         ///< of its frames in which the outline intersects itself
+  std::vector<PredictedOutlines> predicted;  ///< one per number of steps
+  Recording played;                          ///< play with noise along the recording's inputs and rows, in pixels at
+                                             ///< its base
+  std::optional<Fidelity> fidelity;          ///< fidelity of that play; empty where the recording is too short
+  double held_share = 0;                     ///< share of steps of that play with an output clamped to its range
+  double self_intersection_rate = 0;         ///< share of its frames with an outline that intersects itself
   double pixels_per_unit = 0;
   std::vector<std::string> warnings;
 };
 
 /// Validates an outline model against a recording of an outline in pixels.
-/// A recording with other knots is expressed in the model's, with a warning.
-/// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; another number of control
-/// points than the model's; another rate; an input that the recording has not; no outline in any row.
+/// A recording with other knots is converted to the model's, with a warning.
+/// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; a different number of control
+/// points; a different rate; a missing input; no outline in any row.
 Result<OutlineJudgement> judge_outline(const Model& model, const Recording& recording,
                                        const ValidationOptions& options = {}, const Progress& progress = {});
 

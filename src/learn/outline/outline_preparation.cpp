@@ -15,7 +15,7 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr int kSamples = 200;
 
-// Basis functions at even parameters: samples × control points.
+// Basis functions at equally spaced parameters: samples × control points.
 Matrix basis_table(std::span<const double> knots) {
   const auto points = static_cast<Eigen::Index>(knots.size()) - kSplineDegree - 1;
   Matrix table = Matrix::Zero(kSamples, points);
@@ -26,8 +26,8 @@ Matrix basis_table(std::span<const double> knots) {
   return table;
 }
 
-// The matrix that takes old control points to new ones: the ends as they are, because clamped curves end in their end
-// points, and the others by least squares.
+// Matrix from old to new control points: ends unchanged, since clamped curves end in their end points; the others by
+// least squares.
 Matrix change(const Matrix& from, const Matrix& to) {
   const Eigen::Index points = to.cols();
   const Matrix inner = to.middleCols(1, points - 2);
@@ -50,8 +50,7 @@ ChannelChoice channel_choice(const PreparedOutlines& prepared) {
   return {regressor_names(prepared.inputs, prepared.shape), outline_outputs(prepared.layout.points)};
 }
 
-// The outputs before all other channels, in the layout's order: one layout then fits all prepared recordings, whatever
-// columns they came with.
+// Moves the outputs before all other channels, in the layout's order, so that one layout fits all prepared recordings.
 Recording outputs_first(Recording recording, const OutlineLayout& layout) {
   std::vector<Channel> ordered;
   for (std::size_t c : layout.outputs) ordered.push_back(std::move(recording.channels[c]));
@@ -88,7 +87,7 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   return {};
 }
 
-// The same edge lies elsewhere in another colour: a flame is narrower in green than in red.
+// Warns of recordings tracked in different colours: a flame's edge is narrower in green than in red.
 void warn_of_other_colours(std::span<const Recording> recordings, PreparedOutlines& prepared) {
   const auto first = find_attribute(recordings.front(), "channel");
   for (const Recording& recording : recordings.subspan(1)) {
@@ -100,7 +99,7 @@ void warn_of_other_colours(std::span<const Recording> recordings, PreparedOutlin
   }
 }
 
-// Where the outputs of prepared recordings lie.
+// Layout of prepared recordings.
 OutlineLayout prepared_layout(const std::vector<double>& knots) {
   OutlineLayout layout{knots.size() - kSplineDegree - 1, knots, {}};
   layout.outputs.resize(2 * layout.points);
@@ -120,7 +119,7 @@ bool complete(const std::vector<const std::vector<double>*>& samples, std::size_
   return std::none_of(samples.begin(), samples.end(), [&](const auto* channel) { return std::isnan((*channel)[row]); });
 }
 
-// The row before which `count` complete rows lie.
+// Index of the row with `count` complete rows before it.
 std::size_t row_after(const Recording& recording, const ChannelChoice& channels, std::size_t count) {
   const auto samples = samples_of(recording, channels);
   std::size_t row = 0;

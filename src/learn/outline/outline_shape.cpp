@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kStrips = 1024;
 
-// Twice the signed area of a triangle: which side of the line a–b the point c is on.
+// Twice the signed area of a triangle; the sign tells on which side of the line a–b the point c is.
 double side(const OutlinePoint& a, const OutlinePoint& b, const OutlinePoint& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -41,11 +41,11 @@ struct Range {
   bool empty() const { return !(highest > lowest); }
   double middle(int strip) const { return lowest + (highest - lowest) * (strip + 0.5) / kStrips; }
 
-  // The strip in which y lies, or one next to it.
+  // Index of the strip that contains y, up to ±1 from rounding.
   int near(double y) const { return static_cast<int>((y - lowest) / (highest - lowest) * kStrips); }
 };
 
-// Where a polygon's sides cross the middle of every strip, ascending: pairs enclose what is filled.
+// Crossings of a polygon's sides with the centre line of every strip, ascending; pairs enclose filled intervals.
 class Crossings {
  public:
   Crossings(std::span<const OutlinePoint> polygon, const Range& range) : first_(kStrips + 1, 0) {
@@ -65,7 +65,7 @@ class Crossings {
   }
 
  private:
-  // A side owns its lower end and not its upper one, so that a corner on the line counts once.
+  // A side includes its lower end and excludes its upper end, so that a corner on the line counts once.
   template <class Visit>
   static void visit(std::span<const OutlinePoint> polygon, const Range& range, Visit visit) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -81,7 +81,7 @@ class Crossings {
     }
   }
 
-  std::vector<std::size_t> first_;  // of each strip in x_
+  std::vector<std::size_t> first_;  // index of each strip's first crossing in x_
   std::vector<double> x_;
 };
 

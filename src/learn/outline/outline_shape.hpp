@@ -1,6 +1,5 @@
 #pragma once
-// The shape that control points make: the outline as a polyline, its tip, and how well two filled outlines cover each
-// other.
+// Geometry of an outline: its polyline from control points, its tip, area, and overlap of two filled outlines.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +11,7 @@ namespace wisp {
 /// A point of an outline: x, y.
 using OutlinePoint = std::array<double, 2>;
 
-/// The outline curve at evenly spaced parameters, with weights that are computed once.
+/// The outline curve at equally spaced parameters, with precomputed weights.
 class OutlineCurve {
  public:
   /// Precondition: valid_knots(knots); samples >= 2.
@@ -34,14 +33,14 @@ class OutlineCurve {
   std::vector<Sample> samples_;
 };
 
-/// Points at equal steps of a polyline's own length, both ends among them: the outline as an eye has it, whatever the
-/// parameter that its control points gave it. Where the polyline has no length all are its first point.
+/// Points at equal arc lengths of a polyline, including both ends, independent of the curve's parameter. Where the
+/// polyline has no length, all are its first point.
 ///
 /// Precondition: the polyline has points; count >= 2.
 std::vector<OutlinePoint> at_equal_lengths(std::span<const OutlinePoint> polyline, std::size_t count);
 
-/// The tip of an outline: the mean of the fiftieth part of its points that is farthest from the middle of its base (its
-/// two ends). A mean, because the farthest single point jumps on a blunt tip.
+/// Tip of an outline: the mean of the 2 % of its points that are farthest from the middle of its base (its two ends). A
+/// mean, because the single farthest point jumps on a blunt tip.
 ///
 /// Precondition: the polyline has points.
 OutlinePoint tip_of(std::span<const OutlinePoint> polyline);
@@ -49,18 +48,18 @@ OutlinePoint tip_of(std::span<const OutlinePoint> polyline);
 /// Distance of the tip from the middle of the base.
 double height_of(std::span<const OutlinePoint> polyline);
 
-/// Whether the outline crosses itself: no real flame does. The closing line of the base counts.
+/// Whether the outline, closed along its base, intersects itself. No real flame does.
 bool crosses_itself(std::span<const OutlinePoint> polyline);
 
-/// Area of the closed polygon where it is filled by the even-odd rule.
+/// Area of the closed polygon filled by the even-odd rule.
 double area_of(std::span<const OutlinePoint> polygon);
 
-/// Area that a polygon goes round, where it does not cross itself: faster than area_of().
+/// Area enclosed by a polygon without self-intersections; faster than area_of().
 double enclosed_area(std::span<const OutlinePoint> polygon);
 
 /// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an
-/// area. Both are cut into 1024 horizontal strips over their common height, and each strip's intervals are exact at its
-/// middle: the error is that of a strip where a side is level, at most 1e-3, and 1e-4 on round outlines.
+/// area. Both are cut into 1024 horizontal strips over their common height, with exact intervals at each strip's
+/// centre. The error is at most 1e-3 (one strip at a horizontal side), and 1e-4 on round outlines.
 double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint> b);
 
 }  // namespace wisp

@@ -9,7 +9,7 @@
 namespace wisp {
 namespace {
 
-// The inputs' samples, one row after the other; empty where the model is driven by nothing.
+// Input samples per row; empty for a model without inputs.
 Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Recording* input) {
   std::vector<std::vector<float>> rows;
   if (input == nullptr || model.inputs.empty()) return rows;
@@ -19,14 +19,14 @@ Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Rec
     if (!channel) return Error{input->source + ": there is no input " + model.inputs[k].name};
     const auto& samples = input->channels[*channel].samples;
     for (std::size_t row = 0; row < rows.size(); ++row) {
-      // A missing sample is taken as calm: what is synthesized must have some input everywhere.
+      // A missing sample counts as calm, since every step needs an input.
       rows[row][k] = std::isnan(samples[row]) ? 0.0F : static_cast<float>(samples[row]);
     }
   }
   return rows;
 }
 
-// What is synthesized is how the thing moves while it burns; when it goes out is judged apart.
+// Removes the extinction rule: synthesis shows the burning flame, extinction is judged separately.
 Model burning(Model model) {
   model.extinction.reset();
   return model;
@@ -36,7 +36,7 @@ std::size_t warm_up_steps(const Model& model, const SynthesisOptions& options) {
   return static_cast<std::size_t>(std::ceil(options.warm_up_seconds * model.rate_hz));
 }
 
-// Steps a bank along the inputs. Row 0 acts on the first step after the warm-up.
+// Steps a bank along the inputs. Row 0 drives the first step after the warm-up.
 class Player {
  public:
   Player(Bank& bank, const std::vector<std::vector<float>>& rows, std::size_t warm_up)

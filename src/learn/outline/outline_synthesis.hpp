@@ -1,5 +1,5 @@
 #pragma once
-// What a model does when it is left to itself: recordings made by the very code that plays it in a game.
+// Synthesizes recordings by free play of a model, with the same code that plays it in a game.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace wisp {
 
-/// How to play.
+/// Options of synthesize().
 struct SynthesisOptions {
-  std::size_t rows = 0;              ///< samples to keep; 0: as many as `input` has
-  double warm_up_seconds = 10;       ///< ≥ 0, played first and thrown away, so that the start is not seen
+  std::size_t rows = 0;              ///< number of samples to keep; 0: as many as `input` has
+  double warm_up_seconds = 10;       ///< ≥ 0, played first and discarded, to remove the start's transient
   float noise = 1;                   ///< scale of the residual noise: 1 as learned, 0 none
-  std::uint64_t seed = 1;            ///< of the bank
-  const Recording* input = nullptr;  ///< its channels of the inputs' names, in the model's units, again and again from
-                                     ///< the start when it ends; null: inputs are 0
+  std::uint64_t seed = 1;            ///< seed of the bank
+  const Recording* input = nullptr;  ///< channels named like the inputs, in the model's units, repeated from the start
+                                     ///< at their end; null: inputs are 0
 };
 
-/// A synthesized recording and how often outputs were held.
+/// A synthesized recording, and the share of clamped steps.
 struct Synthesis {
-  Recording recording;    ///< one channel an output, in the model's units, one episode
-  double held_share = 0;  ///< of steps in which an output was clamped to its range, the warm-up not counted
+  Recording recording;    ///< one channel per output, in the model's units, one episode
+  double held_share = 0;  ///< share of steps with an output clamped to its range, without the warm-up
 };
 
-/// Plays a model in a bank of one.
-/// Errors: as Bank::create(); an input that the recording has not or whose samples are missing.
+/// Plays a model in a bank with one instance.
+/// Errors: as Bank::create(); an input that is missing from the recording.
 Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options);
 
 }  // namespace wisp

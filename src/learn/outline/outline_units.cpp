@@ -29,7 +29,7 @@ Result<std::vector<double>> knots_of(const Recording& recording, std::size_t poi
   return std::move(knots);
 }
 
-// The frame of one row: the middle between the first and the last control point. NaN where one is missing.
+// Frame of one row, with its origin midway between the first and the last control point. NaN where one is missing.
 OutlineFrame frame_of(const Recording& recording, const OutlineLayout& layout, std::size_t row,
                       double pixels_per_unit) {
   const auto sample = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };

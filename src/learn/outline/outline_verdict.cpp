@@ -19,7 +19,7 @@ double at_steps(const std::vector<int>& steps, const std::vector<double>& values
   return values[static_cast<std::size_t>(at)];
 }
 
-// The median channel's fit for a number of steps.
+// Median fit over channels for a number of steps.
 double typical_fit(const OutlineFigures& figures, int steps) {
   std::vector<double> fits;
   for (const OutlineChannelFigures& channel : figures.channels) {
@@ -32,13 +32,13 @@ const OutlineFigures& judged_of(const OutlineSummary& summary) {
   return summary.held_out ? *summary.held_out : summary.learned;
 }
 
-// How far a distance lies on the way from its floor to its ceiling; it abstains where those do not differ.
+// Position of a distance between its floor (0) and its ceiling (1); NaN where those do not differ.
 double share_of_way(const std::optional<Bounded>& distance) {
   if (!distance || !(distance->ceiling > distance->floor)) return kAbstains;
   return (distance->value - distance->floor) / (distance->ceiling - distance->floor);
 }
 
-// How loud it was at 1 in all of the recordings; 0 where they differ, or one does not say.
+// Loudness at 1 common to all recordings; 0 where it differs, or a recording lacks it.
 double common_one_rms(std::span<const Recording> recordings, const std::string& input) {
   double common = 0;
   for (const Recording& recording : recordings) {
@@ -71,12 +71,12 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        "neighbouring frames differ by {figure} % of what frames picked at random do, at most {limit}: the outline is "
        "more noise than movement; film it larger, sharper or at a higher rate",
        0, "noise"},
-      // Shapes at the edge of the recorded ones are clamped, which nobody sees; films whose play has no foreign shape
-      // have up to 21. What runs away is clamped in hundreds.
+      // Shapes at the edge of the recorded range are clamped invisibly: up to 21 per mille in films whose play has no
+      // foreign shape. A divergent play is clamped in hundreds.
       {1000 * trial.held_share, Bound::kAtMost, 50,
        "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1,
        "clamped"},
-      // A play should spread by 0.8 to 1.25 of the recording; two plays of a short one differ by 0.1.
+      // The spread of play should be 0.8 to 1.25 of the recording's; two plays of a short recording differ by 0.1.
       {spread, Bound::kAtLeast, 0.7,
        "playing freely it moves {figure} times as much as the recording, at least {limit}: use a steady part, --frames",
        2, "still"},

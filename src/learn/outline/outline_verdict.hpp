@@ -1,5 +1,5 @@
 #pragma once
-// What a learned outline says of itself: whether to use it, and how it was made.
+// Verdict on a learned outline, and its training record.
 
 #include <span>
 
@@ -7,11 +7,11 @@
 
 namespace wisp {
 
-/// Whether the model may be used: by what is seen of its free play, not by its fit one step ahead, which pays for
-/// stillness. With the first reason against it or a sentence in its favour.
+/// Whether the model may be used, judged by its free play, not by its one-step fit, which rewards stillness. Contains
+/// the first reason against it or a sentence in its favour.
 Usable outline_verdict(const OutlineSummary& summary, std::string* code = nullptr);
 
-/// What the model's file says of how it was made, but for a rule of extinction and the cost.
+/// The training record for the model's file, without extinction rule and cost.
 Training outline_training(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                           const OutlineSummary& summary);
 

@@ -12,20 +12,20 @@
 namespace wisp {
 namespace {
 
-// Looked back over 0.15 s, closer together where it is more recent: what blew a moment ago matters most. What blew
-// before that the dynamics carry; to match it too costs jumps, and every jump is noise that was not recorded.
+// Lags of the input that are matched, over 0.15 s and denser at recent times, which matter most. Earlier wind is in the
+// state of the dynamics; matching it too would cost jumps, each of which adds unrecorded noise.
 constexpr double kLagSeconds[] = {0, 1.0 / 60, 3.0 / 60, 5.0 / 60, 9.0 / 60};
-constexpr double kTolerance = 0.2;       // of wind 1: less jumps more often, more plays what does not fit
-constexpr double kLongestSeconds = 1.5;  // from one jump to the next: longer would repeat what was recorded
-constexpr double kCalm = 0.04;           // of wind 1: less than this does not move what stands still
-constexpr double kMargin = 0.01;  // of wind 1: below what a microphone resolves; more makes the search less sharp
+constexpr double kTolerance = 0.2;       // in wind: less jumps more often, more plays residuals that do not fit
+constexpr double kLongestSeconds = 1.5;  // maximum time between jumps, against audible repetition of the recording
+constexpr double kCalm = 0.04;           // in units of wind: less does not move a flame at rest
+constexpr double kMargin = 0.01;  // in units of wind: below a microphone's resolution; a larger one blurs the search
 constexpr double kMinSeconds = 1;
-constexpr std::size_t kCurveSamples = 60;  // of an outline that is looked at
+constexpr std::size_t kCurveSamples = 60;  // points per outline in the check for self-intersection
 constexpr double kLargestWind = 32767;
 constexpr double kLargestResidual = 127;
-constexpr std::size_t kMaxBytes = 256 * 1024;  // of rows; of longer recordings the first part of each stretch is kept
+constexpr std::size_t kMaxBytes = 256 * 1024;  // maximum size of rows; each stretch of a longer recording is cut
 
-// One row's residuals and its wind, NaN where one is missing.
+// Residuals and wind of one row, NaN where missing.
 struct Row {
   std::vector<double> residual;
   double wind = 0;
@@ -36,7 +36,7 @@ struct Row {
   }
 };
 
-// Rows one after the other, and the wind before them.
+// Consecutive rows, and the wind before them.
 struct RowStretch {
   std::vector<double> before;
   std::vector<Row> rows;
@@ -44,19 +44,19 @@ struct RowStretch {
 
 int steps_of(double seconds, double rate_hz) { return std::max(1, static_cast<int>(std::lround(seconds * rate_hz))); }
 
-// The first input with its sign; zeros where there is none.
+// Signed samples of the first input; zeros without inputs.
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
   return recording.channels[*find_channel(recording, prepared.inputs.front().name)].samples;
 }
 
-// Where wind sets in after calm. A recorded calm ends there, so that a thing that stands still in a wind that stays
-// away is not moved by a gust that it does not feel, even one within the tolerance.
+// Whether wind begins after calm. A recorded calm ends there, so that a flame at rest in lasting calm is not moved by
+// the residuals of a gust, even of one within the tolerance.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }
 
-// Adds a row to the stretches, to a new one where it does not go on from the last.
+// Appends a row to the last stretch, or to a new one where it does not continue it.
 void add_row(const std::vector<double>& wind, std::size_t row, std::size_t past, Row one,
              std::vector<RowStretch>& stretches, bool& goes_on) {
   const auto before = wind.begin() + static_cast<std::ptrdiff_t>(row);
@@ -71,7 +71,7 @@ void add_row(const std::vector<double>& wind, std::size_t row, std::size_t past,
   goes_on = true;
 }
 
-// Per row, whether its outline may be played: not where it crosses itself.
+// Flags per row: whether its outline may be played, that is, has no self-intersection.
 std::vector<bool> simple_outlines(const Recording& given, const PreparedOutlines& prepared) {
   const OutlineCurve curve(prepared.layout.knots, kCurveSamples);
   std::vector<bool> out;
@@ -82,7 +82,7 @@ std::vector<bool> simple_outlines(const Recording& given, const PreparedOutlines
   return out;
 }
 
-// Complete rows in stretches.
+// Complete rows, as stretches.
 Result<std::vector<RowStretch>> stretches_left(const OutlineDynamics& dynamics, const Recording& given,
                                                const PreparedOutlines& prepared, std::size_t past) {
   const Recording recording = moved_recording(dynamics.shape, given, prepared);
@@ -112,7 +112,7 @@ std::size_t row_count(const std::vector<RowStretch>& stretches) {
   return rows;
 }
 
-// Keeps the same share of every stretch.
+// Keeps the first part of every stretch, the same share of each.
 void keep_at_most(std::vector<RowStretch>& stretches, std::size_t rows) {
   const auto all = static_cast<double>(row_count(stretches));
   if (all <= static_cast<double>(rows)) return;
@@ -170,7 +170,7 @@ std::vector<int> lags_of(double rate_hz) {
   return lags;
 }
 
-// Antisymmetric components change their sign.
+// Signs of the components in the mirror image: −1 for antisymmetric ones.
 std::vector<int> mirror_image(const ShapeComponents& shape) {
   std::vector<int> out;
   for (int k = 1; k <= static_cast<int>(shape.count()); ++k) {
@@ -200,7 +200,7 @@ Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, 
                  ": has no two complete rows with their past after each other; record longer"};
   }
   if (driven && static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return ResampledResiduals{};
-  if (driven) out.toward = 3;  // after the input's size, its root and its square
+  if (driven) out.toward = 3;  // index of the signed input, after its size, square root and square
   if (driven) out.mirror = mirror_image(dynamics.shape);
   if (driven) out.tolerance = kTolerance;
   if (driven) out.margin = kMargin;

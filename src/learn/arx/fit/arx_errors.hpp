@@ -1,5 +1,5 @@
 #pragma once
-// One-step prediction errors of an ARX model, and how they add up over several steps.
+// One-step prediction errors of an ARX model, and how they accumulate over several steps.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace wisp {
 
-/// The channels of `recordings` about the model's own operating point. Errors: as find_signals, and channels that do
-/// not fit the model.
+/// Channels of `recordings` as deviations from the model's operating point. Errors: those of find_signals, and channels
+/// that do not fit the model.
 Result<Signals> signals_of_model(const ArxModel& model, std::span<const Recording> recordings,
                                  const ChannelChoice& channels);
 
-/// The columns that the model uses.
+/// Layout of the lagged channels that the model uses.
 LagLayout layout_of_model(const ArxModel& model);
 
-/// A(q) y − B(q) u − c on deviations from the operating point.
+/// The prediction-error filter A(q) y − B(q) u − c, on deviations from the operating point.
 class ErrorFilter {
  public:
   /// Preconditions: `model` and `signals` outlive the filter and fit each other; scales are 1.
@@ -28,7 +28,7 @@ class ErrorFilter {
 
   /// Writes the errors of the rows to `out`, one column an output.
   ///
-  /// Preconditions: the rows' history is there, rows.begin >= model.orders.history(); out has as many rows.
+  /// Preconditions: all history is present, rows.begin >= model.orders.history(); out has one row per row of `rows`.
   void errors(const RowRun& rows, Eigen::Ref<Eigen::MatrixXd> out);
 
  private:
@@ -39,7 +39,7 @@ class ErrorFilter {
 
   const ArxModel& model_;
   ScaledBlock block_;
-  std::vector<Row> rows_;  // per output
+  std::vector<Row> rows_;  // one row of coefficients per output
   std::vector<const double*> series_;
 };
 

@@ -16,7 +16,7 @@
 namespace wisp {
 namespace {
 
-// The kernel's prior of one output's coefficients; `products` are of all columns of the layout.
+// Prior precision factor of one output's coefficients; `products` has the products of all columns of the layout.
 Eigen::MatrixXd prior_of(const SharedRows& rows, const ArxDesign& design, const Eigen::MatrixXd& products) {
   const int target = design.layout.target(rows.outputs.front());
   std::vector<arx::KernelBlock> blocks;
@@ -52,7 +52,7 @@ SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scal
   return problem;
 }
 
-// Number of coefficients that the data determine where a kernel is: the trace of (XᵀX + FᵀF)⁻¹ XᵀX.
+// Effective number of coefficients, the trace of (XᵀX + FᵀF)⁻¹ XᵀX; without a kernel it is their number.
 double effective_number(const SharedProblem& problem, const SharedSolution& solution, const Eigen::MatrixXd& products) {
   const auto size = static_cast<double>(problem.columns.size());
   if (problem.prior.size() == 0) return size;
@@ -78,7 +78,7 @@ Eigen::MatrixXd residuals_of(const Eigen::MatrixXd& triangle, const ArxDesign& d
 
 struct ResidualProducts {
   Eigen::MatrixXd gram;  // ny × ny: Σ r_i r_j
-  GroupThetas gradient;  // Σ x r, laid out as the coefficients
+  GroupThetas gradient;  // Σ x r, laid out like the coefficients
 };
 
 // One pass over the data with given coefficients. Residuals are computed row by row, so that their products do not

@@ -17,8 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Least squares under Cθ = d, by Lagrange: θ − P Cᵀ(C P Cᵀ)⁻¹(Cθ − d). A row of C says that A_ii is zero at the pole,
-// the next that its derivative is.
+// Least squares under the constraint Cθ = d, by Lagrange multipliers: θ − P Cᵀ(C P Cᵀ)⁻¹(Cθ − d). The first row of C
+// makes A_ii zero at the pole, the second its derivative.
 void hold_integrators(const ArxOptions& options, const ArxDesign& design, ArxEstimate& estimate) {
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     const SharedRows& rows = design.groups[g];
@@ -43,17 +43,17 @@ void hold_integrators(const ArxOptions& options, const ArxDesign& design, ArxEst
   estimate.residual_gram = estimate.residual_gram_at(estimate.thetas());
 }
 
-// Fits of free simulation over the rows learned from, in double precision or as the stored model is played.
+// Fit percentages of free simulation over the training rows, in double precision or as the stored model is played.
 std::vector<double> free_run_fits(const ArxModel& model, const Signals& signals, bool as_played) {
   const FreeRunStart start{InitialState::kMeasured, model.orders.history(), as_played};
   return free_run_tally(model, signals, start).figures(kFreeRun).fit_percent;
 }
 
-// Of an unstable estimate: poles drawn in beyond what stability needs, as far as free simulation of the rows learned
-// from gains by it. At the edge of stability what is left of a wrong pole rings for ever.
+// For an unstable estimate: moves the poles further inwards than stability needs, as long as that improves free
+// simulation of the training rows. Near the stability limit, errors in a pole ring for a long time.
 ArxFit drawn_in(FitFacts facts, const ArxDesign& design, const ArxEstimate& estimate, const Signals& judged,
                 ArxFit fit) {
-  constexpr double kNothing = -100, kGain = 1;  // percent, of the outputs together
+  constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and gain of the sum that counts
   const auto sum = [&](const ArxFit& one) {
     double all = 0;
     for (double percent : free_run_fits(one.model, judged, false)) all += std::max(percent, kNothing);

@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-// ln det by way of correlations, so that units do not over- or underflow it.
+// ln det computed from correlations, so that the channels' units cause no overflow or underflow.
 double log_determinant(std::span<const double> covariance, int outputs) {
   const auto at = [&](int i, int j) { return covariance[static_cast<std::size_t>(i) * outputs + j]; };
   if (outputs == 1) return std::log(at(0, 0));
@@ -29,7 +29,7 @@ double scale_of(const FitFacts& facts, const LaggedChannel& column) {
   return column.channel == kConstantChannel ? 1.0 : facts.scale[column.channel];
 }
 
-// A's coefficients stand on the left side of the equation.
+// Sign of a coefficient: −1 for those of A, which are on the left side of the equation.
 double sign_of(const FitFacts& facts, const LaggedChannel& column) {
   return column.channel != kConstantChannel && column.channel < facts.outputs ? -1.0 : 1.0;
 }
@@ -73,7 +73,7 @@ GroupThetas thetas_of(const FitFacts& facts, const ArxDesign& design, const ArxM
   return all;
 }
 
-// (XᵀX)⁻¹ of every output row, with A's signs.
+// (XᵀX)⁻¹ of every output row, with the signs of A applied.
 std::vector<Eigen::MatrixXd> inverses(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate) {
   std::vector<Eigen::MatrixXd> all(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
@@ -89,7 +89,7 @@ std::vector<Eigen::MatrixXd> inverses(const FitFacts& facts, const ArxDesign& de
   return all;
 }
 
-// From scaled units to the data's.
+// Converts the model from scaled units to the data's units.
 void to_units(const FitFacts& facts, const ArxDesign& design, ArxModel& model) {
   for (const SharedRows& rows : design.groups) {
     for (int output : rows.outputs) {
@@ -104,7 +104,7 @@ void to_units(const FitFacts& facts, const ArxDesign& design, ArxModel& model) {
   model.input_mean.assign(facts.offset.begin() + facts.outputs, facts.offset.end());
 }
 
-// Standard error of an output's coefficient by the unconstrained estimate, scaled: s² (XᵀX)⁻¹ with s² = Σr²/(n − d).
+// Scaled standard error of a coefficient in the unconstrained estimate: s² (XᵀX)⁻¹ with s² = Σr²/(n − d).
 double scaled_error(const FitFacts& facts, const ArxEstimate& estimate, std::size_t group, int output, std::size_t p) {
   const auto index = static_cast<Eigen::Index>(p);
   const double freedom = static_cast<double>(facts.rows) - estimate.effective[group];
@@ -173,14 +173,14 @@ void write_noise(const FitFacts& facts, const ArxSummary& summary, ArxModel& mod
   }
 }
 
-// Where a row's coefficients begin in the joint covariance.
+// Index of each row's first coefficient in the joint covariance.
 std::vector<Eigen::Index> row_starts(const ArxModel& model) {
   std::vector<Eigen::Index> starts{0};
   for (const auto& row : model.theta) starts.push_back(starts.back() + static_cast<Eigen::Index>(row.size()));
   return starts;
 }
 
-// Factors from scaled units without A's sign to the model's coefficients.
+// Factors from scaled coefficients without A's sign to the model's coefficients.
 Eigen::VectorXd factors(const FitFacts& facts, const ArxDesign& design, const SharedRows& rows, int output,
                         Eigen::Index size) {
   Eigen::VectorXd out(size);
@@ -191,8 +191,8 @@ Eigen::VectorXd factors(const FitFacts& facts, const ArxDesign& design, const Sh
   return out;
 }
 
-// cov(θ_i, θ_j) = s_ij P_i X_iᵀX_j P_j with P = (XᵀX)⁻¹ and s the covariance of the noise; under a kernel a row's own
-// is that after the data, s_ii P_i, which counts what the prior may have wrong.
+// cov(θ_i, θ_j) = s_ij P_i X_iᵀX_j P_j with P = (XᵀX)⁻¹ and s the noise covariance. Under a kernel a row's own block is
+// the posterior covariance s_ii P_i, which includes the bias of the prior.
 std::vector<double> joint_covariance(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate,
                                      const ArxModel& model) {
   const auto starts = row_starts(model);
@@ -253,7 +253,7 @@ void name_rank_problems(const FitFacts& facts, const ArxDesign& design, const Ar
   }
 }
 
-// The model is returned as single precision will see it: a repaired one is checked, and drawn in further, on that.
+// Stability is checked, and restored where needed, on coefficients rounded to single precision, as they are stored.
 void settle_stability(const FitFacts& facts, const std::vector<Eigen::MatrixXd>& inverse, ArxModel& scaled,
                       ArxStability& stable) {
   stable.estimated = stable.radius = spectral_radius(scaled);
@@ -265,7 +265,7 @@ void settle_stability(const FitFacts& facts, const std::vector<Eigen::MatrixXd>&
   }
 }
 
-// The largest difference of two models' coefficients in standard errors, all in scaled units.
+// Largest difference between two models' coefficients, in standard errors, all in scaled units.
 double largest_move(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate, const ArxModel& before,
                     const ArxModel& after) {
   double largest = 0;
@@ -290,7 +290,7 @@ double loss_factor(const Eigen::MatrixXd& with, const Eigen::MatrixXd& without) 
 
 std::string percent(double value) { return value > -1000 ? number_text(value, 3) + " %" : "nothing: it diverges"; }
 
-// A one-step fit that promises this much more than free simulation keeps hides the model's failure.
+// Percent. A one-step fit above kPromise with a free-run fit below kKept hides the model's failure.
 constexpr double kPromise = 80, kKept = 60;
 
 }  // namespace

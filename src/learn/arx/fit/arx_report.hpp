@@ -1,5 +1,5 @@
 #pragma once
-// From an estimate in scaled units to a model in the data's units and a summary of how good it is.
+// Converts an estimate in scaled units to a model in the data's units, with a summary of its quality.
 //
 // Source: L. Ljung, System Identification (2nd ed.), section 16.4; C. Hurvich and C.-L. Tsai, Biometrika 76 (1989), for
 // the correction of AIC to small samples.
@@ -15,7 +15,7 @@
 
 namespace wisp {
 
-/// Everything about a fit but its estimate.
+/// All facts about a fit except its estimate.
 struct FitFacts {
   ArxOptions options;
   int outputs = 0;
@@ -38,21 +38,21 @@ struct Criteria {
   double bic = 0;        ///< n ln det Λ + c ln n
 };
 
-/// Of residuals with covariance Λ (ny × ny, row-major) over n rows.
+/// Information criteria of residuals with covariance Λ (ny × ny, row-major) over n rows.
 Criteria criteria_of(std::span<const double> covariance, int outputs, double rows, double coefficients);
 
-/// Of a channel's scale, which is 0 where the channel is constant.
+/// Inverse of a channel's scale; 0 for the scale 0 of a constant channel.
 inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
 
 /// The model, stable unless the options say otherwise, and its summary; `usable` is judged by judge_fit.
 ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);
 
-/// Warns of outputs whose one-step fit hides that free simulation fails. `outputs` are their names.
+/// Warns of outputs with a good one-step fit but a poor free-run fit. `outputs` are their names.
 ///
 /// Precondition: the summary has both fits, or no free_run_fit_percent.
 void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary);
 
-/// Writes warnings and the verdict, from the summary's figures.
+/// Derives warnings and the verdict from the summary's figures.
 void judge_fit(const FitFacts& facts, ArxSummary& summary);
 
 }  // namespace wisp

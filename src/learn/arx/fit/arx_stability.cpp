@@ -26,7 +26,7 @@ Eigen::MatrixXd companion_of(const ArxModel& model, const std::vector<int>& outp
 
 namespace {
 
-// Scales one output's A, and lets B and the constant follow to where they are best for it.
+// Scales the poles of one output's A; B and the constant move to their conditional optimum for that A.
 void scale_row(const Eigen::MatrixXd& inverse, double factor, int output, ArxModel& model) {
   std::vector<double>& theta = model.theta[output];
   std::vector<double> moved;

@@ -12,20 +12,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Logarithms are searched from steps of a factor of seven down to a tenth: the likelihood is flat at its top.
+// Step sizes of the search, in natural logarithms (factors from 7 down to 1.1): the likelihood is flat at its maximum.
 constexpr double kFirstStep = 2;
 constexpr double kLastStep = 0.1;
 
-// No difference is known better than to this share of the first coefficient's variance: it would be beyond the digits.
+// Lower bound of a difference's variance, as a share of the first coefficient's: below it, digits are lost.
 constexpr double kMinShare = 1e-10;
 
-// Of a channel: ln of the first coefficient's variance over that of the noise, and ln(λ/(1 − λ)).
+// Hyperparameters of a channel: ln(variance of the first coefficient / noise variance), and ln(λ/(1 − λ)).
 struct Hyper {
   double log_scale;
   double log_odds;
 };
 
-// Standard deviations of the differences θ_j − θ_{j+1}, the last one's of θ_n itself.
+// Standard deviations of the differences θ_j − θ_{j+1}; the last is that of θ_n itself.
 void write_deviations(const KernelBlock& block, const Hyper& hyper, VectorXd& sd) {
   const double decay = 1 / (1 + std::exp(-hyper.log_odds));
   double power = 1;
@@ -36,7 +36,7 @@ void write_deviations(const KernelBlock& block, const Hyper& hyper, VectorXd& sd
   }
 }
 
-// The regression on the differences: θ_j is the sum of those from j on.
+// Gram matrix of the regression on the differences: θ_j is the sum of the differences from j on.
 MatrixXd on_differences(const MatrixXd& gram, const std::vector<KernelBlock>& blocks) {
   MatrixXd out = gram;
   for (const KernelBlock& block : blocks) {
@@ -65,7 +65,7 @@ class MarginalLikelihood {
     return sd;
   }
 
-  /// −2 ln of it, but for a constant; columns without a prior are taken as known to their estimate.
+  /// −2 ln of the likelihood up to a constant; columns without a prior count as known exactly from their estimate.
   double operator()(const std::vector<Hyper>& hyper) const {
     const VectorXd sd = deviations(hyper);
     MatrixXd inner = sd.asDiagonal() * gram_ * sd.asDiagonal();
@@ -87,8 +87,8 @@ class MarginalLikelihood {
   VectorXd free_;
 };
 
-// The hyperparameters from which the search begins: a prior under which the output has the variance that was measured,
-// and whose response decays over some ten lags.
+// Initial hyperparameters of the search: a prior under which the output has the measured variance and the response
+// decays over about ten lags.
 std::vector<Hyper> first_guess(const RegressionProducts& products, const std::vector<KernelBlock>& blocks) {
   std::vector<Hyper> guess;
   for (const KernelBlock& block : blocks) {

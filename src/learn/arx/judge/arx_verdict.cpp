@@ -9,10 +9,10 @@
 namespace wisp::arx {
 namespace {
 
-// Beyond the sum of what chance allows.
+// A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
 constexpr double kTimesBound = 2.5;
 
-// Below this a fit's digits say no more than that the simulation diverges.
+// Percent of fit below which the simulation is reported to diverge, without a figure.
 constexpr double kDiverges = -1000;
 
 std::string fit_text(double percent) {
@@ -51,7 +51,7 @@ std::string acts_at_once(const VerdictEvidence& evidence) {
   return "";
 }
 
-// Whether a remark explains a model that simulates badly: what the model already minds does not.
+// Whether a remark explains a poor simulation: not where the model already accounts for the remark.
 bool explains(const Remark& remark, const VerdictEvidence& evidence) {
   if (remark.kind >= RemarkKind::kClock) return false;
   const auto place = [&](const std::vector<std::string>& names) {
@@ -70,7 +70,7 @@ bool explains(const Remark& remark, const VerdictEvidence& evidence) {
   return true;
 }
 
-// The cause that the recordings show, and its cure.
+// The cause of a poor simulation that the recordings show, and its remedy.
 std::string cause_in(const VerdictEvidence& evidence) {
   if (evidence.remarks) {
     for (const Remark& one : evidence.remarks()) {
@@ -93,7 +93,7 @@ std::string simulates_badly(const VerdictEvidence& evidence, const ArxSummary& s
          ", and at least " + number_text(kMinSimulationFit, 3) + " % is needed" + cause_in(evidence);
 }
 
-// Single precision is what plays: where coefficients cancel it loses what double precision has.
+// The stored model is played in single precision; where coefficients cancel it loses accuracy against double.
 std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& summary) {
   for (std::size_t i = 0; i < summary.played_fit_percent.size(); ++i) {
     const double lost = summary.free_run_fit_percent[i] - summary.played_fit_percent[i];
@@ -105,7 +105,7 @@ std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& s
   return "";
 }
 
-// Inputs that tell the same share their coefficients by chance, however well the model fits.
+// Inputs that carry the same information share their coefficients arbitrarily, however well the model fits.
 std::string is_redundant(const VerdictEvidence& evidence) {
   return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }

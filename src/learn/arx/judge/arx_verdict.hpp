@@ -1,6 +1,6 @@
 #pragma once
-// Whether an ARX model may be used, beyond that it is stable and determined: what it predicts or simulates, from how
-// much, and what in the recordings is the cause where it does not.
+// Verdict whether a stable, determined ARX model is usable: how well it predicts or simulates, from how many rows, and
+// which property of the recordings is the cause where it fails.
 
 #include <functional>
 #include <span>
@@ -12,44 +12,43 @@
 
 namespace wisp::arx {
 
-/// The least fit of free simulation of an output over held-out rows, in percent, that a model with inputs is usable
-/// with.
+/// Percent: minimum free-run fit of an output over held-out rows for a model with inputs to be usable.
 inline constexpr double kMinSimulationFit = 40;
 
-/// The least share of the squared error of the better of the last sample and the mean by which a model without inputs
-/// must be better, in percent.
+/// Percent: minimum reduction of the squared error, against the better of last sample and mean as predictor, for a
+/// model without inputs to be usable.
 inline constexpr double kMinSkill = 5;
 
-/// The fewest rows for every coefficient of an output.
+/// Minimum number of rows per coefficient of an output.
 inline constexpr double kMinRowsACoefficient = 10;
 
-/// The most standard errors by which a repair of its stability may move a coefficient.
+/// Maximum change of a coefficient by stabilisation, in standard errors.
 inline constexpr double kMaxMoved = 10;
 
-/// A residual that correlates at least so with the input of its own sample: the input acts without delay.
+/// Minimum correlation of a residual with the input of its own sample that shows an input acting without delay.
 inline constexpr double kSameSample = 0.25;
 
-/// The most percent of fit that the stored model, in single precision, may lose against the estimate.
+/// Percent: maximum loss of fit of the stored single-precision model against the estimate.
 inline constexpr double kMaxLostInPlay = 1;
 
-/// Mean squared change of every output from one sample to the next; NaN where there is none.
+/// Mean squared difference of adjacent samples of every output; NaN where there are none.
 std::vector<double> persistence_errors(std::span<const Recording> recordings, const ChannelChoice& channels);
 
-/// What a verdict looks at beside the fit's summary.
+/// Evidence for a verdict besides the fit's summary.
 struct VerdictEvidence {
   const ChannelChoice& channels;
   const ArxOrders& orders;
   std::vector<double> persistence{};               ///< per output, or empty where unknown
   const ResidualTests* least_squares{};            ///< residuals of least squares, or none
-  std::vector<double> held_out{};                  ///< as held_out_fits(); empty: the rows learned from are judged
+  std::vector<double> held_out{};                  ///< held_out_fits(); empty: the fits of the training rows are judged
   std::vector<int> integrators{};                  ///< as ArxOptions::integrators
-  std::vector<Remark> redundant{};                 ///< as redundant_channels() of the inputs
-  std::function<std::vector<Remark>()> remarks{};  ///< on the recordings, asked where a cause is sought
+  std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
+  std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
 };
 
-/// Turns a summary that is usable so far into one that is not, with the reason, where one of the limits above is not
-/// kept. A model that simulates badly is told of with the first remark that explains it and the cure of that. What is
-/// usable stays so with the figure that says how well.
+/// Marks a summary that is usable so far as not usable, with the reason, where one of the limits above is exceeded. For
+/// a model that simulates badly, the first remark that explains it is named with its remedy. A model that remains
+/// usable gets the figure of its quality.
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);
 
 }  // namespace wisp::arx

@@ -11,17 +11,17 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kMaxError = 1e6;  // standard deviations: what diverges is as bad as can be, and can be added
+constexpr double kMaxError = 1e6;  // standard deviations: bounds errors that diverge, so that sums stay finite
 
-// One output over all recordings, NaN where it is not measured or not simulated.
+// Measured samples and simulation errors of one output over all recordings; NaN where missing.
 struct Series {
   std::vector<double> measured;
   std::vector<double> error;
 };
 
-// Its standard deviation; 0 where all that moves is rounding. No unit is too small to be squared.
+// Standard deviation; 0 where the variation is rounding. Samples are normalised first, so squares never underflow.
 double deviation_of(std::vector<double> measured) {
-  constexpr double kStill = 1e-9;  // of its size
+  constexpr double kStill = 1e-9;  // share of the mean
   std::erase_if(measured, [](double y) { return std::isnan(y); });
   const double level = mean(measured);
   double most = 0;
@@ -31,7 +31,7 @@ double deviation_of(std::vector<double> measured) {
   return most * deviation(measured);
 }
 
-// Mean squared error of one output in every part.
+// Mean squared error of one output in each of kParts parts.
 Eigen::VectorXd parts_of(const Series& one) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(kParts), rows = sum;
   const double deviation = deviation_of(one.measured);

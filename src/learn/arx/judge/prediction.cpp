@@ -70,7 +70,7 @@ class StepErrors {
   Eigen::MatrixXd sum_;
 };
 
-// The errors of predictions of one finite number of steps.
+// Errors of predictions for one finite number of steps.
 Tally steps_tally(const ArxModel& model, const Signals& signals, int steps, int first_sample) {
   Tally tally(signals.outputs);
   StepErrors errors(model, signals, steps);
@@ -181,7 +181,7 @@ std::vector<std::vector<double>> prediction_sd(const ArxModel& model, std::span<
 
 namespace {
 
-// Moves the rows without missing samples to the front. Returns how many they are.
+// Moves the rows without missing samples to the front. Returns their number.
 Eigen::Index drop_missing(Eigen::Index rows, Eigen::MatrixXd& measured, Eigen::MatrixXd& errors) {
   if (!errors.topRows(rows).hasNaN()) return rows;
   Eigen::Index count = 0;
@@ -252,7 +252,7 @@ Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRu
 
 namespace {
 
-// The initial state is estimated over at most so many rows: a stable model has forgotten it long before.
+// Maximum number of rows for estimating the initial state: a stable model has forgotten it by then.
 constexpr std::size_t kRowsForInitialState = 4096;
 
 // Outputs over time, row after row: `memory` rows of the past, then the simulated ones.
@@ -277,7 +277,7 @@ class Runner {
           feedback_[i].push_back({-back, -a[l]});
         }
       }
-      // The latest sample last: it is the one that the processor has to wait for.
+      // Latest sample last: the sum depends on it, so the processor can add the others first.
       std::sort(feedback_[i].begin(), feedback_[i].end(), [](const Tap& a, const Tap& b) { return a.back < b.back; });
     }
   }
@@ -302,7 +302,7 @@ class Runner {
     }
   }
 
-  /// Adds the outputs' own past to rows that hold the forced part.
+  /// Adds the contribution of the outputs' own past to rows that hold the forced part.
   template <class Number>
   void feed_back(Series& series) const {
     const std::size_t ny = outputs();
@@ -315,7 +315,7 @@ class Runner {
     }
   }
 
-  /// Whether the outputs before `row` that the model remembers are all measured.
+  /// Whether all outputs in the model's memory before `row` are measured.
   bool past_is_measured(std::size_t row) const {
     for (std::size_t i = 0; i < outputs(); ++i) {
       for (std::size_t lag = 1; lag <= memory_; ++lag) {
@@ -377,7 +377,7 @@ class Runner {
   std::vector<std::vector<Tap>> feedback_;  // per output
 };
 
-// Where a simulation that reaches `end` may start, or `end`.
+// First row at which a simulation that reaches `end` may start; `end` where there is none.
 std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, InitialState initial) {
   if (initial != InitialState::kMeasured) return begin;
   while (begin < end && !runner.past_is_measured(begin)) ++begin;

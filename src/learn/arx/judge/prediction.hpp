@@ -1,5 +1,5 @@
 #pragma once
-// What an ARX model says about a recording: k steps ahead from its measured past, or from the input alone.
+// Predictions of a recording by an ARX model: k steps ahead from its measured past, or simulated from the input alone.
 //
 // Source: L. Ljung, System Identification (2nd ed.), section 3.2 (k-step prediction), 16.4 (fit); J_k as in
 // L.-M. Reissell and D. K. Pai (2001), section 3.4. A k-step prediction of y(t) uses outputs up to y(t−k) and all
@@ -25,27 +25,27 @@ namespace wisp {
 /// Takes simulated deviations of all outputs, row after row, from row `first` of the recording on.
 using SimulatedRows = std::function<void(std::size_t first, std::size_t rows, const double* values)>;
 
-/// Where simulations start.
+/// Start of a simulation.
 struct FreeRunStart {
   InitialState initial = InitialState::kMeasured;
   int first_sample = 0;    ///< first row of an episode, at least the model's history
-  bool as_played = false;  ///< in single precision, as run/ steps the stored model
+  bool as_played = false;  ///< single precision, as run/ steps the stored model
 };
 
-/// Simulates one recording block by block. Every episode starts anew, and so does every stretch after a gap in the
-/// inputs. Rows that cannot be simulated are not visited.
+/// Simulates one recording block by block. Simulation restarts at every episode and after every gap in the inputs. Rows
+/// that cannot be simulated are not visited.
 ///
 /// Precondition: the signals' offsets are the model's operating point.
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit);
 
-/// How to predict.
+/// Options of predict.
 struct PredictOptions {
   int steps = 1;                                   ///< 1 … 100000, or kFreeRun
-  InitialState initial = InitialState::kMeasured;  ///< for kFreeRun
+  InitialState initial = InitialState::kMeasured;  ///< initial state of a free simulation (kFreeRun)
 };
 
-/// Predicts all rows of a recording, every episode apart.
+/// Predicts all rows of a recording; history never crosses episodes.
 /// Returns one series an output, in its own unit, as long as the recording; NaN where there is no prediction: in the
 /// first rows of an episode (longest lag + steps − 1 of them; for kFreeRun the longest lag), and where a sample that
 /// the prediction needs is missing. A free simulation needs inputs only and starts again after a gap in them. Errors: a
@@ -53,16 +53,16 @@ struct PredictOptions {
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options = {});
 
-/// How far predictions of a model are from recordings.
+/// Accuracy of a model's predictions over recordings.
 struct PredictionFigures {
-  int steps = 1;                    ///< or kFreeRun
+  int steps = 1;                    ///< steps ahead, or kFreeRun
   std::size_t rows = 0;             ///< rows that were predicted and measured
-  std::vector<double> mean_square;  ///< of the error, per output, its unit²
+  std::vector<double> mean_square;  ///< mean squared error per output, its unit²
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over those rows, per output; 0 where y is constant
   std::vector<double> j;  ///< J_k: mean size of the error, per output
 };
 
-/// Which figures.
+/// Options of prediction_figures.
 struct FigureOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};
   InitialState initial = InitialState::kMeasured;
@@ -70,30 +70,30 @@ struct FigureOptions {
                                     ///< unset: the model's history
 };
 
-/// The error of predictions over all recordings together, for every number of steps.
+/// Prediction errors over all recordings together, for each number of steps.
 /// Errors: as predict, and where nothing can be predicted.
 Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
                                                           const ChannelChoice& channels,
                                                           const FigureOptions& options = {});
 
-/// Standard deviations of k-step prediction errors for k = 1 … steps, by the model's own noise: per output, then per k.
-/// ±1.96 of them around a prediction is its 95 % interval (for kFreeRun take steps large enough that they settle).
+/// Standard deviations of k-step prediction errors for k = 1 … steps, from the model's own noise: [output][k − 1]. A
+/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take enough steps that they settle).
 /// `noise_covariance` is ny × ny, row-major (ArxSummary has it); empty: the model's own residual noise.
 ///
 /// Precondition: steps >= 1.
 std::vector<std::vector<double>> prediction_sd(const ArxModel& model, std::span<const double> noise_covariance,
                                                int steps);
 
-/// Sums over the rows for one number of steps.
+/// Sums of errors over the rows for one number of steps.
 class Tally {
  public:
-  /// `group`: consecutive outputs whose error is one vector.
+  /// `group`: number of consecutive outputs whose error is treated as one vector.
   explicit Tally(int outputs, int group = 1)
       : group_(group), square_(outputs), y_(outputs), y_square_(outputs), norm_(outputs / group) {}
 
   std::size_t rows() const { return rows_; }
 
-  /// One column an output, one row a time; none may be NaN.
+  /// Adds errors: one column per output, one row per sample; none may be NaN.
   void add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors);
 
   /// Adds measured deviations of output i.
@@ -120,7 +120,7 @@ class Tally {
 /// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
 Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start);
 
-/// What prediction_figures computes.
+/// Computes the figures of prediction_figures.
 Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
                                                   const FigureOptions& options);
 

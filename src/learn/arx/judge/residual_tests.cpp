@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Residuals and inputs of one stretch without gaps, one column a series.
+// Residuals and inputs of one gap-free stretch, one column per series.
 struct Stretch {
   MatrixXd residual;
   MatrixXd input;
@@ -36,13 +36,13 @@ std::vector<Stretch> stretches_of(const ArxModel& model, const Signals& signals)
       const double* samples = signals.samples[run.recording][signals.outputs + k].data() + run.begin;
       stretch.input.col(k) = Eigen::Map<const VectorXd>(samples, rows);
     }
-    // A sample of an input that no coefficient uses may be missing: it tells nothing.
+    // A sample of an input that no coefficient uses may be missing: 0 takes its place.
     stretch.input = stretch.input.array().isNaN().select(0.0, stretch.input);
   }
   return all;
 }
 
-// Both are tested about their means over all rows.
+// Subtracts from a series its mean over all rows; both tests are about the means.
 void centre(std::vector<Stretch>& stretches, MatrixXd Stretch::*series) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero((stretches.front().*series).cols());
   Index rows = 0;
@@ -94,7 +94,7 @@ double variance_of(const Signals& signals, int channel) {
 }
 
 // Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of
-// that output's variance which the residual drives. All of it without inputs, and little where an input moves the
+// that output's variance which the residual drives. That share is 1 without inputs, and small where an input drives the
 // output.
 double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
   constexpr int kSteps = 400;

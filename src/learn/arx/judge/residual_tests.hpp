@@ -1,5 +1,5 @@
 #pragma once
-// Is anything left to model? Tests on what a model's one-step predictions leave.
+// Residual tests: whiteness, and independence of the inputs.
 //
 // Source: L. Ljung, System Identification (2nd ed.), section 16.6 (whiteness; independence of past inputs); G. Ljung
 // and G. Box, Biometrika 65 (1978), for the whiteness statistic.
@@ -15,30 +15,29 @@
 
 namespace wisp {
 
-/// How to test.
+/// Options of test_residuals.
 struct ResidualTestOptions {
   int lags = 25;                 ///< autocorrelations and cross-correlations over 1 … lags, 1 to 10000
-  bool learned_from_it = false;  ///< the model was learned from these recordings: its coefficients have taken degrees
-                                 ///< of freedom away
+  bool learned_from_it = false;  ///< the recordings are the training data: the fit has taken degrees of freedom
 };
 
-/// Lags of the tests in a report.
+/// Number of lags of the tests in a report.
 inline constexpr int kReportedLags = 20;
 
-/// Whether one output's residual is white.
+/// Whiteness test of one output's residual.
 struct Whiteness {
   std::vector<double> correlation;  ///< r(1) … r(lags)
   double bound = 0;                 ///< 1.96/√n: 95 % of the correlations of a white residual lie within
   double statistic = 0;             ///< Ljung and Box's Q
-  double p = 1;                     ///< probability of a Q as large where the residual is white
+  double p = 1;                     ///< probability of a Q at least this large for a white residual
 };
 
-/// Whether one output's residual is independent of one input's past.
+/// Test that one output's residual is independent of one input's past.
 struct Independence {
-  std::vector<double> correlation;  ///< of residual(t) and input(t − lag), lag −lags … lags: 2·lags + 1 values
-  double bound = 0;                 ///< 95 % of these lie within where they are independent, by the colour of both
-  double statistic = 0;             ///< over lags nk … nk + lags
-  double p = 1;                     ///< probability of a statistic as large where they are independent
+  std::vector<double> correlation;  ///< between residual(t) and input(t − lag), lag −lags … lags: 2·lags + 1 values
+  double bound = 0;                 ///< 95 % bound under independence, from the autocorrelation of both series
+  double statistic = 0;             ///< test statistic over lags nk … nk + lags
+  double p = 1;                     ///< probability of a statistic at least this large under independence
 };
 
 struct ResidualTests {

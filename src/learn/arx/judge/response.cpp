@@ -21,7 +21,7 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-// A and B at q⁻¹ = x.
+// A(q) evaluated at q⁻¹ = x.
 MatrixXcd a_at(const ArxModel& model, Complex x) {
   const int ny = model.orders.outputs();
   MatrixXcd value = MatrixXcd::Identity(ny, ny);
@@ -80,7 +80,7 @@ std::vector<double> numerator(const ArxModel& model, int output, int input) {
   return coefficients;
 }
 
-// Coefficients that are zero but for rounding are taken off both ends.
+// Removes leading and trailing coefficients that are zero up to rounding.
 void trim(std::vector<double>& polynomial) {
   double largest = 0;
   for (double c : polynomial) largest = std::max(largest, std::abs(c));
@@ -99,7 +99,7 @@ std::vector<Complex> sorted(const VectorXcd& values) {
   return out;
 }
 
-// Where each row's coefficients begin among those of all rows.
+// Index of each row's first coefficient among those of all rows.
 std::vector<Index> row_starts(const ArxModel& model) {
   std::vector<Index> starts{0};
   for (const auto& row : model.theta) starts.push_back(starts.back() + static_cast<Index>(row.size()));
@@ -150,8 +150,8 @@ VectorXd delayed(const VectorXd& series, Index samples) {
   return out;
 }
 
-// ∂ step / ∂ θ, samples × d_total: a coefficient of A passes −(step of its output), one of B the step itself, delayed
-// and through the noise's response.
+// ∂ step / ∂ θ, samples × d_total: a coefficient of A gives −(step of its output), one of B the step itself, each
+// delayed and filtered by the noise response.
 MatrixXd step_slopes(const ArxModel& model, int output, int input, const MatrixXd& step) {
   const int ny = model.orders.outputs();
   const Index samples = step.rows();
@@ -248,7 +248,7 @@ FrequencyResponse frequency_response(const ArxModel& model, int output, int inpu
     if (covariance.empty()) continue;
     const VectorXcd slopes = frequency_slopes(model, output, input, x, inverse, g);
     const auto matrix = as_matrix(covariance, slopes.size());
-    const VectorXcd turned = std::conj(g[output]) / std::abs(g[output]) * slopes;  // along G, and across it
+    const VectorXcd turned = std::conj(g[output]) / std::abs(g[output]) * slopes;  // parallel and perpendicular to G
     const VectorXd along = turned.real();
     const VectorXd across = turned.imag() / std::abs(g[output]);
     response.amplitude_sd.push_back(std::sqrt(std::max(0.0, along.dot(matrix * along))));

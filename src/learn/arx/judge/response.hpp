@@ -1,5 +1,5 @@
 #pragma once
-// What an ARX model does to its input: poles, zeros, step and frequency response, with confidence bands.
+// Responses of an ARX model: poles, zeros, step and frequency response, with confidence bands.
 //
 // Source: L. Ljung, System Identification (2nd ed.), sections 2.1–2.3 (impulse and frequency response) and 9.4 (how the
 // covariance of the coefficients becomes one of anything computed from them, by Gauss' approximation formula).
@@ -12,18 +12,18 @@
 
 namespace wisp {
 
-/// Poles in the z plane: eigenvalues of the companion matrix, largest magnitude first. As many as the orders ask for;
-/// poles at 0 come last.
+/// Poles in the z plane: eigenvalues of the companion matrix, largest magnitude first. Their number follows from the
+/// orders; poles at 0 come last.
 std::vector<std::complex<double>> poles(const ArxModel& model);
 
-/// Zeros in the z plane of the transfer function from `input` to `output`, largest magnitude first; a delay gives none.
+/// Zeros in the z plane of the transfer function from `input` to `output`, largest first; a delay adds none.
 ///
 /// Preconditions: 0 <= input < inputs; 0 <= output < outputs.
 std::vector<std::complex<double>> zeros(const ArxModel& model, int output, int input);
 
-/// A response, and how sure it is. The 95 % band is ±1.96 sd.
+/// A step response with its standard deviation. The 95 % band is ±1.96 sd.
 struct StepResponse {
-  std::vector<double> value;  ///< of the output after 0, 1, 2, … samples, to an input that steps from 0 to 1 at 0
+  std::vector<double> value;  ///< output after 0, 1, 2, … samples, for an input that steps from 0 to 1 at 0
   std::vector<double> sd;     ///< standard deviation; empty without a covariance
 };
 

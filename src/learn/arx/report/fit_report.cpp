@@ -11,7 +11,7 @@
 namespace wisp::arx {
 namespace {
 
-// Beyond this eigenvalues take longer than anyone waits for a description.
+// Above this number of states, computing eigenvalues takes too long for a description.
 constexpr int kMaxStates = 256;
 constexpr int kMaxStatesForZeros = 48;
 constexpr int kMaxStatesTold = 12;
@@ -43,7 +43,7 @@ std::string pole_text(std::complex<double> pole, double rate_hz) {
          number_text(-s.real() / natural, 2);
 }
 
-// One row's coefficients, as the equation has them: y(t-1), u(t-3).
+// Coefficients of one row in the notation of the equation: y(t-1), u(t-3).
 void tell_row(const ArxModel& model, const Model& of, int i, ReportSection& section) {
   std::size_t at = 0;
   const auto tell_one = [&](const char* matrix, const std::string& channel, int lag) {
@@ -150,7 +150,7 @@ std::string orders_text(const OrderCandidate& candidate) {
 
 std::string p_text(double p) { return p < 0.0001 ? "p < 0.0001" : "p " + number_text(p, 2); }
 
-// One series of correlations and what chance allows.
+// One series of correlations with its bounds under chance.
 void add_correlations(const std::string& id, const std::string& label, const std::vector<double>& values, int first_lag,
                       double bound, ReportSection& section) {
   ReportSeries series{id, label, "lag, samples", "correlation", {}, values};
@@ -191,7 +191,7 @@ void tell_poles(const ArxModel& model, double rate_hz, Report& report) {
   if (states_of(model) > kMaxStatesTold) return;
   ReportSection& section = report.add("Poles");
   for (const auto& pole : poles(model)) {
-    if (pole.imag() >= 0) add_line(section, "pole", pole_text(pole, rate_hz));  // of a pair, one
+    if (pole.imag() >= 0) add_line(section, "pole", pole_text(pole, rate_hz));  // one of each conjugate pair
   }
 }
 
@@ -232,7 +232,7 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
   const auto row = candidate_row(best);
   for (std::size_t k = 0; k < columns.size(); ++k) add(section, "best." + columns[k].id, row[k]);
   add(section, "best.index", search.best);
-  ReportTable all{"candidates", "", columns, {}};  // more than fit a screen: for programs
+  ReportTable all{"candidates", "", columns, {}};  // too long for a screen, so for programs only
   for (const OrderCandidate& one : search.candidates) all.rows.push_back(candidate_row(one));
   section.tables.push_back(std::move(all));
   ReportTable first{"", "the best and its runners-up", columns, {}};

@@ -1,5 +1,5 @@
 #pragma once
-// What an ARX model is, how good a fit is, what a search found, as reports.
+// Reports on an ARX model, on the quality of a fit and on an order search.
 
 #include <span>
 #include <string>
@@ -13,34 +13,34 @@
 
 namespace wisp::arx {
 
-/// For programs `A`, `B`, `std_error`, `poles`, `zeros` [output][input] (lists of [real, imaginary] in the z plane) and
-/// `static_gain` [output][input], their ids after `prefix`. Poles are null where the companion matrix has more than
-/// 256 rows, and zeros where it has more than 48.
+/// Adds for programs `A`, `B`, `std_error`, `poles`, `zeros` [output][input] (lists of [real, imaginary] in the z
+/// plane) and `static_gain` [output][input], with `prefix` before their ids. Poles are null where the companion matrix
+/// has more than 256 rows, and zeros where it has more than 48.
 void describe(const ArxModel& model, const std::string& prefix, ReportSection& section);
 
-/// For people: a section an output with its coefficients and their standard errors, and one of the poles as time
-/// constants and as resonances with their damping; nothing where they are many.
+/// Adds for people: one section per output with its coefficients and standard errors, and one with the poles as time
+/// constants and damped resonances; nothing for models with many of them.
 void tell(const ArxModel& model, const Model& of, Report& report);
 
-/// For people: the poles alone.
+/// Adds for people the poles alone.
 void tell_poles(const ArxModel& model, double rate_hz, Report& report);
 
-/// Coefficients with standard errors first, then every figure of the summary, warnings and verdict. `model` is the
-/// fit's, with the names of its channels.
+/// Adds coefficients with standard errors, then every figure of the summary, warnings and verdict. `model` is the fit's
+/// model with its channel names.
 void add_fit(const ArxFit& fit, const Model& model, Report& report);
 
-/// All candidates, the best with its runners-up by the criterion, and the best of every output on its own.
+/// Adds all candidates, the best with its runners-up by the criterion, and the best of each output alone.
 void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, OrderCriterion by, Report& report);
 
-/// Whether the model was refined for free simulation, and how held-out free runs judged that. One choice for all
-/// outputs is named so.
+/// Whether the model was refined for free simulation, with the held-out free runs that decided it. Where one choice
+/// holds for all outputs, the section says so.
 ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::string>& outputs);
 
-/// `whiteness_p` and `independence_p` of all outputs, with their series.
+/// Adds `whiteness_p` and `independence_p` of all outputs, with their series.
 void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report& report);
 
-/// Correlations of residuals over lags, with what chance allows: series `residual.I.white` and `residual.I.K`, their
-/// bounds the same with `.bound` after it.
+/// Adds correlations of residuals over lags as series `residual.I.white` and `residual.I.K`, and their bounds under
+/// chance as the same ids followed by `.bound`.
 void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, ReportSection& section);
 
 }  // namespace wisp::arx

@@ -1,5 +1,5 @@
 #pragma once
-// What reports of ARX models are put together from.
+// Building blocks of reports on ARX models.
 
 #include <span>
 #include <string>
@@ -10,31 +10,31 @@
 
 namespace wisp::arx {
 
-/// Adds a figure; without a label it is for programs only, without an id for people only.
+/// Adds a figure. Without a label it is shown to programs only, without an id to people only.
 void add(ReportSection& section, std::string id, ReportValue value, std::string label = {}, std::string unit = {},
          std::string meaning = {});
 
-/// A sentence for people.
+/// Adds a line for people.
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
-/// Row by row.
+/// Matrix as a list of rows.
 ReportList list_of(const OrderMatrix& orders);
 ReportList matrix_of(std::span<const double> values, std::size_t rows);
 
-/// Nothing where there are no values.
+/// List of the values; null where there are none.
 ReportValue list_or_none(const std::vector<double>& values);
 
-/// A[i][j] and B[i][k] of coefficients laid out as ArxModel::theta.
+/// Coefficients A[i][j] and B[i][k], taken from the layout of ArxModel::theta.
 struct CoefficientLists {
   ReportList a;
   ReportList b;
 };
 CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector<double>>& rows);
 
-/// "5", or "inf" for free simulation.
+/// Id of a number of steps: "5", or "inf" for free simulation.
 std::string steps_id(int steps);
 
-/// A channel's name as one step of an id: its dots do not nest.
+/// A channel's name as one step of an id: its dots are replaced, as they would nest.
 std::string as_id(const std::string& name);
 
 /// The id of an element's field: "inputs[2].name".

@@ -13,16 +13,16 @@ namespace {
 
 constexpr int kFrequencies = 240;
 
-// Until what the slowest pole remembers is below a hundredth.
+// Samples until the response of the slowest pole has decayed below 1 %.
 int settling_samples(const ArxModel& model) {
   constexpr int kMin = 20, kMax = 600;
   const double radius = spectral_radius(model);
-  // Without feedback the response is over with its last lag.
+  // Without feedback the response ends with the longest lag.
   const double settled = radius <= 0 ? 0 : radius < 1 ? std::log(0.01) / std::log(radius) : kMax;
   return model.orders.history() + static_cast<int>(std::clamp(settled, double{kMin}, double{kMax}));
 }
 
-// From a thousandth of the highest frequency up to it, evenly on a logarithmic axis.
+// Angular frequencies from a thousandth of the highest up to it, equally spaced on a logarithmic axis.
 std::vector<double> angular_frequencies() {
   std::vector<double> omega;
   omega.reserve(kFrequencies);
@@ -32,7 +32,7 @@ std::vector<double> angular_frequencies() {
   return omega;
 }
 
-// A curve with its band, where there is one.
+// A curve and, where there is one, its confidence band.
 struct Curve {
   std::vector<double> y, low, high;
 
@@ -52,7 +52,7 @@ Curve step_curve(const StepResponse& step) {
   return curve;
 }
 
-// The band of an amplitude is taken in its logarithm, which keeps it above zero.
+// The band of an amplitude is computed in its logarithm, so it stays positive.
 Curve amplitude_curve(const FrequencyResponse& response) {
   Curve curve;
   for (std::size_t f = 0; f < response.value.size(); ++f) {
@@ -64,7 +64,7 @@ Curve amplitude_curve(const FrequencyResponse& response) {
   return curve;
 }
 
-// Degrees, without jumps of a whole turn. A phase less sure than a half turn has no band to draw.
+// Unwrapped phase in degrees. A phase with an uncertainty above half a turn gets no band.
 Curve phase_curve(const FrequencyResponse& response) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   Curve curve;
@@ -85,7 +85,7 @@ Curve phase_curve(const FrequencyResponse& response) {
 
 using Places = std::vector<std::complex<double>>;
 
-// Without the poles and zeros that cancel each other: of outputs that do not feed this one.
+// Poles and zeros that remain after cancelling pairs; those of outputs that do not feed this one cancel.
 std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) {
   constexpr double kSame = 1e-6;
   Places left;
@@ -106,7 +106,7 @@ void add_places(const std::string& id, const std::string& label, const Places& p
   }
 }
 
-// All that is said of one input's effect on one output.
+// Adds all series and lists of one input's effect on one output.
 class Pair {
  public:
   Pair(const Responding& of, int output, int input)

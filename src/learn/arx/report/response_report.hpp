@@ -9,7 +9,7 @@
 
 namespace wisp::arx {
 
-/// A model whose responses are computed. `covariance` is ArxFit's, or empty: then there are no bands.
+/// A model whose responses are computed. `covariance` is ArxFit's; empty: no confidence bands.
 struct Responding {
   const ArxModel& model;
   const ChannelChoice& channels;
@@ -17,7 +17,7 @@ struct Responding {
   std::span<const double> covariance{};
 };
 
-/// The series `poles`: x the real part, y the imaginary one.
+/// Adds the series `poles`: x is the real part, y the imaginary part.
 void add_poles(const ArxModel& model, Report& report);
 
 /// Beside the poles, series, I an output and K an input: `poles.I.K` and `zeros.I.K` like them, without those that

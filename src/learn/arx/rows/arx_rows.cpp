@@ -75,7 +75,7 @@ ChannelSums block_sums_of_present(const double* samples, std::size_t rows, doubl
   return sums;
 }
 
-// Blocks are summed apart, so that the rounding error hardly grows with the number of samples.
+// Sums block by block, which keeps the rounding error nearly independent of the number of samples.
 ChannelSums channel_sums(const Signals& signals, int channel, double reference) {
   ChannelSums total;
   for (const auto& samples : signals.samples) {
@@ -123,7 +123,7 @@ Result<void> scale_channel(Signals& signals, int channel, ArxOffset offset) {
   return {};
 }
 
-// Marks every target row that a missing sample would enter. Nothing is allocated where nothing is missing.
+// Marks every target row with a missing sample in its regression. Allocates nothing where nothing is missing.
 std::vector<std::uint8_t> unusable_rows(const Signals& signals, std::size_t recording, const LagLayout& layout,
                                         int first_channel) {
   std::vector<std::uint8_t> bad;
@@ -157,7 +157,7 @@ void add_runs(RowPlan& plan, const RowRun& rows, const std::vector<std::uint8_t>
   }
 }
 
-// History starts at an episode's first row and first_sample is no less than any lag, so what is missing in the episode
+// History starts at an episode's first row and first_sample is at least every lag, so missing samples of the episode
 // before cannot reach into this one.
 RowPlan plan_channels(const Signals& signals, const LagLayout& layout, int first_sample, int first_channel) {
   RowPlan plan;
@@ -190,7 +190,7 @@ void copy_scaled(const double* in, std::size_t rows, double offset, double scale
 }  // namespace
 
 ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset) {
-  // A channel that moves by less than this share of its size stands still: the rest is rounding.
+  // Relative range below which a channel counts as constant: the variation is rounding.
   constexpr double kStandsStill = 1e-14;
   const double n = static_cast<double>(sums.count);
   const double shift = sums.sum / n;
@@ -270,7 +270,7 @@ void ScaledBlock::load(const RowRun& rows) {
   rows_ = rows.end - rows.begin;
   const std::size_t begin = rows.begin - static_cast<std::size_t>(history_);
   const std::size_t length = rows_ + static_cast<std::size_t>(history_);
-  // Series that start at the same place of a page would push each other out of the cache: an odd number of lines apart.
+  // Series at equal offsets of a page would evict each other from the cache, so their stride is an odd number of lines.
   stride_ = (length + 15) / 16 * 16 + 8;
   samples_.resize(stride_ * static_cast<std::size_t>(signals_.channels()));
   for (int c = 0; c < signals_.channels(); ++c) {

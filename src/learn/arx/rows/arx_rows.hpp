@@ -1,5 +1,5 @@
 #pragma once
-// The rows of a regression on lagged channels: which samples of which recordings may be predicted from which history.
+// Rows of a regression on lagged channels: the samples that can be predicted, and the history they need.
 
 #include <cstddef>
 #include <span>
@@ -17,7 +17,7 @@ namespace wisp {
 /// one's input.
 struct ChannelChoice {
   std::vector<std::string> inputs;   ///< may be empty: a model without input
-  std::vector<std::string> outputs;  ///< at least one
+  std::vector<std::string> outputs;  ///< may be empty: no input
 };
 
 /// The chosen channels of all recordings. The regression works on (sample − offset)·scale; scales are powers of two
@@ -30,25 +30,25 @@ struct Signals {
   std::vector<std::vector<Episode>> episodes;                 ///< [recording]
   std::vector<double> offset;
   std::vector<double> scale;
-  bool missing = true;  ///< whether any sample may be
+  bool missing = true;  ///< whether samples may be missing
 
   int channels() const { return outputs + inputs; }
 };
 
-/// Sums over the samples of a channel that are there, of sample − reference.
+/// Sums of (sample − reference) over a channel's samples that are not missing.
 struct ChannelSums {
   double sum = 0;
   double square = 0;
   std::size_t count = 0;
 };
 
-/// What is taken off a channel's samples, and what they are multiplied with then.
+/// Offset subtracted from a channel's samples, and the scale they are multiplied by afterwards.
 struct ChannelPoint {
   double offset = 0;
   double scale = 0;
 };
 
-/// Precondition: sums.count > 0.
+/// Operating point of a channel. Precondition: sums.count > 0.
 ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset);
 
 /// Target rows [begin, end) of one recording, all of them usable.
@@ -74,13 +74,13 @@ Result<Signals> find_signals(std::span<const Recording> recordings, const Channe
 /// Finds the channels and their offsets and scales. Errors: as find_signals, and where a channel has no sample.
 Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset);
 
-/// Rows that figures are computed from: of more they are the same, but take longer.
+/// Maximum number of rows that figures are computed from; more would not change them noticeably.
 inline constexpr std::size_t kJudgedRows = std::size_t{1} << 18;
 
-/// The middle of every recording, `most` rows together, or all of fewer. The spans are those of `signals`.
+/// The central part of every recording, at most `most` rows together. The spans are those of `signals`.
 Signals middle_of(const Signals& signals, std::size_t most);
 
-/// The rows whose columns are all there, from row `first_sample` of every episode on.
+/// Rows whose regressors and targets are all present, from row `first_sample` of every episode on.
 ///
 /// Precondition: first_sample >= layout.history().
 RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample);
@@ -92,11 +92,11 @@ struct RowPart {
   bool last = true;
 };
 
-/// The same for one part. An episode counts for the part that has its first target row or, where it is too short to
+/// plan_rows for one part. An episode counts for the part that has its first target row or, where it is too short to
 /// have one, the row after its end.
 RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
 
-/// The rows whose inputs are all there, whatever the outputs are.
+/// Rows whose inputs are all present, whether or not outputs are missing.
 RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample);
 
 /// Samples of all channels over a block of rows and the history before it, offset and scaled.
@@ -105,7 +105,7 @@ class ScaledBlock {
   /// Preconditions: `signals` outlives the block; history >= 0.
   ScaledBlock(const Signals& signals, int history) : signals_(signals), history_(history) {}
 
-  /// Takes in the rows, and `history` rows before them.
+  /// Loads the rows, and `history` rows before them.
   ///
   /// Precondition: rows.begin >= history.
   void load(const RowRun& rows);
@@ -126,7 +126,7 @@ class ScaledBlock {
   std::vector<double> samples_;
 };
 
-/// Rows that are worked on together: their samples fit into the first-level cache for a few channels.
+/// Number of rows processed together: samples of a few channels fit into the first-level cache.
 inline constexpr std::size_t kBlockRows = 1024;
 
 /// Calls visit(RowRun) for all rows of the plan, in blocks of at most kBlockRows.

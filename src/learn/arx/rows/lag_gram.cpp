@@ -8,7 +8,7 @@
 namespace wisp {
 namespace {
 
-// One series and those that it is multiplied with over all rows.
+// One column, and the columns that it is multiplied with over all rows.
 struct Products {
   int column = 0;
   std::vector<int> with;
@@ -22,7 +22,7 @@ class GramBuilder {
         before_(layout.size()),
         ends_(layout.size(), layout.size()) {
     for (int p = 0; p < layout.size(); ++p) before_[p] = layout.find({layout[p].channel, layout[p].lag - 1});
-    before_[0] = 0;  // the constant is its own neighbour
+    before_[0] = 0;  // the constant does not change with the lag
     for (int p = 1; p < layout.size(); ++p) {
       Products products{p, {}};
       for (int q = p; q < layout.size(); ++q) {
@@ -50,8 +50,8 @@ class GramBuilder {
     sums_(0, 0) += static_cast<double>(block_.rows());
   }
 
-  /// Takes in what differs at the ends between a column and its neighbour one lag shorter, whose rows begin and end one
-  /// row later.
+  /// Adds the end corrections between a column and its neighbour one lag shorter, whose rows begin and end one row
+  /// later.
   void add_ends(const RowRun& run) {
     block_.load({run.recording, run.begin, run.begin});
     ends_.selfadjointView<Eigen::Upper>().rankUpdate(row_at_load(), 1.0);
@@ -74,7 +74,7 @@ class GramBuilder {
   double sum(const double* series) const { return Eigen::Map<const Eigen::VectorXd>(series, size()).sum(); }
   Eigen::Index size() const { return static_cast<Eigen::Index>(block_.rows()); }
 
-  // The columns at the row that follows the (empty) loaded block.
+  // Values of all columns in the row after the (empty) loaded block.
   Eigen::VectorXd row_at_load() const {
     Eigen::VectorXd row(layout_.size());
     row[0] = 1;
@@ -84,7 +84,7 @@ class GramBuilder {
 
   const LagLayout& layout_;
   ScaledBlock block_;
-  std::vector<int> before_;  // the column one lag shorter, or −1
+  std::vector<int> before_;  // index of the column one lag shorter, or −1
   std::vector<Products> products_;
   std::vector<const double*> series_;
   std::vector<double> totals_;

@@ -7,8 +7,8 @@
 // at lag l′ differs from that at lags l−1, l′−1 only at the two ends of the rows. So only products with a channel's
 // first lag are taken over all rows, channels² × lags of them instead of (channels × lags)²; the rest follows along the
 // diagonals by end corrections. The structure is that of L. Ljung, System Identification (2nd ed.), section 10.1
-// (covariance and autocorrelation method); nothing is left out at the ends here, so the result is the exact Gram matrix
-// but for rounding.
+// (covariance and autocorrelation method); the end terms are kept here, so the result is the exact Gram matrix but for
+// rounding.
 
 #include <Eigen/Core>
 #include <vector>
@@ -18,18 +18,18 @@
 
 namespace wisp {
 
-/// Which pairs of channels are wanted: `wanted(c, c′)` symmetric.
+/// Pairs of channels whose products are needed: `wanted(c, c′)`, symmetric.
 using ChannelPairs = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// The symmetric matrix of products of all columns of the layout over all rows of the plan, in scaled units. Products
-/// of channels that are not wanted are not meaningful.
+/// Symmetric matrix of products of all columns of the layout over all rows of the plan, in scaled units. Products of
+/// pairs that are not wanted are undefined.
 Eigen::MatrixXd lag_gram(const Signals& signals, const RowPlan& plan, const LagLayout& layout,
                          const ChannelPairs& wanted);
 
-/// Reduces [triangle; rows of `matrix`] to `triangle`. `matrix` is used up.
+/// Reduces [triangle; rows] to `triangle` by orthogonal transformations.
 void reduce_rows(Eigen::MatrixXd& triangle, const Eigen::MatrixXd& rows);
 
-/// The upper triangle of all columns of the layout over all rows of the plan, in scaled units.
+/// Upper triangle R of all columns of the layout over all rows of the plan, in scaled units.
 Eigen::MatrixXd triangle_by_qr(const Signals& signals, const RowPlan& plan, const LagLayout& layout);
 
 }  // namespace wisp

@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-// The columns of every candidate: all lags of all outputs, all lags that any input may have.
+// Columns of all candidates: all lags of the outputs, and all lags that an input may have.
 LagLayout all_lags(const Signals& signals, const DelayOptions& options, int most) {
   std::vector<LaggedChannel> used;
   for (int i = 0; i < signals.outputs; ++i) {
@@ -23,7 +23,7 @@ LagLayout all_lags(const Signals& signals, const DelayOptions& options, int most
   return LagLayout(signals.outputs, signals.inputs, used);
 }
 
-// Regressors of one output where input k has the delay nk, or no lag without one, and the others all their lags.
+// Regressors of one output: input k with delay nk (without lags where nk is unset), the other inputs with all lags.
 CandidateRows with_delay(const LagLayout& layout, const DelayOptions& options, int output, int k,
                          std::optional<int> nk) {
   CandidateRows rows{{}, {output}};
@@ -44,10 +44,10 @@ Result<void> check(const DelayOptions& options) {
   return Error{"delays are looked for with most and na from 0 to 4096 and nb from 1 to 4096"};
 }
 
-// The least squared error; but where the lags of a longer delay, which leave out the first of the best one's, do as
-// well as chance lets them, the first lag is not needed.
+// The delay with the least squared error, or a longer one, where leaving out the first lags of the best one does not
+// raise the error significantly.
 int chosen_delay(const std::vector<double>& squares, double rows, int nb) {
-  constexpr double kByChance = 3.84;  // 95 % of chi-squared with one degree of freedom
+  constexpr double kByChance = 3.84;  // 95th percentile of chi-squared with one degree of freedom
   const auto best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
   int chosen = best;
   for (int nk = best + 1; nk < std::min(best + nb, static_cast<int>(squares.size())); ++nk) {
@@ -56,9 +56,9 @@ int chosen_delay(const std::vector<double>& squares, double rows, int nb) {
   return chosen;
 }
 
-// Delays 0 to `most`.
+// Estimates delays from 0 to `most` samples.
 Result<Delays> delays_up_to(int most, const Signals& signals, const DelayOptions& options) {
-  constexpr double kChance = 1e-3;  // that any delay of unrelated channels is taken for one
+  constexpr double kChance = 1e-3;  // probability of finding any delay between unrelated channels
   const LagLayout layout = all_lags(signals, options, most);
   SearchWindows windows(signals, layout, layout.history(), layout.history());
   const auto rows = static_cast<double>(windows.rows(layout.history()));
@@ -85,7 +85,7 @@ Result<Delays> delays_up_to(int most, const Signals& signals, const DelayOptions
   return delays;
 }
 
-// Whether a longer delay may be better: an input supports none, or one near the end.
+// Whether longer delays should be tried: some input has no supported delay, or one near the end.
 bool open_end(const Delays& delays) {
   const auto supported = delays.supported.values(), nk = delays.nk.values();
   for (std::size_t p = 0; p < nk.size(); ++p) {
@@ -104,7 +104,7 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
   if (!signals) return signals.error();
   std::size_t rows = 0;
   for (const Recording& one : recordings) rows += one.rows();
-  // The other inputs have all their lags in every candidate.
+  // kRowsACoefficient per extra input: the other inputs have all their lags in every candidate.
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
   while (delays && !options.most && open_end(*delays) && 2 * delays->most * std::max(1, signals->inputs) <= kLast &&
          rows >= static_cast<std::size_t>(2 * delays->most) *

@@ -59,7 +59,7 @@ double row_size(const OrderCandidate& candidate, int i, ArxOffset offset) {
   return candidate.orders.row_size(i) + (offset == ArxOffset::kEstimate ? 1 : 0);
 }
 
-// Candidates over one set of columns.
+// Fits and judges candidates on one set of columns.
 class Search {
  public:
   Search(const Signals& signals, const Signals* validation, const SearchOptions& options,
@@ -155,7 +155,7 @@ class Search {
     candidate.bic = criteria.bic;
   }
 
-  // The model in the data's units, about the validation recordings' operating point.
+  // The model in the data's units, about the operating point of the validation recordings.
   ArxModel model_of(const ArxOrders& orders, const Eigen::MatrixXd& annihilator) const {
     ArxModel model;
     model.orders = orders;
@@ -268,7 +268,7 @@ void choose(const SearchOptions& options, int outputs, OrderSearch& search) {
   }
 }
 
-// Validation recordings in the same scaled units. With kMean about their own means, otherwise about the same point.
+// Validation recordings in the estimation's scaled units. kMean uses their own means, other offsets are shared.
 Result<Signals> validation_signals(std::span<const Recording> recordings, const ChannelChoice& channels,
                                    const Signals& estimation, ArxOffset offset) {
   auto signals = gather_signals(recordings, channels, offset);

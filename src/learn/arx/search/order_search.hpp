@@ -1,5 +1,5 @@
 #pragma once
-// Which orders and delays: every candidate of a grid fitted and judged, from one set of products.
+// Search for orders and delays: every candidate of a grid is fitted and judged from one set of products.
 //
 // Source: L. Ljung, System Identification (2nd ed.), sections 16.4 (criteria, cross-validation) and 10.1 (all
 // candidates from one covariance matrix). A candidate costs a small Cholesky factorisation, however long the recordings
@@ -20,7 +20,7 @@
 
 namespace wisp {
 
-/// Which candidates, and how they are judged.
+/// Candidates, and the criterion that judges them.
 struct SearchOptions {
   OrderRange na{1, 10};
   OrderRange nb{1, 10};
@@ -31,30 +31,30 @@ struct SearchOptions {
   ArxOffset offset = ArxOffset::kMean;  ///< kMean subtracts each set's own means
 };
 
-/// One candidate and its figures. Fits are as estimated, whether stable or not.
+/// One candidate and its figures. Fits are as estimated, without stabilisation.
 struct OrderCandidate {
   ArxOrders orders;
-  int na = 0;  ///< of the grid
+  int na = 0;  ///< orders and delay of the grid point
   int nb = 0;
   int nk = 0;
-  std::size_t rows = 0;      ///< that it was estimated from
+  std::size_t rows = 0;      ///< number of rows in the estimation
   std::vector<double> loss;  ///< V per output, its unit²
-  double fpe = 0;            ///< as ArxSummary's, and so are the next three
+  double fpe = 0;            ///< fpe and the next three: as in ArxSummary
   double aic = 0;
   double aicc = 0;
   double bic = 0;
   std::vector<double> loss_validation;  ///< mean squared error per output; empty without validation recordings
-  bool determined = true;               ///< false: the data cannot tell all of its coefficients
+  bool determined = true;               ///< false: the data do not determine all of its coefficients
 };
 
 /// All candidates, in the grid's order (nk outermost, then na, then nb), and the best.
 struct OrderSearch {
   std::vector<OrderCandidate> candidates;
-  std::size_t best = 0;                  ///< by the criterion over all outputs together
-  std::vector<std::size_t> best_of_row;  ///< by the criterion for each output row on its own
+  std::size_t best = 0;                  ///< index of the best by the criterion over all outputs together
+  std::vector<std::size_t> best_of_row;  ///< index of the best by the criterion for each output row alone
 };
 
-/// Fits and judges all candidates. A row where a sample of the longest history is missing is left out for all of them.
+/// Fits and judges all candidates. A row with a missing sample in the longest history is skipped for all candidates.
 /// Memory grows with the longest lag, not with the number of candidates.
 /// `validation` may be empty unless the criterion is kValidation.
 /// Errors: as fit_arx; no candidates, or more than a million; ranges or steps out of bounds; too few rows for a
@@ -63,29 +63,29 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
                                   const ChannelChoice& channels, const SearchOptions& options = {},
                                   const Progress& progress = {});
 
-/// Places of the best candidates by a criterion over all outputs together, at most `count`, the best first.
+/// Indices of the best candidates by a criterion over all outputs together, at most `count`, best first.
 std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriterion by, std::size_t count);
 
-/// How to look for delays.
+/// Options of estimate_delays.
 struct DelayOptions {
   std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled while no delay or one
-                              ///< near the end is best, as far as rows allow, at most 640 over all inputs
-  int na = 2;                 ///< lags of outputs beside it
-  int nb = 2;                 ///< lags of the input from the delay on
+                              ///< near the end is best, as far as rows allow, up to 640 over all inputs
+  int na = 2;                 ///< lags of the outputs in each candidate
+  int nb = 2;                 ///< lags of the input, beginning at the delay
   ArxOffset offset = ArxOffset::kMean;
 };
 
-/// Delays, and how sure they are.
+/// Estimated delays, and whether they are significant.
 struct Delays {
   OrderMatrix nk;  ///< outputs × inputs; 1 where no delay is supported
   OrderMatrix
       supported;  ///< 1 where the lags lower the squared error beyond chance (1 in 1,000 over all delays), else 0
-  int most = 0;   ///< the largest that was tried
+  int most = 0;   ///< largest delay tried
 };
 
 /// Delays of every input to every output. An input's delay is the one with the least squared error, or a longer one
-/// that leaves out only lags that are not significant (95 %); the other inputs stand beside it with all lags up to the
-/// largest, so that their delays do not matter. Errors: as fit_arx; no input supports a delay to any output.
+/// that leaves out only lags that are not significant (95 %). Other inputs enter with all lags up to the largest, so
+/// their delays do not matter. Errors: as fit_arx; no input supports a delay to any output.
 Result<Delays> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
                                const DelayOptions& options = {});
 

@@ -11,10 +11,10 @@
 namespace wisp {
 namespace {
 
-// The residuals' products are a small difference of large ones; this share of a residual's square may be rounding.
+// Residual products are small differences of large numbers: maximum rounding error, as a share of a residual's square.
 constexpr double kMaxRounding = 1e-10;
 
-// A pivot below this: the column is nearly a combination of those before it, and the triangle must decide.
+// Pivot below which a column is nearly a combination of those before it, so the triangle is used instead.
 constexpr double kMinPivot = 1e-9;
 
 std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& annihilator) {
@@ -80,7 +80,7 @@ SearchWindows::SearchWindows(const Signals& signals, const LagLayout& layout, in
   }
 }
 
-// Row `first_sample` of every episode that has it, without what is missing.
+// Row `first_sample` of every episode that has it, unless samples in it are missing.
 Eigen::MatrixXd SearchWindows::earlier_rows(int first_sample) const {
   const auto first = static_cast<std::size_t>(first_sample);
   Eigen::MatrixXd rows(0, layout_.size());

@@ -1,6 +1,5 @@
 #pragma once
-// Products of lagged channels over the windows that candidates of a search start at, and one candidate fitted within
-// one.
+// Products of lagged channels over the candidates' windows of rows, and the fit of one candidate within a window.
 
 #include <Eigen/Core>
 #include <map>
@@ -12,9 +11,9 @@
 
 namespace wisp {
 
-/// The Gram matrix of a layout for every first sample from `earliest` to `latest`. A window that starts a row earlier
-/// has that row's products more; columns whose lag is longer than the first sample are not in that row, and not
-/// meaningful in that window.
+/// Gram matrix of a layout for every first sample from `earliest` to `latest`. A window that starts a row earlier adds
+/// that row's products; columns with a lag above the first sample are absent from that row, and undefined in that
+/// window.
 class SearchWindows {
  public:
   /// Preconditions: `signals` and `layout` outlive it; layout.history() <= latest; 0 <= earliest <= latest.
@@ -23,7 +22,7 @@ class SearchWindows {
   std::size_t rows(int first_sample) const { return rows_[index(first_sample)]; }
   const Eigen::MatrixXd& gram(int first_sample) const { return gram_[index(first_sample)]; }
 
-  /// A triangle of the same window, RᵀR = gram but for rounding. Made on first use.
+  /// Triangle of the same window, RᵀR = gram but for rounding. Computed on first use.
   const Eigen::MatrixXd& triangle(int first_sample);
 
  private:
@@ -40,25 +39,25 @@ class SearchWindows {
   std::map<int, Eigen::MatrixXd> triangle_;
 };
 
-/// Rows of a candidate: their regressors and targets, as columns of the search's layout.
+/// Rows of a candidate: regressors and targets, as columns of the search's layout.
 struct CandidateRows {
   std::vector<int> columns;
   std::vector<int> outputs;
 };
 
 struct CandidateFit {
-  /// One column an output over all columns of the layout: −θ at the regressors, 1 at the target. A row of data times it
-  /// is the residual.
+  /// One column per output over all columns of the layout: −θ at the regressors, 1 at the target. A row of data times
+  /// it is the residual.
   Eigen::MatrixXd annihilator;
   Eigen::MatrixXd residual_gram;  ///< ny × ny: Σ r_i r_j over the window
   bool determined = true;
 };
 
-/// Fits within the window that starts at `first_sample`.
+/// Fits a candidate within the window that starts at `first_sample`.
 CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
                            const std::vector<CandidateRows>& rows);
 
-/// Σ r_i r_j of a fit over a window of other data.
+/// Σ r_i r_j of a fit over a window of different data.
 Eigen::MatrixXd residual_gram_over(SearchWindows& windows, int first_sample, const Eigen::MatrixXd& annihilator);
 
 }  // namespace wisp

@@ -27,13 +27,13 @@ void add_direction(const std::string& id, const GustDirection& direction, const 
                              "mean over gusts whose displacement stands out of chance"});
 }
 
-// A y that is not finite breaks a line.
+// Appends a point with NaN as y, which breaks the line.
 void add_break(ReportSeries& out) {
   out.x.push_back(out.x.back());
   out.y.push_back(std::numeric_limits<double>::quiet_NaN());
 }
 
-// The parts of a way, from its first place, in which the wind blows, or in which it does not; broken in between.
+// Appends the parts of a path, relative to its first point, in which the wind blows (or not), with breaks between.
 void add_way(const std::vector<Triple>& way, const std::vector<bool>& blows, bool in_wind, ReportSeries& out) {
   const auto point = [&](std::size_t row) {
     out.x.push_back(100 * (way[row][0] - way.front()[0]));
@@ -52,7 +52,7 @@ void add_way(const std::vector<Triple>& way, const std::vector<bool>& blows, boo
   if (drawing) add_break(out);
 }
 
-using Places = std::vector<std::vector<Triple>>;  // of every clone, a row each
+using Places = std::vector<std::vector<Triple>>;  // positions per clone and row
 
 std::vector<Triple> mean_of(const Places& ways) {
   std::vector<Triple> mean(ways.front().size());
@@ -85,11 +85,11 @@ void add_side(const std::string& id, const Places& ways, const std::vector<Tripl
   }
 }
 
-constexpr double kLaterSeconds = 2;  // after the gust: nothing should be left
+constexpr double kLaterSeconds = 2;  // time after the gust at which the effect should have vanished
 constexpr double kMaxLeft = 0.1;     // m/s
-constexpr double kClearErrors = 4;   // a mean displacement this many of its own standard errors long has a direction
+constexpr double kClearErrors = 4;   // standard errors; a longer mean displacement has a clear direction
 
-// Two banks that live the same life but for the wind.
+// Two banks with equal seeds, one in the wind and one in calm air.
 struct Twins {
   Bank windy;
   Bank calm;
@@ -115,7 +115,7 @@ BodyMoment moment_of(const MotionPiece& piece, std::size_t row) {
   return body;
 }
 
-// Where every clone is, a row of its way.
+// Appends the position of every clone to its path.
 void take_places(const Bank& bank, Places& ways) {
   const auto count = static_cast<std::size_t>(bank.output_count());
   std::vector<float> outputs(ways.size() * count);
@@ -128,10 +128,10 @@ void take_places(const Bank& bank, Places& ways) {
 struct Ways {
   Places windy;
   Places calm;
-  double left = 0;  // m/s, the most that a clone's two lives still differ by later
+  double left = 0;  // m/s, maximum velocity difference over clones at the end
 };
 
-// A gust on the clones of one fall, from its onset to the span's end, and a while without wind.
+// Plays a gust on the clones of one fall, from its onset to the span's end, followed by kLaterSeconds of calm.
 Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSpan& span) {
   Ways ways{Places(pairs.clones), Places(pairs.clones)};
   const std::size_t first = gust * pairs.clones;
@@ -166,7 +166,7 @@ Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSp
   return ways;
 }
 
-// What the wind did to the mean of a play, since the onset.
+// Mean displacement by the wind in a play, per row since the onset.
 std::vector<Triple> displacements(const Ways& ways) {
   std::vector<Triple> out = mean_of(ways.windy);
   const std::vector<Triple> calm = mean_of(ways.calm);
@@ -185,7 +185,7 @@ struct Angles {
   GustDirection direction() const { return {median(all), mean(all), mean(clear)}; }
 };
 
-// Sums of squares that a fit is made of.
+// Sums of squares for the fit percentage.
 struct FitSums {
   double error = 0, size = 0;
 
@@ -198,13 +198,13 @@ struct FitSums {
   double fit_percent() const { return 100 * (1 - std::sqrt(error / size)); }
 };
 
-// The angle over ground between two displacements.
+// Angle in the horizontal plane between two displacements, degrees.
 double degrees_between(const Triple& a, const Triple& b) {
   const double across = a[0] * b[1] - a[1] * b[0], along = a[0] * b[0] + a[1] * b[1];
   return std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0);
 }
 
-// Everything that is summed over gusts.
+// Sums over all gusts.
 struct Tally {
   FitSums displacement, velocity, halves;
   Angles angles, half_angles;
@@ -256,7 +256,7 @@ GustScene scene_of(const GustPairs& pairs, std::size_t gust, const GustSpan& spa
   return scene;
 }
 
-// At even shares of all gusts by how far they carry.
+// Scenes at equally spaced quantiles of displacement.
 std::vector<GustScene> chosen(std::vector<std::pair<double, GustScene>>& scenes) {
   constexpr std::size_t kScenes = 2;
   std::stable_sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -1,8 +1,8 @@
 #pragma once
-// How a chain with a response to gusts plays them, against gusts that were simulated or recorded: the bank itself is
-// placed where each calm fall is at the gust's onset, and blown at.
+// Plays simulated or recorded gusts with a chain's gust response: a bank is placed at each calm fall's state at the
+// gust's onset and exposed to the gust.
 //
-// Source: section 4.4 of the paper. It shows one response (its figure 8); here many are judged, on means over clones.
+// Source: section 4.4 of the paper, whose figure 8 shows one response; here many are judged, on means over clones.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,54 +16,52 @@
 
 namespace wisp::chain {
 
-/// Angles over ground between mean displacements at the end, degrees.
+/// Horizontal angles between the mean displacements at the end, degrees.
 struct GustDirection {
   double median = 0;
-  double mean = 0;        ///< of all gusts: small displacements have any direction
-  double mean_clear = 0;  ///< of those whose displacement stands out of chance
+  double mean = 0;        ///< over all gusts: small displacements have a random direction
+  double mean_clear = 0;  ///< over gusts with a significant displacement
 };
 
 struct GustPlayFigures {
   std::size_t gusts = 0;
-  std::size_t clear_gusts = 0;  ///< whose recorded displacement stands out of chance
+  std::size_t clear_gusts = 0;  ///< number of gusts with a significant recorded displacement
   std::size_t clones = 0;
-  double fit_percent = 0;  ///< of the mean displacement over the gust and after it
+  double fit_percent = 0;  ///< of the mean displacement during and after the gust
   double velocity_fit_percent = 0;
   GustDirection direction;
-  double halves_fit_percent = 0;    ///< the recording itself, one half of the clones against the other; NaN with fewer
-                                    ///< than 4 clones
-  GustDirection halves_direction;   ///< likewise
-  double largest_displacement = 0;  ///< metres, of the play's means
-  double largest_recorded_displacement = 0;  ///< and of the recording's
-  double left_after = 0;                     ///< metres a second that a play still differs by two seconds later
-  bool diverges = false;                     ///< something is not finite, or more than a tenth of a metre a second is
-                                             ///< left
+  double halves_fit_percent = 0;    ///< one half of the recorded clones against the other; NaN with fewer than 4 clones
+  GustDirection halves_direction;   ///< direction for the same halves
+  double largest_displacement = 0;  ///< metres, maximum of the played means
+  double largest_recorded_displacement = 0;  ///< metres, maximum of the recorded means
+  double left_after = 0;                     ///< m/s, maximum velocity difference in play two seconds after a gust
+  bool diverges = false;                     ///< whether a value is not finite, or left_after exceeds 0.1 m/s
 };
 
-/// One gust seen clone by clone: ways from the onset on, and the rows in which the wind blows.
+/// Paths of every clone in one gust from its onset on, and the rows in which the wind blows.
 struct GustScene {
   std::size_t gust = 0;
   std::vector<std::vector<Triple>> recorded;  ///< per clone
   std::vector<std::vector<Triple>> played;
-  std::vector<Triple> recorded_calm;  ///< means without the gust
+  std::vector<Triple> recorded_calm;  ///< mean path without the gust
   std::vector<Triple> played_calm;
-  std::vector<bool> blows;  ///< a row each
-  Triple strongest{};       ///< the wind at its height, m/s
+  std::vector<bool> blows;  ///< whether the wind blows, per row
+  Triple strongest{};       ///< strongest wind vector, m/s
 };
 
 struct GustPlay {
   GustPlayFigures figures;
-  std::vector<GustScene> scenes;  ///< for a figure: at even shares of all gusts by how far they carry
+  std::vector<GustScene> scenes;  ///< scenes for figures, at equally spaced quantiles of displacement
 };
 
-/// Plays the gusts of a windy recording from `first` on, clone by clone, with and without their wind.
-/// Errors: the model is not a chain with a response to gusts; rates that differ; none of them blows.
+/// Plays the gusts of a windy recording from index `first` on, clone by clone, with and without their wind.
+/// Errors: the model is not a chain with a gust response; rates that differ; no gust with wind.
 Result<GustPlay> play_gusts(const Model& model, const GustPairs& pairs, std::size_t first, std::uint64_t seed);
 
 ReportSection gusts_section(const GustPlayFigures& figures);
 
-/// Tracks of a scene from above, in centimetres from each clone's own onset, where the wind blows and where it does
-/// not: ids `gusts-above.NUMBER.SIDE.WHAT`. The title says which gust it is.
+/// Horizontal tracks of a scene in centimetres from each clone's own onset, split by whether the wind blows: ids
+/// `gusts-above.NUMBER.SIDE.WHAT`. The title names the gust.
 ReportSection scene_section(const GustScene& scene, std::size_t number);
 
 }  // namespace wisp::chain

@@ -9,8 +9,8 @@
 namespace wisp::chain {
 namespace {
 
-constexpr double kStill = 1e-3;        // m/s: wind below it is none
-constexpr double kAfterSeconds = 0.3;  // learned and judged over the gust and so long after it
+constexpr double kStill = 1e-3;        // m/s: weaker wind counts as calm
+constexpr double kAfterSeconds = 0.3;  // time after the gust that is included in learning and judging
 constexpr const char* kWinds[] = {"wind.x", "wind.y", "wind.z"};
 
 void add(Triple& sum, const Triple& value, double factor) {
@@ -22,7 +22,7 @@ void add_normal(std::array<Triple, 3>& sum, const Quad& q, double factor) {
   for (std::size_t axis = 0; axis < 3; ++axis) add(sum[axis], normal, factor * normal[axis]);
 }
 
-// How far a piece of the windy recording has gone since the onset beyond its calm twin.
+// Displacement of a windy piece relative to its calm twin since the onset.
 Triple displacement_of(const MotionPiece& blown, const MotionPiece& still, std::size_t onset, std::size_t row) {
   Triple out{};
   add(out, blown.position[row], 1);
@@ -54,14 +54,14 @@ Result<std::array<const std::vector<double>*, 3>> wind_channels(const Recording&
 
 constexpr int kRefinements = 24;
 constexpr double kNudge = 1e-5;
-// A body that the air carries ends up moving with a steady wind. A response without that constraint is taken only where
-// its squared error over the gusts is below this share of the constrained one's.
+// In a steady wind, a body carried by the air ends up moving with it. A response without that constraint is used only
+// where its squared error over the gusts is below this share of the constrained one's.
 constexpr double kMuchBetter = 0.8;
 
 using Axis = GustResponse::Axis;
 using Ensemble = GustEnsemble;
 
-// The change of velocity that a response makes of a gust, by itself.
+// Simulated change of velocity caused by a gust.
 std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response) {
   std::vector<Triple> change(gust.wind.size());
   for (std::size_t row = 0; row < change.size(); ++row) {
@@ -77,8 +77,8 @@ std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response
   return change;
 }
 
-// What is searched for: of each axis the coefficients of the change, of the press, and of the wind; where a steady wind
-// is to carry the body along with it, without the wind's, which is then what is left to 1.
+// Parameters of the search, per axis: coefficients of the change, of the normal wind and of the wind. With the
+// constraint that a steady wind carries the body along, the wind's coefficient is 1 minus that of the change.
 struct Unknowns {
   bool carried;
 
@@ -95,7 +95,7 @@ struct Unknowns {
     return out;
   }
 
-  // A body that is carried along within a few steps, as light ones are.
+  // Initial parameters: a light body, carried along within a few steps.
   std::vector<double> begun() const {
     return carried ? std::vector<double>{0.8, 0, 0.8, 0} : std::vector<double>{0.8, 0, 0.2, 0.8, 0, 0.2};
   }
@@ -112,7 +112,7 @@ double squared_error(std::span<const Ensemble> gusts, const GustResponse& respon
   return sum;
 }
 
-// One step of Levenberg and Marquardt on the error of free simulation, slopes by differences.
+// One Levenberg–Marquardt step on the error of free simulation, with derivatives by finite differences.
 std::vector<double> refined(std::span<const Ensemble> gusts, const Unknowns& unknowns, const std::vector<double>& theta,
                             double damping) {
   const auto size = static_cast<Eigen::Index>(theta.size());
@@ -136,7 +136,7 @@ std::vector<double> refined(std::span<const Ensemble> gusts, const Unknowns& unk
       }
     }
   }
-  // What no row has stays as it is.
+  // A parameter that does not affect any row remains unchanged.
   for (double& own : squares.diagonal()) own += own == 0 ? 1 : damping * own;
   const Eigen::VectorXd step = squares.ldlt().solve(right);
   auto out = theta;
@@ -177,7 +177,7 @@ std::vector<Input> inputs_of(const std::array<const std::vector<double>*, 3>& wi
     for (double sample : *channel) most = std::max(most, std::abs(sample));
   }
   std::vector<Input> inputs;
-  // What blows along x could have blown along y.
+  // One range for all axes: the direction of the recorded gusts is arbitrary.
   for (const char* name : {"wind.x", "wind.y", "wind.z"})
     inputs.push_back({name, "m/s", -most, most, InputShape::kLinear});
   return inputs;

@@ -1,9 +1,9 @@
 #pragma once
-// What wind does to a fall, learned from falls that differ only in their wind.
+// Response of a fall to wind, learned from falls that differ only in their wind.
 //
-// Source: section 4.4 of the paper, v_windy − v_calm = F(w, x). Falls are chaotic: a windy one and its calm twin drift
-// apart for reasons that are not the wind, so the response is learned, and judged, on means over clones of one gust
-// that differ a little. It has one lag: a leaf is so light that more say no more.
+// Source: section 4.4 of the paper, v_windy − v_calm = F(w, x). Falls are chaotic: a windy fall and its calm twin drift
+// apart for reasons other than the wind. So the response is learned and judged on means over clones of one gust with
+// slightly different starts. It has one lag: a leaf is so light that further lags add nothing.
 
 #include <array>
 #include <cstddef>
@@ -18,23 +18,23 @@
 
 namespace wisp::chain {
 
-/// A windy recording and its calm twin: piece k of both began alike, and each gust has `clones` pieces in a row.
+/// A windy recording and its calm twin: piece k of both began equally; each gust has `clones` consecutive pieces.
 struct GustPairs {
   Motion windy;
   Motion calm;
-  std::array<const std::vector<double>*, 3> wind{};  ///< samples of the windy recording, which must outlive this
+  std::array<const std::vector<double>*, 3> wind{};  ///< samples of the windy recording; it must outlive this
   std::size_t clones = 1;
-  std::string source;  ///< the windy recording's
+  std::string source;  ///< source of the windy recording
 
   std::size_t gusts() const { return windy.pieces.size() / clones; }
   Triple wind_at(std::size_t piece, std::size_t row) const;
 };
 
-/// Both share the value of `pair`; `clones` says how many episodes in a row belong to one gust (1 where it is missing).
+/// Pairs recordings that share the value of `pair`; attribute `clones` is the number of episodes per gust (default 1).
 /// Errors: as motion_of(); no wind channels; episodes that do not match; fewer than 4 gusts.
 Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm);
 
-/// Rows [onset, end) of a gust: from the first wind of any clone to the last, and a while after.
+/// Rows [onset, end) of a gust: from the first wind of any clone to the last, and kAfterSeconds more.
 struct GustSpan {
   std::size_t onset = 0;
   std::size_t end = 0;
@@ -42,25 +42,25 @@ struct GustSpan {
 };
 GustSpan span_of(const GustPairs& pairs, std::size_t gust);
 
-/// Means over clones, a row each from the onset on.
+/// Means over clones, one row per row since the onset.
 struct GustEnsemble {
-  std::vector<Triple> change;        ///< of velocity
-  std::vector<Triple> displacement;  ///< since the onset
+  std::vector<Triple> change;        ///< change of velocity
+  std::vector<Triple> displacement;  ///< displacement since the onset
   std::vector<Triple> wind;
-  std::vector<std::array<Triple, 3>> normal;  ///< what takes of a wind its part that is square to the body: n nᵀ
-  double displacement_error = 0;              ///< over ground at the end: standard error of the mean, metres
+  std::vector<std::array<Triple, 3>> normal;  ///< projection n nᵀ onto the body's normal
+  double displacement_error = 0;              ///< standard error of the mean horizontal displacement at the end, metres
 };
 
-/// Over the clones first, first + stride, …
+/// Means over the clones first, first + stride, …
 GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, std::size_t first = 0,
                          std::size_t stride = 1);
 
 struct GustFit {
   GustResponse response;
-  std::vector<Input> inputs;  ///< wind.x, wind.y, wind.z with the range that was seen
+  std::vector<Input> inputs;  ///< wind.x, wind.y, wind.z with the observed range
 };
 
-/// Learns from the first so many gusts. Errors: fewer than 2 of them blow.
+/// Learns from the first `gusts` gusts. Errors: fewer than 2 of them have wind.
 Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts);
 
 }  // namespace wisp::chain

@@ -13,16 +13,16 @@ namespace wisp::chain {
 namespace {
 
 constexpr std::size_t kMinRows = 8;
-constexpr double kUsualStep = 0.9;   // share of the steps that are shorter
-constexpr double kMaxJump = 20;      // usual steps, and those around it: a row that is farther was not moved to
-constexpr double kRounding = 2e-4;   // of a unit quaternion that was written with four digits
-constexpr double kMaxWrong = 0.01;   // beyond it, it is something else than a unit quaternion
-constexpr double kMaxJitter = 0.01;  // of a step of time
+constexpr double kUsualStep = 0.9;   // quantile of step lengths that counts as usual
+constexpr double kMaxJump = 20;      // longest step, in usual and in neighbouring steps; a longer one is a jump
+constexpr double kRounding = 2e-4;   // deviation from unit length of a quaternion written with four digits
+constexpr double kMaxWrong = 0.01;   // deviation from unit length above which it is not a unit quaternion
+constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of it
 
 constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
 
-// Where the channels of a recording are.
+// Channel indices of a recording's pose.
 struct Layout {
   std::array<std::size_t, 3> position{};
   std::optional<std::array<std::size_t, 4>> orientation;
@@ -58,7 +58,7 @@ Result<Layout> layout_of(const Recording& recording) {
   return layout;
 }
 
-// A channel of time, where there is one, must go on evenly within each episode.
+// Checks that a time channel, where there is one, has equal steps within each episode.
 Result<void> check_time(const Recording& recording) {
   for (const char* name : kTimeColumns) {
     const auto channel = find_channel(recording, name);
@@ -78,7 +78,7 @@ Result<void> check_time(const Recording& recording) {
   return {};
 }
 
-// The row's quaternion, of unit length. `worst` takes how far from it one was.
+// The row's quaternion, normalised. `worst` receives the largest deviation from unit length.
 Result<Quad> unit_quaternion(const Recording& recording, const std::array<std::size_t, 4>& channels, std::size_t row,
                              double& worst) {
   Quad q;
@@ -99,7 +99,7 @@ Result<Quad> unit_quaternion(const Recording& recording, const std::array<std::s
 
 double dot(const Quad& a, const Quad& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
-// Derivative a row by differences of fourth order, of lower order at the ends.
+// Derivative per row by finite differences of fourth order, of lower order at the ends.
 template <std::size_t kSize>
 std::vector<std::array<double, kSize>> differences(const std::vector<std::array<double, kSize>>& values) {
   const auto last = static_cast<long>(values.size()) - 1;
@@ -122,8 +122,8 @@ std::vector<std::array<double, kSize>> differences(const std::vector<std::array<
   return out;
 }
 
-// Slope of the parabola through 2 half + 1 rows, fitted by least squares (Savitzky & Golay 1964); the window is moved
-// inwards at the ends, and there the parabola's own slope is taken.
+// Slope of the parabola through 2 half + 1 rows, fitted by least squares (Savitzky & Golay 1964). At the ends the
+// window is moved inwards and the parabola's slope at the row is used.
 std::vector<Triple> smooth_slopes(const std::vector<Triple>& values, long half) {
   const auto rows = static_cast<long>(values.size());
   half = std::min(half, (rows - 1) / 2);
@@ -151,7 +151,7 @@ std::vector<Triple> smooth_slopes(const std::vector<Triple>& values, long half) 
   return out;
 }
 
-// ω = 2 q̇ q*, world axes.
+// Angular velocity ω = 2 q̇ q*, world axes.
 Triple spin_of(const Quad& q, const Quad& rate) {
   return {2 * (-rate[0] * q[1] + rate[1] * q[0] - rate[2] * q[3] + rate[3] * q[2]),
           2 * (-rate[0] * q[2] + rate[2] * q[0] - rate[3] * q[1] + rate[1] * q[3]),
@@ -194,8 +194,8 @@ Result<void> add_row(const Recording& recording, const Layout& layout, std::size
 
 double distance_between(const Triple& a, const Triple& b) { return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]); }
 
-// What moves does not jump: a step that is many times as long as the steps around it, and as steps are, is another
-// place, or another fall.
+// Errors: a jump, that is, a step many times as long as the steps around it and as the usual step. It joins two places
+// or two falls.
 Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
   std::vector<double> steps;
   for (std::size_t row = 1; row < piece.rows(); ++row) {
@@ -247,7 +247,7 @@ Result<void> add_recording(const Recording& recording, std::size_t index, const 
   return {};
 }
 
-// Weights of a Catmull-Rom cubic, and the row before.
+// Weights of a Catmull-Rom cubic, and the index of the row before.
 struct Place {
   long row;
   std::array<double, 4> weight;
@@ -271,7 +271,7 @@ std::array<double, kSize> cubic(std::span<const std::array<double, kSize>> value
   for (std::size_t i = 0; i < kSize; ++i) {
     for (long k = 0; k < 4; ++k) {
       const long at = place.row + k - 1;
-      // Beyond the ends the values go on straight.
+      // Values are extrapolated linearly beyond the ends.
       double x = 0;
       if (at < 0) {
         x = 2 * value(0, i) - value(std::min(1L, last), i);

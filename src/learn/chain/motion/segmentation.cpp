@@ -6,13 +6,13 @@
 namespace wisp::chain {
 namespace {
 
-constexpr std::size_t kParts = 16;  // short windows of the longest stretch; a long one is four
-constexpr double kMinSegments = 8;  // of a long window: in fewer, what wanders slowly has no time to
-// Of the variance from one to the other. Of random walks one in a hundred grows less, and of what returns to a mean
-// within a ninetieth of the recording none in three hundred more (both simulated).
+constexpr std::size_t kParts = 16;  // number of short windows in the longest stretch; a long window is four of them
+constexpr double kMinSegments = 8;  // in a long window; fewer are too short to show a slow random walk
+// Maximum ratio of the long windows' variance to the short ones'. Simulated: 1 in 100 random walks is below it, and
+// none of 300 processes that return to a mean within 1/90 of the recording is above.
 constexpr double kMaxGrowth = 1.7;
 
-// The mean variance of heights within windows of so many rows, side by side.
+// Mean variance of heights within adjacent windows of `rows` rows.
 double spread_within(const Motion& motion, std::size_t rows) {
   double variance = 0, windows = 0;
   for (const MotionPiece& piece : motion.pieces) {
@@ -62,7 +62,7 @@ Result<std::vector<double>> signal_of(const Motion& motion, const MotionPiece& p
   return signal;
 }
 
-// Zeros between excursions beyond ±margin to either side, each at its last change of sign.
+// Zero crossings between excursions beyond ±margin on both sides, each at its last change of sign.
 std::vector<double> zeros_of(std::span<const double> signal, double margin) {
   std::vector<double> found;
   int side = 0;
@@ -80,7 +80,7 @@ std::vector<double> zeros_of(std::span<const double> signal, double margin) {
   return found;
 }
 
-// The vertex of the parabola through three samples.
+// Row of the vertex of the parabola through three samples.
 double vertex(std::span<const double> signal, std::size_t row) {
   if (row == 0 || row + 1 == signal.size()) return static_cast<double>(row);
   const double before = signal[row - 1], at = signal[row], after = signal[row + 1];
@@ -89,7 +89,7 @@ double vertex(std::span<const double> signal, std::size_t row) {
   return static_cast<double>(row) + std::clamp(shift, -0.5, 0.5);
 }
 
-// Minima from which the signal has come down by at least `margin`, and goes up by as much.
+// Minima with a fall before and a rise after of at least `margin`.
 std::vector<double> minima_of(std::span<const double> signal, double margin) {
   std::vector<double> found;
   bool falling = false;
@@ -126,7 +126,7 @@ double deviation_of(std::span<const std::vector<double>> signals) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * sum / count));
 }
 
-// Whole rows are handed out so that the segments of a piece together last as long as they did.
+// Rounds durations to whole rows such that the segments of a piece keep their total duration.
 void add_segments(std::size_t piece, const std::vector<double>& events, std::vector<Segment>& segments) {
   for (std::size_t k = 0; k + 1 < events.size(); ++k) {
     const auto begin = static_cast<int>(std::lround(events[k])), end = static_cast<int>(std::lround(events[k + 1]));

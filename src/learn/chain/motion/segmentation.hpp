@@ -1,5 +1,5 @@
 #pragma once
-// Where motion is cut: at critical events, zeros or extrema of a channel or of a signal derived from the motion.
+// Segmentation of motion at critical events: zeros or extrema of a channel or of a signal derived from the motion.
 //
 // Source: section 4.1.1 of the paper (a leaf is cut where it stalls: its forward speed in its own plane is zero).
 
@@ -16,41 +16,41 @@ namespace wisp::chain {
 
 struct SegmentationOptions {
   EventSpec event{};
-  double min_seconds = 0.04;  ///< ≥ 0: events nearer to the one before are left out; 0.04 is 2 frames of 60
-  double debounce = 0.1;  ///< ≥ 0: how far, in standard deviations of the signal, it must go beyond a zero on both
-                          ///< sides, or away from an extremum, before that counts
+  double min_seconds = 0.04;  ///< ≥ 0: minimum time between events, the later is dropped; 0.04 is 2 frames of 60
+  double debounce = 0.1;  ///< ≥ 0, in standard deviations of the signal: minimum excursion on both sides of a zero, or
+                          ///< from an extremum
 };
 
-/// A piece of motion between two events: [begin, end] in rows of its piece, between samples.
+/// A piece of motion between two events: [begin, end] in fractional rows of its piece.
 struct Segment {
   std::size_t piece = 0;
   double begin = 0;
   double end = 0;
-  int steps = 1;  ///< whole rows that it stands for; those of a piece's segments add up to the rows between its events
+  int steps = 1;  ///< duration in whole rows; segments of a piece add up to the rows between its events
 };
 
-/// What a recipe says of it.
+/// Segmentation options from a recipe.
 inline SegmentationOptions segmentation_of(const ChainRecipe& recipe) {
   return {recipe.event, recipe.min_seconds, recipe.debounce};
 }
 
 struct Segmentation {
-  std::vector<Segment> segments;  ///< in order; one whose piece is that of the one before follows it
+  std::vector<Segment> segments;  ///< in order; consecutive segments of the same piece adjoin
   std::vector<std::string> warnings;
   std::size_t pieces_without = 0;  ///< pieces with fewer than two events
 };
 
-/// The events of one signal, in rows, between samples. `deviation` is the signal's standard deviation.
+/// Fractional rows of the events of one signal. `deviation` is the signal's standard deviation.
 std::vector<double> event_rows(std::span<const double> signal, double rate_hz, double deviation,
                                const SegmentationOptions& options);
 
-/// Cuts motion into segments. Stretches before a piece's first event and after its last are left out.
-/// Errors: a signal that is neither a channel nor derived, one that needs orientation where there is none, an option
-/// out of range, no segment at all.
+/// Cuts motion into segments. Rows before a piece's first event and after its last are dropped.
+/// Errors: a signal that is neither a channel nor derived, one that needs a missing orientation, an option out of
+/// range, no segment.
 Result<Segmentation> segment(const Motion& motion, std::span<const Recording> recordings,
                              const SegmentationOptions& options);
 
-/// Values of segments, one each, apart where a segment does not follow the one before it.
+/// Values per segment, split into lists where a segment does not follow the one before it.
 template <class T>
 std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::span<const T> values) {
   std::vector<std::vector<T>> stretches;
@@ -61,11 +61,11 @@ std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::s
   return stretches;
 }
 
-/// Whether heights vary hardly more within a quarter of the longest stretch than within a sixteenth. By the variance
-/// within a window: it is the same in both for what is bounded, four times as large for a random walk, sixteen times
-/// for what falls. False where a quarter has fewer than 8 usual segments.
+/// Whether height is bounded: its variance is hardly larger within a quarter of the longest stretch than within a
+/// sixteenth. The ratio of variances is 1 for bounded motion, 4 for a random walk, 16 for a fall. False where a quarter
+/// has fewer than 8 usual segments.
 ///
-/// Precondition: segments are of the motion, not none.
+/// Precondition: `segments` are of the motion, at least one.
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);
 
 }  // namespace wisp::chain

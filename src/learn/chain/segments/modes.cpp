@@ -9,7 +9,7 @@
 namespace wisp::chain {
 namespace {
 
-constexpr double kNoLength = 1e-9;  // metres: a line shorter than this has no direction
+constexpr double kNoLength = 1e-9;  // metres: a shorter line has no direction
 
 Triple line_of(const MotionPiece& piece, const Segment& segment) {
   const Triple from = at_row(piece.position, segment.begin), to = at_row(piece.position, segment.end);
@@ -62,13 +62,13 @@ std::uint16_t nearest(const KMeans& found, std::span<const double> row) {
   return best;
 }
 
-// Which row of the probabilities counts after the `at` modes before; 0 before the first mode, which has no row.
+// Row of the probabilities that applies after the `at` modes before; 0 before the first mode, which has no row.
 std::size_t row_after(std::span<const std::uint16_t> sequence, std::size_t at, std::size_t modes, int history) {
   const std::size_t last = sequence[at - 1];
   return history < 2 || at < 2 ? last : modes + sequence[at - 2] * modes + last;
 }
 
-// Counts as probabilities; of nothing, what is given instead.
+// Normalises counts to probabilities; where all counts are 0, copies `instead`.
 void normalise(std::span<double> counts, std::span<const double> instead) {
   double total = 0;
   for (double count : counts) total += count;
@@ -136,7 +136,7 @@ ModeChain counted_chain(const ModeSequences& sequences, int modes, int history) 
         ++chain.initial[sequence[at]];
         continue;
       }
-      // Pairs count for their last mode too: for what has none before it, and for pairs that were never followed.
+      // Pairs also count for their last mode alone: used after a single mode, and after pairs that were never followed.
       ++chain.probabilities[sequence[at - 1] * count + sequence[at]];
       if (history > 1 && at > 1) ++chain.probabilities[row_after(sequence, at, count, history) * count + sequence[at]];
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The modes of the paper: segments in clusters, and how often each mode follows the one or two before it.
+// Modes of the paper: clusters of segments, and transition probabilities given the one or two modes before.
 //
 // Source: sections 2.2 and 4.1.3 of the paper.
 
@@ -21,45 +21,45 @@ struct FeatureTable {
   std::size_t rows() const { return features == 0 ? 0 : values.size() / features; }
 };
 
-/// Direction over ground of the line between a segment's ends, as an angle from x; 0 where it has none.
+/// Direction over ground from a segment's start to its end, as an angle from x; 0 where the two coincide.
 double heading_of(const Motion& motion, const Segment& segment);
 
-/// The rows of one segment, from whole row to whole row, as a piece of motion of its own, which begins at the origin
-/// and, where heading is free, leads along x.
+/// The whole rows of one segment as a separate piece of motion that begins at the origin and, where heading is free,
+/// leads along x.
 MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free);
 
-/// Vectors are seen along the segment's own direction over ground where heading is free. A feature that does not vary
-/// is 0.
+/// Features of segments. Where heading is free, vectors are relative to the segment's direction over ground. A constant
+/// feature is 0.
 FeatureTable segment_features(const Motion& motion, std::span<const Segment> segments, bool heading_free);
 
 struct Modes {
   int count = 1;
-  std::vector<std::uint16_t> of;   ///< per segment
-  std::vector<std::size_t> sizes;  ///< per mode, of the segments that were learned from
-  double silhouette = 0;           ///< −1 … 1, high where modes are tight and apart
+  std::vector<std::uint16_t> of;   ///< mode of each segment
+  std::vector<std::size_t> sizes;  ///< number of training segments per mode
+  double silhouette = 0;           ///< −1 … 1, high for compact, well-separated modes
 };
 
-/// Sorts segments into modes by k-means of the first `learned` of them; the others join the nearest centroid.
+/// Clusters the first `learned` segments by k-means; the others are assigned to the nearest centroid.
 /// Errors: as k_means().
 Result<Modes> sorted_into_modes(const FeatureTable& table, std::size_t learned, int modes, std::uint64_t seed);
 
-/// Sequences of modes, one a stretch of segments that follow each other.
+/// Sequences of modes, one per stretch of consecutive segments.
 using ModeSequences = std::vector<std::vector<std::uint16_t>>;
 
 struct ModeChain {
   int history = 1;
-  std::vector<double> initial;        ///< as ChainModel::initial
-  std::vector<double> probabilities;  ///< as ChainModel::probabilities
+  std::vector<double> initial;        ///< as in ChainModel::initial
+  std::vector<double> probabilities;  ///< as in ChainModel::probabilities
 };
 
-/// Counts what follows each mode, or each two. What was never followed goes on as the last mode of it, or as modes do
-/// on the whole, so that no walk is stranded.
+/// Counts transitions from each mode, or each pair of modes. A pair that was never followed takes the probabilities of
+/// its last mode, and a mode that was never followed the overall frequencies, so every walk can continue.
 ///
-/// Precondition: all modes are below `modes`, and there is at least one; history is 1 or 2.
+/// Precondition: there is a mode, all are below `modes`; history is 1 or 2.
 ModeChain counted_chain(const ModeSequences& sequences, int modes, int history);
 
-/// Mean natural logarithm of the probability that the chain gives each mode of the sequences that has one before it:
-/// −ln(modes) for a chain that knows nothing. A probability of 0 counts as 1e-6. NaN where there is no transition.
+/// Mean log probability (natural) that the chain gives to each mode with one before it: −ln(modes) for a uniform chain.
+/// A probability of 0 counts as 1e-6. NaN without transitions.
 double log_likelihood(const ModeChain& chain, const ModeSequences& sequences);
 
 }  // namespace wisp::chain

@@ -26,10 +26,10 @@ using Eigen::VectorXd;
 
 constexpr int kControlPoints = 8;
 constexpr long kComponents = 12;
-constexpr double kStiffness = 1e-3;  // of second differences of control points, over the rows' misfit
+constexpr double kStiffness = 1e-3;  // weight of the control points' second differences against the misfit
 
-// From the rows of a segment of so many steps to control points: control points × rows. The ends go through the first
-// and the last row, where segments join.
+// Least-squares matrix from rows to control points for a segment of `steps` steps: control points × rows. The spline
+// interpolates the first and last row, where segments join.
 MatrixXd smoother(int steps) {
   const auto knots = uniform_knots(kControlPoints);
   const long rows = steps + 1, points = kControlPoints, inner = points - 2;
@@ -71,7 +71,7 @@ void put_numbers(const MatrixXd& rows, MotionPiece& piece) {
   }
 }
 
-// Gives the quaternions of a mode's pieces one sign: that of their usual direction.
+// Gives the quaternions of a mode's pieces one sign: the hemisphere of their mean direction.
 void align_signs(std::span<MotionPiece* const> pieces) {
   if (pieces.empty() || pieces.front()->orientation.empty()) return;
   Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
@@ -88,7 +88,7 @@ void align_signs(std::span<MotionPiece* const> pieces) {
   }
 }
 
-// Replaces the rows of one mode's pieces by those of their splines.
+// Replaces the rows of one mode's pieces by the values of their splines.
 void smooth_mode(std::span<MotionPiece* const> pieces, std::map<int, MatrixXd>& smoothers) {
   if (pieces.empty()) return;
   align_signs(pieces);
@@ -125,9 +125,9 @@ void smooth_mode(std::span<MotionPiece* const> pieces, std::map<int, MatrixXd>& 
 
 // ---- Systems ----
 
-constexpr double kRidge = 1e-6;     // of the mean square of a term: terms may depend on each other
-constexpr double kMinRidge = 1e-9;  // of that of all terms: some are never anything but 0
-constexpr int kStates = 6;          // velocity and angular velocity in the body's axes
+constexpr double kRidge = 1e-6;     // share of a term's mean square: regularises collinear terms
+constexpr double kMinRidge = 1e-9;  // share of all terms' mean square: regularises terms that are always 0
+constexpr int kStates = 6;          // velocity and angular velocity in body axes
 
 using State = Eigen::Matrix<double, kStates, 1>;
 
@@ -137,7 +137,7 @@ State state_at(const MotionPiece& piece, std::size_t row) {
   return State{v[0], v[1], v[2], w[0], w[1], w[2]};
 }
 
-// 1, the velocities, "up" in the body's axes and, of degree 2, the products of all of those.
+// Terms: 1, the velocities, "up" in body axes and, for degree 2, their products.
 VectorXd terms_of(const State& state, const Quad& orientation, int degree) {
   const Triple up = in_body_axes(orientation, {0, 0, 1});
   Eigen::Matrix<double, kStates + 3, 1> seen;
@@ -151,7 +151,7 @@ VectorXd terms_of(const State& state, const Quad& orientation, int degree) {
   return terms;
 }
 
-// z(t + 1) = coefficient · terms(z(t)) + noise · e(t), clamped to the states that were seen.
+// z(t + 1) = coefficient · terms(z(t)) + noise · e(t), clamped to the observed range of states.
 struct System {
   MatrixXd coefficient;  // states × terms
   Eigen::Matrix<double, kStates, kStates> noise = Eigen::Matrix<double, kStates, kStates>::Zero();
@@ -193,7 +193,7 @@ Result<System> fitted_system(std::span<const MotionPiece* const> pieces, int mod
   return system;
 }
 
-// Lets a system go on from a piece's first row for as long as the piece lasts.
+// Simulates a system from a piece's first row for the piece's duration.
 void play(const System& system, int degree, double rate_hz, std::mt19937& words, MotionPiece& piece) {
   State state = state_at(piece, 0);
   for (std::size_t row = 1; row < piece.rows(); ++row) {
@@ -206,7 +206,7 @@ void play(const System& system, int degree, double rate_hz, std::mt19937& words,
     const Quad& before = piece.orientation[row - 1];
     state = system.coefficient * terms_of(state, before, degree) + system.noise * shock;
     state = state.cwiseMax(system.lowest).cwiseMin(system.highest);
-    // Turned by the new angular velocity over the step, then moved by the mean of both velocities.
+    // Rotates by the new angular velocity over the step, then moves by the mean of the old and new velocity.
     const Triple turn = in_world_axes(before, {state[3], state[4], state[5]});
     Quad q = before;
     const double half = 0.5 / rate_hz;
@@ -226,7 +226,7 @@ void play(const System& system, int degree, double rate_hz, std::mt19937& words,
   }
 }
 
-// Every segment as a piece of its own, and those pieces by mode.
+// Every segment as a separate piece, and those pieces by mode.
 RealisedSegments cut_apart(const SortedSegments& from, bool heading_free) {
   RealisedSegments out{
       {from.motion.has_orientation, from.motion.rate_hz, {}, {}}, {}, {from.mode.begin(), from.mode.end()}, from.modes};
@@ -243,11 +243,11 @@ std::vector<std::vector<MotionPiece*>> by_mode(RealisedSegments& made) {
   return pieces;
 }
 
-// ---- Chains of their own ----
+// ---- Modes split into chains ----
 
-constexpr std::size_t kKinds = 2;  // of each half
+constexpr std::size_t kKinds = 2;  // number of clusters per mode and half
 
-// Every segment cut into its two halves, and the kind of each half: mode × 2, plus 1 for the second.
+// Splits every segment into halves. The class of a half is mode × 2, plus 1 for the second half.
 std::pair<std::vector<Segment>, std::vector<std::size_t>> halves_of(const SortedSegments& from) {
   std::vector<Segment> segments;
   std::vector<std::size_t> group;

@@ -1,7 +1,6 @@
 #pragma once
 // Realisations of modes. Source: section 2.2 of the paper, which names splines, linear systems, differential equations
-// and chains of their own beside segments. Each is turned into segments when a model is learned, so that a model holds
-// and plays segments only.
+// and chains besides segments. Learning converts each into segments, so that a model stores and plays segments only.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +10,7 @@
 
 namespace wisp::chain {
 
-/// Segments of some motion in their modes.
+/// Segments of motion, sorted into modes.
 struct SortedSegments {
   const Motion& motion;
   std::span<const Segment> segments;
@@ -19,7 +18,7 @@ struct SortedSegments {
   int modes;
 };
 
-/// The same, made of others.
+/// Segments, modes and motion after a realisation replaced the recorded segments.
 struct RealisedSegments {
   Motion motion;
   std::vector<Segment> segments;
@@ -27,17 +26,16 @@ struct RealisedSegments {
   int modes = 0;
 };
 
-/// Each segment as a cubic B-spline: the mean of its mode plus what the 12 largest principal components of its mode say
-/// of it.
+/// Each segment as a cubic B-spline: its mode's mean plus its projection on the mode's 12 largest principal components.
 RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
 
-/// Segments that a system of each mode makes, from where the recorded ones begin and as long: velocities in the body's
-/// axes as a linear system with noise (degree 1), or as a differential equation with products of velocities (degree 2).
+/// Segments simulated by a system of each mode, from the recorded initial states and as long: velocities in body axes
+/// as a linear system with noise (degree 1), or as a differential equation with products of velocities (degree 2).
 /// Errors: motion without orientation, a mode with fewer rows than a fit needs.
 Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
 
-/// Halves of the segments, in two kinds of each mode and half: a mode is then a chain of its own.
-/// Errors: more than 64 kinds.
+/// Halves of the segments, each half of a mode clustered into two: a mode then is a chain of four modes.
+/// Errors: more than 64 modes in total.
 Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 
 }  // namespace wisp::chain

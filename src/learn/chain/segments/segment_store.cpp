@@ -14,23 +14,23 @@
 namespace wisp::chain {
 namespace {
 
-// ---- Which segments join which with the least to smooth over ----
+// ---- Choice of the best-joining successors ----
 
 struct JoinOptions {
   bool heading_free = true;
-  bool bounded_height = false;  ///< a successor begins about as high as the segment before it ends
+  bool bounded_height = false;  ///< prefer successors that begin near the height at which the segment ends
   int breadth = 4;              ///< successors of each segment and mode, > 0
 };
 
-// Attitude counts as much as velocity and spin together: a jump of attitude is what the eye sees first.
+// Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
 constexpr double kAttitudeWeight = 1.5;
 
-// Differences of velocity and attitude fade within a join; one of height takes as long as it takes to go there.
+// Weight of height: it fades over the time that the body takes to move there, other differences within a join.
 constexpr double kHeightWeight = 3;
 
-// How a body moves at one moment, in groups of three numbers: velocity, angular velocity and attitude ("up" in the
-// body's axes, or the body's three axes in the world); without orientation velocity and its change. Where height is
-// bounded, that too.
+// State of a body at one moment, in groups of three numbers: velocity, angular velocity and attitude ("up" in body
+// axes, or the body's three axes in the world); without orientation velocity and its change. Bounded height is one more
+// group.
 struct Moments {
   std::vector<double> weight;  // per group
   std::vector<double> values;  // moments × size
@@ -63,8 +63,8 @@ void add_moment(const MotionPiece& from, double row, const JoinOptions& options,
   if (options.bounded_height) add({at_row(from.position, row)[2], 0, 0}, kHeightWeight);
 }
 
-// The weight of each number: that of its group over the group's standard deviation, so that axes keep their
-// proportions.
+// Weight of each number: its group's weight divided by the group's standard deviation, which preserves the proportions
+// of axes.
 std::vector<double> weights_of(const Moments& moments) {
   const std::size_t count = moments.values.size() / moments.size();
   std::vector<double> weight;
@@ -122,16 +122,16 @@ std::vector<std::uint16_t> best_successors(const Motion& motion, std::span<const
 }
 
 constexpr double kMaxStored = 32767;
-constexpr double kRowShare = 0.005;        // of a usual step: what positions are rounded to, 0.1 mm for a leaf
-constexpr double kRateShare = 0.002;       // of a usual rate: what rates are rounded to
-constexpr double kTurnScale = 1.0 / 4096;  // of quaternions: rounds an orientation by 0.03° at most
+constexpr double kRowShare = 0.005;        // quantum of positions as a share of a usual step: 0.1 mm for a leaf
+constexpr double kRateShare = 0.002;       // quantum of rates as a share of the usual rate
+constexpr double kTurnScale = 1.0 / 4096;  // quantum of quaternion components: rounds an orientation by 0.03° at most
 
 double largest(double so_far, const Triple& vector) {
   for (double x : vector) so_far = std::max(so_far, std::abs(x));
   return so_far;
 }
 
-// What numbers are rounded to that are usually so large, and at most as large as `most`.
+// Quantum for 16-bit numbers up to `most`, at least `usual`.
 double scale_for(double most, double usual) {
   return std::max(usual, most / kMaxStored) + (most > 0 ? 0 : 1.0 / kMaxStored);
 }
@@ -154,7 +154,7 @@ std::pair<double, double> usual_rates(const Motion& motion) {
   return {std::sqrt(speed / rows), std::sqrt(spin / rows)};
 }
 
-// What a segment takes in a file, about: its numbers are packed (model/chain_rows.hpp).
+// Approximate bytes per number and per successor in a file, packed by model/chain_rows.hpp.
 constexpr double kNumberBytes = 0.97;
 constexpr double kSuccessorBytes = 1.6;
 
@@ -163,7 +163,7 @@ double bytes_of(const Segment& segment, bool pose, double successors) {
   return kNumberBytes * ((segment.steps + 1.0) * channels + rates) + 4 + successors;
 }
 
-// Most segments a mode may keep so that all fit: modes that have fewer leave their room to the others.
+// Maximum number of segments per mode such that all fit; modes with fewer leave their room to others.
 std::size_t cap_of(const std::vector<std::vector<std::size_t>>& members, std::size_t most) {
   std::size_t low = 1, high = most;
   while (low < high) {
@@ -175,9 +175,8 @@ std::size_t cap_of(const std::vector<std::vector<std::size_t>>& members, std::si
   return low;
 }
 
-// The segments from row to row of their recording. To play them from event to event their time would have to be
-// stretched to whole steps, by a quarter where they have but a few, and what is stretched moves at another speed than
-// what it joins.
+// Segments aligned to whole rows of their recording. Playing from event to event would need their time stretched to
+// whole steps, by up to a quarter for short ones, and stretching changes the speed at joins.
 std::vector<Segment> on_rows(const Motion& motion, std::span<const Segment> segments) {
   std::vector<Segment> out(segments.begin(), segments.end());
   for (Segment& one : out) {
@@ -188,7 +187,7 @@ std::vector<Segment> on_rows(const Motion& motion, std::span<const Segment> segm
   return out;
 }
 
-// How deep a segment dives, how fast it goes over ground, and how far it turns: what tails are made of.
+// Tail statistics of a segment: how far it dives, its speed over ground, and its turn.
 std::array<double, 3> extremes_of(const Motion& motion, const Segment& segment) {
   const MotionPiece& piece = motion.pieces[segment.piece];
   const auto first = static_cast<std::size_t>(segment.begin), last = static_cast<std::size_t>(segment.end);
@@ -202,7 +201,7 @@ std::array<double, 3> extremes_of(const Motion& motion, const Segment& segment) 
   return out;
 }
 
-// Puts segments in an order in which neighbours are alike: halves by one of their extremes after the other.
+// Orders segments so that neighbours are similar: recursive halving by one extreme after another.
 void order_alike(std::span<std::size_t> members, const std::vector<std::array<double, 3>>& extremes, std::size_t by) {
   if (members.size() < 2) return;
   const auto middle = members.begin() + static_cast<long>(members.size() / 2);
@@ -214,21 +213,21 @@ void order_alike(std::span<std::size_t> members, const std::vector<std::array<do
   order_alike(members.subspan(half), extremes, next);
 }
 
-// So many of them, at even shares.
+// `count` of them, equally spaced.
 std::vector<std::size_t> thinned(const std::vector<std::size_t>& members, std::size_t count) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < count; ++k) out.push_back(members[(2 * k + 1) * members.size() / (2 * count)]);
   return out;
 }
 
-// Segments that stay, by mode, and within a mode in the order of the recording. Where not all can, they are drawn in
-// strata, so that dives, speeds and turns are as frequent among those that stay.
+// Segments to store, by mode and in recording order. Where not all fit, a stratified sample that preserves the
+// distribution of dives, speeds and turns.
 std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Segment> segments,
                                        std::span<const std::uint16_t> cluster, int modes, bool pose,
                                        const SegmentStoreOptions& options) {
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
   double bytes = 0;
-  const double successors = kSuccessorBytes * options.breadth * modes + 6;  // with leads
+  const double successors = kSuccessorBytes * options.breadth * modes + 6;  // 6 bytes for the lead
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[cluster[k]].push_back(k);
     bytes += bytes_of(segments[k], pose, successors);
@@ -248,7 +247,7 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
   return kept;
 }
 
-// The heights at which stored segments begin.
+// Stores the heights at which segments begin.
 void put_heights(const Motion& motion, std::span<const Segment> segments, SegmentStore& store) {
   std::vector<double> heights;
   for (std::size_t source : store.source) {

@@ -1,6 +1,6 @@
 #pragma once
-// Segments as a chain stores them: each in its own frame, resampled to whole steps, as scaled 16-bit numbers; and which
-// segments join which.
+// Segments as a chain stores them: each in its own frame, resampled to whole steps, as scaled 16-bit numbers, with the
+// successors that join it best.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,22 +15,22 @@ namespace wisp::chain {
 
 struct SegmentStoreOptions {
   bool heading_free = true;
-  std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
-                                      ///< the rarer ones allow
-  bool bounded_height = false;        ///< segments keep the height at which they begin, and join what ends near it
-  int breadth = 0;  ///< 0 … 256: best-joining successors kept for each segment and mode; 0: any segment of the mode
-                    ///< follows
+  std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: excess segments are dropped, from the most frequent
+                                      ///< modes first
+  bool bounded_height = false;        ///< segments keep their initial height and join others at a similar one
+  int breadth = 0;  ///< 0 … 256: number of best-joining successors per segment and mode; 0: any segment of the mode may
+                    ///< follow
 };
 
 struct SegmentStore {
   ChainSegments segments;
-  std::vector<std::size_t> source;  ///< per stored segment: its index among those given
+  std::vector<std::size_t> source;  ///< per stored segment: its index among the given ones
 };
 
-/// `cluster` gives each segment's mode.
+/// Stores segments. `cluster` is each segment's mode.
 ///
-/// Precondition: as many clusters as segments, all below `modes`, each mode with a segment; with best-joining
-/// successors orientation.
+/// Preconditions: as many clusters as segments, all below `modes`, each mode with a segment; orientation where breadth
+/// > 0.
 SegmentStore store_segments(const Motion& motion, std::span<const Segment> segments,
                             std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options);
 

@@ -1,5 +1,5 @@
-// How an outline moves as a physicist asks: its height, area and lean, the frequency of its flicker, and of two
-// outlines the phase between them.
+// Physical figures of an outline's motion: height, area, lean, flicker frequency, and for two outlines the phase
+// between them.
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@
 namespace wisp {
 namespace {
 
-constexpr double kWindowSeconds = 4;  // of a periodogram: a quarter of a hertz apart
-constexpr double kLowestHz = 1;       // slower swaying is the room's
+constexpr double kWindowSeconds = 4;  // duration of a periodogram's segment: resolution 0.25 Hz
+constexpr double kLowestHz = 1;       // lower motion is draught in the room
 constexpr std::size_t kMinSegments = 3;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// What lies between missing samples, within episodes.
+// Gap-free stretches of samples within episodes.
 std::vector<std::vector<double>> stretches_of(const std::vector<double>& samples, const Recording& recording) {
   std::vector<std::vector<double>> out;
   for (const Episode& episode : episodes(recording)) {
@@ -37,12 +37,12 @@ std::vector<std::vector<double>> stretches_of(const std::vector<double>& samples
   return out;
 }
 
-// A peak of the spectrum, with its width where it is half as high.
+// A spectral peak with its width at half height.
 struct Flicker {
   double hz = 0, width_hz = 0;
 };
 
-// Where the power passes half of the peak's on one side, by a straight line between two frequencies.
+// Frequency at which the power falls to half of the peak's on one side, interpolated linearly.
 double half_power_hz(const Spectrum& of, std::size_t peak, int step) {
   std::size_t k = peak;
   const double half = of.power[peak] / 2;
@@ -53,8 +53,8 @@ double half_power_hz(const Spectrum& of, std::size_t peak, int step) {
   return of.frequency_hz[before] + part * (of.frequency_hz[k] - of.frequency_hz[before]);
 }
 
-// The peak that rises most above the usual power within half an octave to either side; nothing where chance makes as
-// much: in one of twenty series of noise a mean of n periodograms has such a peak of 1 + 5.5/√n.
+// The peak that rises most above the median power within half an octave on either side; empty where it is within
+// chance: one of twenty series of noise has such a peak of 1 + 5.5/√n in a mean of n periodograms.
 std::optional<Flicker> flicker_of(const Spectrum& of) {
   double most = 1 + 5.5 / std::sqrt(static_cast<double>(of.segments));
   std::size_t peak = 0;
@@ -76,11 +76,11 @@ std::size_t window_rows(double rate_hz) {
   return 2 * std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowSeconds * rate_hz / 2)));
 }
 
-// One row each; what has no outline is left out, and ends a stretch of sizes.
+// Values per row. Rows without an outline are left out, and end a stretch of sizes.
 struct Motion {
   std::vector<double> height, area, lean;
-  std::vector<double> size;  // √area of every row, NaN where there is no outline
-  Spectrum spectrum;         // of that
+  std::vector<double> size;  // √area per row, NaN without an outline
+  Spectrum spectrum;         // spectrum of size
   std::optional<Flicker> flicker;
 };
 
@@ -133,8 +133,8 @@ ReportSection section_of(const Recording& recording, const Motion& motion) {
   return section;
 }
 
-// What independent series exceed in at most one of twenty cases (G. C. Carter, "Coherence and time delay estimation",
-// Proc. IEEE 75, 1987), where half of the segments, which overlap, count.
+// Coherence that independent series exceed in one of twenty cases (G. C. Carter, "Coherence and time delay estimation",
+// Proc. IEEE 75, 1987); overlapping segments count half.
 double coherence_by_chance(std::size_t segments) {
   return 1 - std::pow(0.05, 1 / std::max(1.0, static_cast<double>(segments - 1) / 2));
 }

@@ -22,10 +22,10 @@ std::string horizon(int steps) {
   return steps == 1 ? "next frame" : std::to_string(steps) + " frames ahead";
 }
 
-// A number of steps in an id: "1", "5", … and "inf".
+// Id of a number of steps: "1", "5", … and "inf".
 std::string step_id(int steps) { return steps == kFreeRun ? "inf" : std::to_string(steps); }
 
-// An entry ID.STEPS for every number of steps. `label` empty: for programs only; else the horizon is added in words.
+// Adds an entry ID.STEPS per number of steps. An empty `label`: for programs only; else the horizon is added in words.
 void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
                   const std::string& label, const std::string& unit, ReportSection& section) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
@@ -34,14 +34,14 @@ void add_by_steps(const std::string& id, const std::vector<int>& steps, const st
   }
 }
 
-// The mean over control points of figures that are one a number of steps and control point.
+// Mean over control points of figures given per number of steps and control point.
 std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
   std::vector<double> means;
   for (const auto& values : per_step) means.push_back(mean(values));
   return means;
 }
 
-// The entry of `values` for a number of steps; NaN where it was not judged.
+// Value for a number of steps; NaN where that was not judged.
 double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
     if (steps[k] == wanted) return values[k];
@@ -49,12 +49,12 @@ double at_steps(const std::vector<int>& steps, const std::vector<double>& values
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// Columns PREFIX.STEPS of a table for programs.
+// Adds columns PREFIX.STEPS to a table for programs.
 void add_step_columns(const std::string& prefix, const std::vector<int>& steps, ReportTable& table) {
   for (int k : steps) table.columns.push_back({prefix + "." + step_id(k), ""});
 }
 
-// `alignment` [{recording, input, motion, offset_seconds, …}], and a sentence each for people.
+// Adds `alignment` [{recording, input, motion, offset_seconds, …}], and a sentence for each for people.
 void add_alignment(const std::vector<InputAlignment>& alignment, ReportSection& section) {
   ReportTable table{"alignment",
                     "",
@@ -76,7 +76,7 @@ void add_alignment(const std::vector<InputAlignment>& alignment, ReportSection& 
   section.tables.push_back(std::move(table));
 }
 
-// What was learned from.
+// Section on the training data.
 ReportSection data_section(const OutlineSummary& summary) {
   ReportSection section{"Data"};
   std::string names;
@@ -96,7 +96,7 @@ ReportSection data_section(const OutlineSummary& summary) {
   return section;
 }
 
-// The structure of the equations.
+// Section on the structure of the equations.
 ReportSection structure_section(const OutlineSummary& summary) {
   const OutlineDynamics& dynamics = summary.dynamics;
   const ShapeComponents& shape = dynamics.shape;
@@ -140,7 +140,7 @@ ReportTable channels_table(const OutlineFit& fit) {
   return table;
 }
 
-// How well the outline is followed.
+// Section on the accuracy of predictions.
 ReportSection fit_section(const OutlineFit& fit) {
   const OutlineSummary& summary = fit.summary;
   const bool held_out = summary.held_out.has_value();
@@ -163,7 +163,7 @@ ReportSection fit_section(const OutlineFit& fit) {
   return section;
 }
 
-// What is seen of free play.
+// Section on free play.
 ReportSection play_section(const OutlineSummary& summary) {
   const OutlineTrial& trial = summary.trial;
   ReportSection section{

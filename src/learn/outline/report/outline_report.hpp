@@ -1,5 +1,5 @@
 #pragma once
-// What was found in learning and validating an outline, as reports.
+// Reports on learning and validating an outline.
 
 #include <string>
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace wisp {
 
-/// The figures of a fit, without its verdict and warnings.
+/// Sections with the figures of a fit, without its verdict and warnings.
 std::vector<ReportSection> report_sections(const OutlineFit& fit);
 
-/// The figures of a validation, without its warnings and the series of plots.
+/// Sections with the figures of a validation, without its warnings and the series of plots.
 std::vector<ReportSection> report_sections(const OutlineJudgement& found);
 
 }  // namespace wisp
