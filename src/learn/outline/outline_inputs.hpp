@@ -64,7 +64,7 @@ inline constexpr double kSettleSeconds = 0.5;
 /// Flags per row: 1 where every input has been calm for kSettleSeconds within its episode (everywhere without inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// Rows of rest; of calm where half a second of rest is not seen, and none where half a second of calm is not either.
+/// Flags of rows at rest; of calm rows where less than 0.5 s of rest is seen; none where less than 0.5 s of calm is.
 std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
 /// Height in pixels that equals 1 in the model. With inputs it is the median over undisturbed rows, some of which may
