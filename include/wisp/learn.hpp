@@ -1,6 +1,6 @@
 #pragma once
-// Everything that turns recordings into models: capture, learn, validate, and what they take and answer with.
-// wisp/play.hpp is for playing them.
+// All headers for making models from recordings: capture, learning, validation, their options and reports. To play
+// models, include wisp/play.hpp.
 
 #include "wisp/capture/capture.hpp"
 #include "wisp/describe/json.hpp"

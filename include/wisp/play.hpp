@@ -1,5 +1,5 @@
 #pragma once
-// All that plays a model: read it, make a bank of it, let a wind act, read what it does; and a microphone's wind.
+// All headers for playing a model: read it, create a bank, set a wind, read outputs; and wind from a microphone.
 //
 //   const auto model = wisp::read_model("flame.wisp");
 //   auto bank = wisp::Bank::create(*model, {.capacity = 100});

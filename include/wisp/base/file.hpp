@@ -19,11 +19,11 @@ namespace wisp {
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                          std::uint64_t max_bytes = std::uint64_t{1} << 32);
 
-/// Writes a whole file: beside its place first (`.NAME.part-PID`), then renamed over it, so that a reader sees the old
-/// file or the new one and never a half, after a power failure too. A file that is replaced keeps its permissions, and
-/// what a symbolic link points to is replaced, not the link.
-/// Errors: the folder is missing or not writable, the name is a device's or a pipe's, the disk is full; nothing is left
-/// behind then.
+/// Writes a whole file: first to a temporary file beside it (`.NAME.part-PID`), then renamed over it, so that a reader
+/// sees the old file or the new one and never a part of it, even after a power failure. A replaced file keeps its
+/// permissions; of a symbolic link, the target is replaced, not the link.
+/// Errors: the folder is missing or not writable, the name is a device's or a pipe's, the disk is full; in each case no
+/// temporary file remains.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
@@ -40,7 +40,7 @@ class PendingFile {
   PendingFile& operator=(const PendingFile&) = delete;
   ~PendingFile();
 
-  /// Where to write until then; beside the final name, with the same extension.
+  /// Path of the temporary file to write to before commit(): beside the final name, with the same extension.
   const std::filesystem::path& path() const { return pending_; }
 
   /// Brings the pending file to the disk and renames it to its final name.
@@ -53,11 +53,11 @@ class PendingFile {
 
   std::filesystem::path pending_;
   std::filesystem::path final_;
-  int listed_ = -1;  // place in the list of what is removed when the process is interrupted
+  int listed_ = -1;  // index in the list of files to remove on interruption
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove all pending files and then end the process with the signal's own
-/// status; what stood under the final names stays. For main() of a program; a handler that is set later wins.
+/// Installs handlers by which SIGINT, SIGTERM and SIGHUP remove all pending files and then end the process with the
+/// signal's own status; files under the final names stay. For main() of a program; a handler installed later wins.
 void remove_pending_files_when_interrupted();
 
 }  // namespace wisp

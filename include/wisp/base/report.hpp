@@ -1,6 +1,6 @@
 #pragma once
-// What capturing, learning and validating have to say, as data: named figures, tables, series, warnings, and a verdict.
-// describe/ makes text, JSON and pictures of it; nothing else formats figures.
+// The results of capturing, learning and validating as data: named figures, tables, series, warnings, and a verdict.
+// describe/ renders them as text, JSON and pictures; no other code formats figures.
 
 #include <array>
 #include <concepts>
@@ -14,8 +14,8 @@
 
 namespace wisp {
 
-/// One value of a report: nothing, a truth, a whole number, a number, a text, or a list of values. A number that is not
-/// finite means that there is no such figure.
+/// One value of a report: nothing, a boolean, an integer, a number, a text, or a list of values. A number that is not
+/// finite means that the figure does not exist.
 struct ReportValue;
 using ReportList = std::vector<ReportValue>;
 struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, std::string, ReportList> {
@@ -25,7 +25,7 @@ struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, st
   ReportValue& operator=(const ReportValue&) = default;
   ReportValue& operator=(ReportValue&&) = default;
   ~ReportValue() = default;
-  // libstdc++ 12 destroys what was never made where a copy of such a variant finds no memory; assigning, it does not.
+  // If a copy runs out of memory, libstdc++ 12's constructor destroys unconstructed values; its assignment does not.
   ReportValue(const ReportValue& other) : Base() { *this = other; }  // NOLINT(bugprone-copy-constructor-init)
   ReportValue(bool value) : Base(value) {}
   template <std::integral Whole>
@@ -39,18 +39,18 @@ struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, st
 
 /// A named figure or fact.
 struct ReportEntry {
-  std::string id;  ///< its place in the JSON document: dots nest, "stable.radius", brackets are elements, "step[0].sd",
-                   ///< and a backslash takes the next character as it is
+  std::string id;  ///< path in the JSON document: dots nest, "stable.radius", brackets are elements, "step[0].sd", and
+                   ///< a backslash takes the next character literally
   ReportValue value;
-  std::string label;                                ///< in words; empty: for programs only
-  std::string unit;                                 ///< of the value, "%" among them; empty: none
-  std::optional<std::array<double, 2>> interval{};  ///< 95 % confidence; in JSON beside it as ID_ci95
-  std::string meaning{};                            ///< what it says, and what a good one is
+  std::string label;                                ///< name in words; empty: for programs only
+  std::string unit;                                 ///< unit of the value, such as "%"; empty: none
+  std::optional<std::array<double, 2>> interval{};  ///< 95 % confidence interval; in JSON beside the value as ID_ci95
+  std::string meaning{};                            ///< what the figure measures, and which values are good
 };
 
 /// A column of a table.
 struct ReportColumn {
-  std::string id;     ///< of the field in the JSON objects of the rows; dots nest
+  std::string id;     ///< key in the JSON objects of the rows; dots nest
   std::string label;  ///< empty: for programs only
   std::string unit{};
 };
@@ -60,7 +60,7 @@ struct ReportTable {
   std::string id;
   std::string label;  ///< empty: for programs only
   std::vector<ReportColumn> columns;
-  std::vector<std::vector<ReportValue>> rows;  ///< as many values as columns
+  std::vector<std::vector<ReportValue>> rows;  ///< one value per column
 };
 
 /// A curve to plot.
@@ -81,14 +81,14 @@ struct ReportSection {
   std::vector<ReportSeries> series{};
 };
 
-/// Whether a thing may be used, first, in a sentence.
+/// Verdict whether the subject of the report may be used, with its reason in one sentence.
 struct ReportVerdict {
   bool usable = false;
   std::string reason;
-  std::string code{};  ///< names the reason for programs; empty: only the sentence is known
+  std::string code{};  ///< machine-readable reason; empty: only the sentence is known
 };
 
-/// The whole.
+/// Verdict, warnings and sections of one capture, learning run or validation.
 struct Report {
   std::optional<ReportVerdict> verdict{};
   std::vector<std::string> warnings{};
@@ -97,10 +97,10 @@ struct Report {
   /// Adds a section and returns it.
   ReportSection& add(std::string title);
 
-  /// The entry of that id; null where there is none.
+  /// Returns the entry with that id; null where there is none.
   const ReportEntry* find(std::string_view id) const;
 
-  /// Adds another report's sections and warnings after its own; the verdict stays.
+  /// Appends the sections and warnings of another report; the verdict stays.
   void append(Report other);
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The outcome of anything that reads data from outside: a value, or one clear sentence about what is wrong. And what
-// becomes of broken preconditions, which are checked in every build, an installed release included.
+// The outcome of any function that reads data from outside: a value, or one sentence about what is wrong. Also the
+// handling of broken preconditions, which are checked in every build, an installed release included.
 
 #include <cstddef>
 #include <string>
@@ -9,19 +9,19 @@
 
 namespace wisp {
 
-/// Takes one sentence about a broken precondition. It may throw or end the program. Where it returns, the call that was
-/// misused does nothing; Result::value() and error(), which have nothing to return, end the program.
+/// Receives one sentence about a broken precondition. It may throw or end the program. If it returns, the misused call
+/// does nothing; Result::value() and error(), which have nothing to return, end the program.
 using MisuseHandler = void (*)(const char* sentence);
 
-/// Replaces the handler of all threads. Null: the default, which prints the sentence and ends the program. Returns the
-/// handler before.
+/// Replaces the handler of all threads. Null restores the default, which prints the sentence and ends the program.
+/// Returns the previous handler.
 MisuseHandler set_misuse_handler(MisuseHandler handler);
 
-/// Hands a sentence to the handler; the second ends the program where the handler returns.
+/// Pass a sentence to the handler; end_on_misuse() ends the program if the handler returns.
 void report_misuse(const char* sentence);
 [[noreturn]] void end_on_misuse(const char* sentence);
 
-/// Returns whether `found` numbers are `expected` ones, or more; reports the misuse of `call` otherwise.
+/// Returns whether `found` equals (`or_more`: is at least) `expected`; otherwise reports misuse of `call`.
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more = false);
 
 /// What went wrong with data from outside: one line that names the file, the place in it, what was found,

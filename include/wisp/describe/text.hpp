@@ -1,5 +1,5 @@
 #pragma once
-// A report for people: as plain text, or as a piece of an HTML page.
+// A report for people, as plain text or as an HTML fragment.
 
 #include <iosfwd>
 #include <string>
@@ -9,23 +9,23 @@
 
 namespace wisp {
 
-/// The verdict first, then warnings, then each section: labelled figures, one a line, with unit, interval and meaning,
-/// and tables with aligned columns. What has no label is left out. Ends with a new line unless the report is empty.
+/// Returns the verdict, then warnings, then each section: labelled figures, one per line, with unit, interval, meaning,
+/// and tables with aligned columns, without unlabelled entries. Ends with a new line unless the report is empty.
 std::string to_text(const Report& report);
 
-/// The same.
+/// Writes to_text(report).
 std::ostream& operator<<(std::ostream& out, const Report& report);
 
-/// What to_text() says, as elements without style: the verdict as a paragraph of class `verdict` and `usable` or
-/// `refused`, warnings as a list, each section under a heading of the third rank with one table of its figures (label,
-/// value with unit and interval, meaning) and its tables. Text is escaped.
+/// Returns the content of to_text() as unstyled HTML elements: the verdict as a paragraph of class `verdict` and
+/// `usable` or `refused`, warnings as a list, each section under an <h3> with one table of its figures (label, value
+/// with unit and interval, meaning) and its tables. Text is escaped.
 std::string to_html(const Report& report);
 
-/// Text as it stands in an element or in a quoted attribute.
+/// Returns text escaped for an HTML element or a quoted attribute.
 std::string html_escaped(std::string_view text);
 
-/// A value as reports show it: numbers with `digits` significant digits, "none" for what is not finite or not there,
-/// lists separated by commas.
+/// Formats a value: numbers with `digits` significant digits, "none" for missing values and numbers that are not
+/// finite, lists separated by commas.
 std::string shown(const ReportValue& value, int digits = 4);
 
 }  // namespace wisp

@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// A colour as screens take it: sRGB, 8 bits a channel, straight (not premultiplied) opacity.
+/// A display colour: sRGB, 8 bits per channel, straight (not premultiplied) opacity.
 struct Colour {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
@@ -29,7 +29,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// A rectangle of pixels; it may reach beyond the picture that it is cut from.
+/// A rectangle of pixels; it may extend beyond the picture from which it is cropped.
 struct PixelBox {
   int x = 0;
   int y = 0;
@@ -37,21 +37,21 @@ struct PixelBox {
   int height = 0;
 };
 
-/// Largest width and height of an Image, in pixels: what Cairo can draw on.
+/// Largest width and height of an Image, in pixels: Cairo's limit.
 inline constexpr int kLargestImageSide = 32767;
 
-/// Pixels that it owns: premultiplied ARGB in one 32-bit word each (Cairo's ARGB32; BGRA bytes on little-endian
-/// machines), row after row from the top without gaps.
+/// A picture that owns its pixels: premultiplied ARGB in one 32-bit word each (Cairo's ARGB32; BGRA bytes on
+/// little-endian machines), row after row from the top without gaps.
 class Image {
  public:
   Image() = default;
 
-  /// A picture of one colour.
+  /// Creates a picture of one colour.
   ///
   /// Precondition: 1 <= width, height <= kLargestImageSide.
   Image(int width, int height, Colour fill = {0, 0, 0, 255});
 
-  /// From 8-bit RGB bytes, `row_bytes` from row to row (0: rows follow without gaps).
+  /// Creates a picture from 8-bit RGB bytes, with `row_bytes` from one row to the next (0: rows follow without gaps).
   ///
   /// Precondition: 1 <= width, height <= kLargestImageSide.
   /// Precondition: rgb.size() >= (height − 1) × row_bytes + 3 × width.
@@ -70,7 +70,7 @@ class Image {
     return pixels().subspan(static_cast<std::size_t>(y) * width_, width_);
   }
 
-  /// The pixel's straight colour. Precondition: 0 <= x < width() and 0 <= y < height().
+  /// Returns a pixel's straight colour. Precondition: 0 <= x < width() and 0 <= y < height().
   Colour at(int x, int y) const;
 
   friend bool operator==(const Image&, const Image&) = default;
@@ -81,18 +81,18 @@ class Image {
   std::vector<std::uint32_t> pixels_;
 };
 
-/// The part of a picture inside `box`; what lies outside the picture is black.
+/// Returns the part of a picture inside `box`; black outside the picture.
 ///
 /// Precondition: 1 <= box.width, box.height <= kLargestImageSide.
 Image crop(const Image& image, PixelBox box);
 
-/// A picture resampled to another size, smoothly.
+/// Returns a picture resampled to another size, smoothly.
 ///
 /// Precondition: !image.empty().
 /// Precondition: 1 <= width, height <= kLargestImageSide.
 Image resized(const Image& image, int width, int height);
 
-/// Writes a PNG file, whole or not at all.
+/// Writes a PNG file, completely or not at all.
 /// Errors: an empty picture; the folder is missing or not writable, the disk is full.
 Result<void> write_png(const std::filesystem::path& path, const Image& image);
 

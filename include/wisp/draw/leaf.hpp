@@ -1,10 +1,10 @@
 #pragma once
-// Leaves in the air over a floor, from poses: with a midrib, two sides, soft shadows and the way that they came.
+// Draws leaves in the air over a floor, from poses: with midrib, two sides, soft shadows and trails.
 //
-// A leaf is painted once, large and flat; in the air it is a bent card of a few triangles with that picture on it, lit
-// by how it turns. Shadows are soft ellipses of as much darkness as the leaf takes from the lamp, gathered on a coarse
-// grid. So hundreds are drawn in a few milliseconds. Where poses come from, a simulator, a model or a recording, is not
-// the picture's affair. The same call draws the same bytes.
+// A leaf is painted once, large and flat; in the air it is a bent card of a few triangles textured with that picture
+// and shaded by its attitude. Shadows are soft ellipses with the light blocked by the leaf, accumulated on a coarse
+// grid. Hundreds are drawn in a few milliseconds. Poses may come from a simulator, a model or a recording. Equal calls
+// draw equal bytes.
 
 #include <array>
 #include <cstdint>
@@ -16,54 +16,54 @@
 
 namespace wisp {
 
-/// Where a leaf is. Its body's axes: x along the midrib towards the tip, y across, z out of the upper side.
+/// Position and attitude of a leaf. Body axes: x along the midrib towards the tip, y across, z out of the upper side.
 struct LeafPose {
   std::array<float, 3> position{};            ///< metres, z up; the floor is z = 0
-  std::array<float, 4> attitude{1, 0, 0, 0};  ///< quaternion, w first, leaf to world; its direction counts
+  std::array<float, 4> attitude{1, 0, 0, 0};  ///< quaternion, w first, leaf to world; its norm is ignored
 };
 
-/// How leaves look.
+/// Shape and colours of leaves.
 struct LeafStyle {
-  float length = 0.073F;        ///< of the blade, metres, 0.001 … 100
-  float width = 0.049F;         ///< metres, 0.001 … 100
-  float curl = 1;               ///< 0 is flat, 1 a leaf that has lain in the sun for a day, up to 3
-  Colour upper{214, 92, 36};    ///< between the veins, near the midrib
-  Colour margin{150, 38, 24};   ///< towards the edge
-  Colour under{206, 158, 112};  ///< the other side: paler and dull
-  Colour vein{240, 200, 120};   ///< midrib and veins
+  float length = 0.073F;        ///< blade length, metres, 0.001 … 100
+  float width = 0.049F;         ///< blade width, metres, 0.001 … 100
+  float curl = 1;               ///< 0 is flat, 1 a leaf after a day in the sun, up to 3
+  Colour upper{214, 92, 36};    ///< colour between the veins, near the midrib
+  Colour margin{150, 38, 24};   ///< colour towards the edge
+  Colour under{206, 158, 112};  ///< colour of the underside: paler and dull
+  Colour vein{240, 200, 120};   ///< colour of midrib and veins
 };
 
-/// Where the picture is taken from.
+/// Position, direction and zoom of the camera.
 struct LeafCamera {
   std::array<float, 3> eye{};     ///< metres
-  std::array<float, 3> target{};  ///< what is in the picture's middle
-  float view_height = 1.5F;       ///< metres at the target that fill the picture's height, 0.01 … 1000
+  std::array<float, 3> target{};  ///< point in the middle of the picture, metres
+  float view_height = 1.5F;       ///< height of the picture at the target's distance, metres, 0.01 … 1000
 };
 
-/// From the side, a little from above: `height` metres over the floor fill the picture, the floor in view below.
+/// Returns a slightly raised side camera whose picture shows `height` metres above the floor, and the floor below.
 LeafCamera leaf_camera_from_side(float height);
 
 /// The room: floor and backdrop.
 struct LeafRoom {
   Colour floor{219, 216, 209};
   Colour backdrop{243, 241, 236};
-  std::array<float, 3> lamp{-0.35F, -0.45F, 1};  ///< towards the light; need not be of length 1, z > 0
+  std::array<float, 3> lamp{-0.35F, -0.45F, 1};  ///< direction towards the light; any length, z > 0
 };
 
 /// One leaf of a picture.
 struct FlockLeaf {
   LeafPose pose{};
-  std::uint8_t look = 0;              ///< which of the flock's colours it has, counted round
-  float size = 1;                     ///< times the style's, 0.1 … 4
-  float opacity = 1;                  ///< of leaf and shadow, 0 … 1
-  std::span<const LeafPose> trail{};  ///< oldest first, up to now; drawn as a line that fades, none where empty
+  std::uint8_t look = 0;              ///< index of its colours among the flock's, modulo their number
+  float size = 1;                     ///< scale factor of the style's size, 0.1 … 4
+  float opacity = 1;                  ///< opacity of leaf and shadow, 0 … 1
+  std::span<const LeafPose> trail{};  ///< past poses, oldest first; drawn as a fading line, none if empty
 };
 
-/// Draws leaves in pictures of one size, from a camera that stands still.
+/// Draws leaves in pictures of one size, seen by a fixed camera.
 class LeafFlock {
  public:
-  /// `style` gives size, curl and the first of the colours; the others are the same leaf in other weeks of autumn.
-  /// Style and camera are clamped to their ranges.
+  /// `style` gives size, curl and the first set of colours; the other sets are those of other weeks of autumn. Style
+  /// and camera are clamped to their ranges.
   ///
   /// Precondition: 1 <= width, height <= kLargestImageSide.
   LeafFlock(int width, int height, const LeafCamera& camera, const LeafStyle& style = {}, const LeafRoom& room = {});
@@ -72,14 +72,14 @@ class LeafFlock {
   LeafFlock& operator=(LeafFlock&&) noexcept;
   ~LeafFlock();
 
-  /// Draws the room and the leaves in it over all of the picture, which is made anew where it has another size; what is
-  /// behind is drawn first. Poses that are not finite are left out.
+  /// Draws the room and its leaves over the whole picture, farthest first; a picture of another size is reallocated.
+  /// Poses that are not finite are skipped.
   void draw(Image& image, std::span<const FlockLeaf> leaves);
 
-  /// Where a place of the room is in the picture; nothing where it is behind the camera.
+  /// Returns the pixel of a position in the room; nothing if it is behind the camera.
   std::optional<Point> pixel_of(const std::array<float, 3>& place) const;
 
-  /// Pixels of one metre at the camera's target.
+  /// Returns the pixels per metre at the camera's target.
   float pixels_per_metre() const;
 
  private:

@@ -1,11 +1,10 @@
 #pragma once
-// Candles in a dark room, at a window's frame rate: a wall and a table, lit by the flames from where they are, the
-// candles' shadows on the table, and a little moonlight; over it the picture of draw_flames(). Dithered, so that video
-// does not show steps.
+// Candles in a dark room, at a window's frame rate: wall and table lit by the flames, the candles' shadows on the
+// table, and a little moonlight, overlaid with the picture of draw_flames(). Dithered against banding in video.
 //
-// Soft light is computed on a grid of a quarter of the picture's size and interpolated as screen codes where only the
-// dark room is behind it; memory and room are reused. At 1280 × 800 that takes a seventh of the time of computing all
-// pixels, and none differs by more than a few codes.
+// Soft light is computed on a grid of a quarter of the picture's size and, over the plain dark room, interpolated in
+// screen codes; memory and room are reused. At 1280 × 800 that takes a seventh of the time of computing all pixels, and
+// no pixel differs by more than a few codes.
 
 #include <memory>
 #include <span>
@@ -24,8 +23,8 @@ class LiveFlames {
   LiveFlames& operator=(LiveFlames&&) noexcept;
   ~LiveFlames();
 
-  /// Draws the dark room and the candles in it over all of the picture, the first candle farthest; flames as for
-  /// draw_flames(). A picture of another size is reallocated.
+  /// Draws the dark room and its candles over the whole picture, the first candle farthest; flames as in draw_flames().
+  /// A picture of another size is reallocated.
   void draw(Image& image, std::span<const Flame> flames);
 
  private:

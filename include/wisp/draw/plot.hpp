@@ -1,6 +1,6 @@
 #pragma once
-// Plots, described by values and drawn to a picture, PNG or SVG by one renderer. Every member has an initialiser, so
-// that designated ones may leave any out without a compiler's warning.
+// Plots described by values, drawn to a picture, PNG or SVG by one renderer. Every member has an initialiser, so that
+// designated initialisers may omit any without a compiler warning.
 
 #include <filesystem>
 #include <optional>
@@ -16,26 +16,26 @@ enum class Dash { kSolid, kDashed, kDotted };
 enum class Marker { kNone, kDot, kRing };
 enum class IntervalShape { kBars, kBand };
 
-/// One set of data of a plot. x and y have one length; y that is not finite breaks the line.
+/// One data series of a plot. x and y have equal lengths; a y that is not finite interrupts the line.
 struct PlotSeries {
-  std::string label{};  ///< in the legend; empty: not there
+  std::string label{};  ///< name in the legend; empty: not listed
   std::vector<double> x{};
   std::vector<double> y{};
-  std::vector<double> low{};  ///< ends of intervals around y, as long as y; empty: none
+  std::vector<double> low{};  ///< lower ends of intervals around y, as many as y; empty: none
   std::vector<double> high{};
   SeriesShape shape = SeriesShape::kLine;
   std::optional<Colour> colour{};  ///< unset: the palette's next
-  double width = 1.6;              ///< of lines, in points; 0.1 … 20
+  double width = 1.6;              ///< line width, points; 0.1 … 20
   Dash dash = Dash::kSolid;
-  Marker marker = Marker::kNone;  ///< at each sample
-  double marker_size = 5;         ///< in points; 0.5 … 50
+  Marker marker = Marker::kNone;  ///< marker at each sample
+  double marker_size = 5;         ///< marker size, points; 0.5 … 50
   IntervalShape interval = IntervalShape::kBars;
 };
 
-/// A straight line across the plot with a word beside it: a threshold, an event.
+/// A straight line across the plot with a label: a threshold, an event.
 struct PlotMark {
   double at = 0;
-  bool vertical = true;  ///< at an x; otherwise at a y
+  bool vertical = true;  ///< vertical line at an x; otherwise horizontal at a y
   std::string label{};
   std::optional<Colour> colour{};  ///< unset: a strong red
   Dash dash = Dash::kDashed;
@@ -46,34 +46,34 @@ struct PlotAxis {
   std::string label{};
   std::optional<double> lowest{};
   std::optional<double> highest{};
-  bool logarithmic = false;    ///< values that are not positive are left out
+  bool logarithmic = false;    ///< values that are not positive are omitted
   bool whole_numbers = false;  ///< ticks at whole numbers only (indices)
 };
 
-/// Axes with data.
+/// Axes, data series and marks of one plot.
 struct Plot {
   std::string title{};
   PlotAxis x{};
   PlotAxis y{};
   std::vector<PlotSeries> series{};  ///< later ones are drawn over earlier ones
   std::vector<PlotMark> marks{};
-  bool equal_units = false;  ///< one unit is as long in x as in y (trajectories)
+  bool equal_units = false;  ///< equal scales of x and y (trajectories)
 };
 
-/// Gives both plots the ends that hold the data of both, 0 included, so that the eye compares sizes.
+/// Sets equal axis ranges in both plots, which contain the data of both and 0, so that sizes compare by eye.
 void share_axes(Plot& a, Plot& b);
 
 /// Plots side by side.
 struct PlotSheet {
-  std::string title{};        ///< above all of them; empty: none
+  std::string title{};        ///< title above all plots; empty: none
   std::vector<Plot> plots{};  ///< row by row
   int columns = 0;            ///< 0: all in one row
-  double plot_width = 420;    ///< of one plot with its labels, in points; 80 … 4000
+  double plot_width = 420;    ///< width of one plot with its labels, points; 80 … 4000
   double plot_height = 300;
-  double pixels_per_point = 2;  ///< of the PNG; 0.25 … 8
+  double pixels_per_point = 2;  ///< resolution of the PNG; 0.25 … 8
 };
 
-/// Draws the sheet. Series whose x and y differ in length are drawn as far as both go.
+/// Draws the sheet. Of series whose x and y differ in length, the common part is drawn.
 ///
 /// Precondition: !sheet.plots.empty().
 Image draw_plots(const PlotSheet& sheet);

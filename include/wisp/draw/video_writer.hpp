@@ -1,6 +1,6 @@
 #pragma once
-// Pictures and sound into an MP4 file: H.264 video, AAC sound. And pictures with opacity into WebM (VP9) and APNG, by
-// the name.
+// Writes pictures and sound to an MP4 file (H.264 video, AAC sound), or pictures with opacity to WebM (VP9) or APNG, by
+// the file's extension.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,18 +13,18 @@
 
 namespace wisp {
 
-/// How a clip is encoded.
+/// Options of encoding a clip.
 struct VideoWriterOptions {
   int width = 0;  ///< pixels, 2 … 16384; odd sizes are padded by one repeated column or row
   int height = 0;
-  double rate_hz = 0;     ///< frames a second, 0.1 … 1000; 30000/1001 and its like are kept exactly
+  double rate_hz = 0;     ///< frames per second, 0.1 … 1000; rational rates such as 30000/1001 are kept exactly
   int crf = 15;           ///< x264's constant rate factor, 0 (lossless) … 51; at 15 soft glows keep their dither
-  int sound_rate_hz = 0;  ///< samples a second of a mono sound track, such as 44100; 0: no sound track
-  int threads = 0;        ///< of the video encoder; 0: one a core. The bytes depend on it
-  bool loop = false;      ///< of an .apng: plays for ever
+  int sound_rate_hz = 0;  ///< sample rate of a mono sound track, such as 44100; 0: no sound track
+  int threads = 0;        ///< threads of the video encoder; 0: one per core. The bytes depend on it
+  bool loop = false;      ///< an .apng repeats for ever
 };
 
-/// Writes a film under a temporary name; finish() renames it. Destroyed before that, no file is left.
+/// Writes a film under a temporary name; finish() renames it. Destroyed before finish(), it leaves no file.
 class VideoWriter {
  public:
   /// Opens the file. Errors: options out of range, the folder is missing or not writable, no H.264 or AAC encoder in
@@ -38,7 +38,7 @@ class VideoWriter {
   /// Appends a frame; MP4 ignores opacity. Errors: a frame of another size, the encoder or the disk fails.
   Result<void> write(const Image& image);
 
-  /// Appends sound, −1 … 1, any number of samples at any time; what is beyond is clipped, NaN is silence.
+  /// Appends sound, −1 … 1, any number of samples at any time; larger samples are clipped, NaN is silence.
   /// Errors: there is no sound track, the encoder or the disk fails.
   Result<void> write_sound(std::span<const float> samples);
 

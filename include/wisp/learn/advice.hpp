@@ -1,5 +1,5 @@
 #pragma once
-// A recording looked at before any model: its rate, its channels, and what in it will spoil a model, with cures.
+// Diagnosis of a recording before learning: its rate, its channels, and defects that will spoil a model, with remedies.
 
 #include <span>
 #include <string>
@@ -11,49 +11,49 @@
 
 namespace wisp {
 
-/// What may be wrong with a recording, the cause of most bad models first.
+/// Defects of a recording, the commonest cause of bad models first.
 enum class RemarkKind {
   kSentinel,    ///< a number that stands for a missing sample, such as −999
   kOutliers,    ///< single samples far from their neighbours
   kConstant,    ///< a channel that never changes
-  kRedundant,   ///< a channel that others already tell
-  kMissing,     ///< a tenth of the samples or more
+  kRedundant,   ///< a channel that is a linear function of another one
+  kMissing,     ///< a tenth of the samples or more are missing
   kShort,       ///< few rows
-  kExcitation,  ///< an input that hardly moves
-  kFeedback,    ///< an input that is set by the output
+  kExcitation,  ///< an input with little variation
+  kFeedback,    ///< an input that depends on the output (feedback)
   kDelay,       ///< an input that acts late
-  kIntegrates,  ///< an output that sums what goes in
-  kDrift,       ///< an output that wanders whatever the inputs do
+  kIntegrates,  ///< an output that integrates its input
+  kDrift,       ///< an output that drifts independently of the inputs
   kClock,       ///< a clock that was resampled, or a rate or unit that was guessed
-  kText,        ///< a column that is not of numbers
+  kText,        ///< a column of text
 };
 
-/// One remark: a cause and its cure, each a sentence that begins small.
+/// One remark: a cause and its remedy, each a clause that begins in lower case.
 struct Remark {
   RemarkKind kind = RemarkKind::kClock;
   std::string channel;
   std::string cause;
   std::string cure;
-  double size = 0;  ///< kDelay: samples
+  double size = 0;  ///< kDelay: delay in samples
 };
 
-/// What is remarkable of recordings, in the order of RemarkKind. Outputs alone are searched for outliers, drift and
-/// integration; without inputs nothing is said of excitation, feedback and delays.
-/// Channels that a recording has not are passed over.
+/// Returns remarks on recordings, in the order of RemarkKind. Only outputs are tested for outliers, drift and
+/// integration; without inputs excitation, feedback and delays are not tested. Channels that a recording lacks are
+/// skipped.
 std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                                const std::vector<std::string>& outputs);
 
-/// Those of them that are kRedundant among the named channels, judged by a sample of the rows.
+/// Returns the kRedundant remarks on the named channels, judged by a sample of the rows.
 std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names);
 
-/// The data page of `wisp info`: rate and where it is from, rows, a table `channels`, a table `remarks`, and a series a
-/// channel. Inputs and outputs are those with that role.
+/// Returns the data page of `wisp info`: rate and its source, rows, a table `channels`, a table `remarks`, and one
+/// series per channel. Inputs and outputs are the channels with that role.
 Report advise(const Recording& recording);
 
-/// How outlines move: mean and deviation of height, area and lean, the frequency of the flicker of √area with its width
-/// at half power, and its spectrum as a series. Of several, filmed at once, the phase of each after the first at the
-/// first one's flicker, −180 to 180 degrees, with the coherence.
-/// Errors: no outline; another rate or number of rows than the first one's.
+/// Describes the motion of outlines: mean and deviation of height, area and lean; the flicker frequency of √area with
+/// its half-power bandwidth, and its spectrum as a series. For several outlines filmed simultaneously, also the phase
+/// of each after the first at the first one's flicker frequency, −180 to 180 degrees, with the coherence.
+/// Errors: no outline; a rate or number of rows that differs from the first one's.
 Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

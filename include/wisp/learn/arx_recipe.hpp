@@ -1,6 +1,6 @@
 #pragma once
-// How one ARX model, or several that take turns, is learned. What a recipe leaves open
-// (std::nullopt) the recordings decide, and the report says what they decided.
+// Recipes for one ARX model, or several in alternation. Settings left open (std::nullopt) are chosen from the
+// recordings, and the report states the choice.
 //
 // Orders and signs: docs/explanation/identification.md.
 
@@ -18,53 +18,53 @@
 
 namespace wisp {
 
-/// How the operating point is found.
+/// Choice of the operating point.
 enum class ArxOffset {
-  kMean,      ///< the mean of every channel over all of its samples is subtracted first (MATLAB: detrend(z, 0))
-  kNone,      ///< data is taken as it is
-  kEstimate,  ///< as kMean, and a constant term is estimated with the other coefficients
+  kMean,      ///< subtract from every channel its mean over all samples (MATLAB: detrend(z, 0))
+  kNone,      ///< use the data unchanged
+  kEstimate,  ///< like kMean, and estimate a constant term with the other coefficients
 };
 
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<ArxOffset>{"mean", "none", "estimate"};
 
-/// Which outputs appear in an output's regression. Inputs appear in every one.
+/// Outputs that appear in an output's regression. Inputs appear in every one.
 enum class Coupling {
-  kFull,      ///< all of them
-  kDiagonal,  ///< those of its own group
-  kBand,      ///< those of its own group and of its neighbours along the chain of groups
+  kFull,      ///< all outputs
+  kDiagonal,  ///< outputs of its own group
+  kBand,      ///< outputs of its own group and of the neighbouring groups in the chain
 };
 
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "diagonal", "band"};
 
-/// What coefficients are best at.
+/// Objective of the estimation.
 enum class ArxFocus {
-  kPrediction,  ///< the next sample: least squares
+  kPrediction,  ///< one-step prediction: least squares
   kSimulation,  ///< free simulation: least squares or 15 lags under a kernel, whichever simulates held-out rows better
-  kAuto,        ///< least squares, or 15 lags under a kernel where that simulates held-out rows surely better
+  kAuto,        ///< least squares, or 15 lags under a kernel if that simulates held-out rows significantly better
 };
 
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<ArxFocus>{"prediction", "simulation", "auto"};
 
-/// What is known of the coefficients before any data.
+/// Prior on the coefficients.
 enum class ArxKernel {
   kNone,
-  kTc,  ///< each channel's die down over its lags and neighbours are alike (tuned, correlated); how fast, the data say
+  kTc,  ///< tuned, correlated: each channel's decay over its lags, neighbours are alike; decay rate estimated from data
 };
 
 template <>
 inline constexpr std::array<std::string_view, 2> kWordsOf<ArxKernel>{"none", "tc"};
 
-/// In the place of a number of steps: infinitely many, from the input alone (free simulation).
+/// Value of a number of steps that means infinitely many: free simulation from the input alone.
 inline constexpr int kFreeRun = 0;
 
-/// Where a free simulation starts.
+/// Initial state of a free simulation.
 enum class InitialState {
-  kMeasured,   ///< from the measured samples before the first simulated row
-  kZero,       ///< from the operating point: every output was at its mean
-  kEstimated,  ///< from the past outputs that make the simulation fit best, by least squares
+  kMeasured,   ///< the measured samples before the first simulated row
+  kZero,       ///< the operating point: every output at its mean
+  kEstimated,  ///< the past outputs with the best-fitting simulation, by least squares
 };
 
 template <>
@@ -74,13 +74,13 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<InitialState>{"measure
 /// 0 to 4096.
 using OrderChoice = std::variant<int, OrderMatrix>;
 
-/// Orders first … last, both included, 0 to 4096.
+/// Orders first … last, inclusive, 0 to 4096.
 struct OrderRange {
   int first = 1;
   int last = 1;
 };
 
-/// What the best candidate is best at.
+/// Criterion by which the best candidate is selected.
 enum class OrderCriterion {
   kFpe,
   kAic,
@@ -92,23 +92,23 @@ enum class OrderCriterion {
 template <>
 inline constexpr std::array<std::string_view, 5> kWordsOf<OrderCriterion>{"fpe", "aic", "aicc", "bic", "validation"};
 
-/// A grid of orders and delays, the same for all pairs of channels, of which the best is taken.
+/// Grid of orders and delays, equal for all pairs of channels, from which the best is selected.
 struct ArxSearch {
-  OrderRange na{1, 10};  ///< ten lags are what identification people try first; a candidate costs next to nothing
+  OrderRange na{1, 10};  ///< ten lags are the customary first choice; a candidate costs almost nothing
   OrderRange nb{1, 10};
   OrderRange nk{0, 3};
   OrderCriterion by = OrderCriterion::kFpe;
-  int steps = 1;                        ///< for validation: steps ahead, 1 to 100000, or kFreeRun
-  std::vector<Recording> validation{};  ///< for kValidation, which needs them; others are judged on them too
+  int steps = 1;                        ///< prediction horizon for validation, steps: 1 to 100000, or kFreeRun
+  std::vector<Recording> validation{};  ///< required by kValidation; with other criteria also evaluated
 };
 
-/// One ARX model: y(t) + A₁ y(t−1) + … = B₁ u(t−nk) + … + e(t). What each field means: fields_of() below.
+/// One ARX model: y(t) + A₁ y(t−1) + … = B₁ u(t−nk) + … + e(t). fields_of() below documents each field.
 struct ArxRecipe {
   std::string name{};
   std::vector<std::string> inputs{};
   std::vector<std::string> outputs{};
   Preparation preparation{};
-  OrderChoice na = 4;  ///< 4 is two damped resonances an output, the paper's choice
+  OrderChoice na = 4;  ///< 4 allows two damped resonances per output, the paper's choice
   OrderChoice nb = 4;
   std::optional<OrderChoice> nk = 1;
   std::optional<int> max_delay{};
@@ -118,12 +118,12 @@ struct ArxRecipe {
   double radius = 0.999;
   bool keep_unstable = false;
   std::optional<ArxSearch> search{};
-  ArxFocus focus = ArxFocus::kPrediction;  ///< of parts and tables beyond memory always so
+  ArxFocus focus = ArxFocus::kPrediction;  ///< for parts and tables beyond memory always this
   bool responses = false;
 };
 
-/// Several ARX modes of the same orders, each with a constant of its own, and a Markov chain that switches them. The
-/// operating point is the mean of every channel.
+/// Several ARX modes of equal orders, each with its own constant, and a Markov chain that switches them. The operating
+/// point is the mean of every channel.
 struct SwitchedRecipe {
   std::string name{};
   std::vector<std::string> inputs{};
@@ -136,8 +136,8 @@ struct SwitchedRecipe {
   std::uint64_t seed = 1;
 };
 
-/// The light of a flame, as a lamp can play it: ARX modes from calm to restless that a Markov chain switches. Modes are
-/// stretches of about half a second that vary as much; how strong their shocks are is matched by playing.
+/// The light of a flame, for playback by a lamp: ARX modes from calm to restless, switched by a Markov chain. Stretches
+/// of about half a second with similar variation form a mode; shock strengths are calibrated by playing the model.
 struct FlickerRecipe {
   std::string name{};
   std::string output{};

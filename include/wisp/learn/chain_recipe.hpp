@@ -1,5 +1,5 @@
 #pragma once
-// What a segment chain is learned by. Sources: sections 2.2 and 4 of the paper.
+// Settings for learning a segment chain. Sources: sections 2.2 and 4 of the paper.
 
 #include <array>
 #include <cstddef>
@@ -26,28 +26,28 @@ struct EventSpec {
                                          ///< second axis)
 };
 
-/// `zero:SIGNAL`, `min:SIGNAL` or `max:SIGNAL`.
+/// Parses `zero:SIGNAL`, `min:SIGNAL` or `max:SIGNAL`.
 /// Errors: another form.
 Result<EventSpec> parse_event(std::string_view text);
 
-/// The realisation of a mode: what its segments are.
+/// Realisation of a mode: the source of its segments.
 enum class Realisation {
-  kSegments,  ///< recorded ones
-  kLinear,    ///< made by a linear system with noise, from where recorded ones begin
-  kOde,       ///< made by a differential equation with products of velocities, likewise
-  kChain,     ///< halves of recorded ones, a mode being a chain of its own
-  kSpline,    ///< splines that vary as the recorded ones do
+  kSegments,  ///< recorded segments
+  kLinear,    ///< simulated by a linear system with noise, from initial states of recorded segments
+  kOde,       ///< simulated by a differential equation with products of velocities, from such states
+  kChain,     ///< halves of recorded segments; each mode is a chain of its own
+  kSpline,    ///< random splines with the variation of recorded segments
 };
 
 template <>
 inline constexpr std::array<std::string_view, 5> kWordsOf<Realisation>{"segments", "linear", "ode", "chain", "spline"};
 
-/// As parse_event() reads it.
+/// Returns the text that parse_event() accepts.
 std::string word_of(const EventSpec& event);
 
-/// How a chain is learned from recordings of something that moves: outputs pos.x, pos.y, pos.z in metres, z up, and,
-/// where known, q.w, q.x, q.y, q.z. Two recordings that share the attribute `pair`, one of them calm, teach its
-/// response to gusts. What each field means: fields_of() below.
+/// Settings for learning a chain from recordings of a moving body: outputs pos.x, pos.y, pos.z in metres, z up, and, if
+/// known, q.w, q.x, q.y, q.z. Two recordings that share the attribute `pair`, one of them calm, provide its response to
+/// gusts. fields_of() below documents each field.
 struct ChainRecipe {
   std::string name = "chain";
   EventSpec event{EventKind::kMinimum, "horizontal_speed"};
@@ -67,7 +67,7 @@ struct ChainRecipe {
   std::uint64_t seed = 1;
 };
 
-/// A leaf: a chain that is cut where the leaf stalls, where its forward speed in its own plane is zero (section 4.1.1
+/// A leaf: a chain cut where the leaf stalls, that is where its forward speed in its own plane is zero (section 4.1.1
 /// of the paper).
 struct LeafRecipe : ChainRecipe {
   LeafRecipe() {
@@ -120,12 +120,12 @@ constexpr auto fields_of(const ChainRecipe&) {
       field("seed", &R::seed, "of all chance", {"seed", "N"}));
 }
 
-/// Names of a column of seconds, where a recording has one: it must go on evenly.
+/// Names of a time column in seconds, if a recording has one: it must increase evenly.
 inline constexpr std::array<const char*, 3> kTimeColumns = {"t", "t_s", "time"};
 
-/// Whether a recording tells motion. Errors: no position, no stretch that is long enough, no orientation where it
-/// should have one, a position that is not in metres or further than 1000 km away; of one with the attribute `pair`, a
-/// wind that is missing somewhere or an attribute `clones` that is no whole number.
+/// Checks that a recording describes motion. Errors: no position, no sufficiently long stretch, no orientation where
+/// one is expected, a position that is not in metres or more than 1000 km away; for one with the attribute `pair`, a
+/// missing wind sample or an attribute `clones` that is no whole number.
 Result<void> check_motion(const Recording& recording);
 
 }  // namespace wisp

@@ -1,5 +1,5 @@
 #pragma once
-// From recordings to a model: one call for every kind of model.
+// Learning of a model from recordings: one call for every kind of model.
 
 #include <span>
 #include <variant>
@@ -15,26 +15,26 @@
 
 namespace wisp {
 
-/// How a model is learned: one plain struct of settings for each kind of model.
+/// Recipe for learning a model: one plain struct of settings for each kind of model.
 using Recipe =
     std::variant<ArxRecipe, SwitchedRecipe, FlickerRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe>;
 
-/// A model and what to think of it. The model's `training` has the verdict and the figures that stay with it; the
-/// report has everything that was found.
+/// A model and its assessment. The model's `training` has the verdict and the figures that stay with it; the report has
+/// all findings.
 struct Fit {
   Model model;
   Report report;
 };
 
-/// Learns a model from recordings as the recipe says. What the recipe leaves open is decided by held-out data; the
-/// report says what was decided, how good the model is, and whether it may be used.
-/// Returns a model that has passed check() and says in `training` what it was made from, or, where the recordings yield
-/// none that can be played, one whose verdict says so.
-/// Errors, naming the recording: what it has not or has wrong, settings out of range, too few rows; kStopped where
-/// `progress` says not to go on.
+/// Learns a model from recordings according to the recipe. Settings left open by the recipe are chosen on held-out
+/// data; the report states the choices, the quality of the model, and whether it may be used.
+/// Returns a model that has passed check() and documents its origin in `training`, or, if the recordings yield no
+/// playable model, one whose verdict says so.
+/// Errors, naming the recording: missing or invalid content, settings out of range, too few rows; kStopped where
+/// `progress` returned false.
 Result<Fit> learn(std::span<const Recording> recordings, const Recipe& recipe, const Progress& progress = {});
 
-/// The same from one recording.
+/// Learns from one recording.
 Result<Fit> learn(const Recording& recording, const Recipe& recipe, const Progress& progress = {});
 
 }  // namespace wisp

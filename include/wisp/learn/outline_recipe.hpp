@@ -1,9 +1,9 @@
 #pragma once
-// How an outline, and a flame, is learned from recordings of its control points.
+// Recipes for learning an outline, or a flame, from recordings of its control points.
 //
-// Source: L.-M. Reissell and D. K. Pai (2001), section 3.4. Beyond the paper: components of the outline's shape instead
-// of control points, wind from both sides, no input at all, resampled residuals, a part held out for judging,
-// extinction.
+// Source: L.-M. Reissell and D. K. Pai (2001), section 3.4. Departures from the paper: components of the outline's
+// shape instead of control points, wind from both sides, no input at all, resampled residuals, a part held out for
+// judging, extinction.
 
 #include <cstdint>
 #include <optional>
@@ -15,24 +15,24 @@
 
 namespace wisp {
 
-/// Where a model's rule of extinction comes from.
+/// Origin of a model's rule of extinction.
 enum class ExtinctionSource {
-  kNone,   ///< there is none: nothing extinguishes it
-  kAuto,   ///< learned from recorded extinctions; without any, the default raised above all gusts that were survived
+  kNone,   ///< no rule: nothing extinguishes the flame
+  kAuto,   ///< learned from recorded extinctions; without any, the default raised above all gusts survived
   kGiven,  ///< `level` and `seconds`
 };
 
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<ExtinctionSource>{"none", "auto", "given"};
 
-/// The rule of what extinguishes a flame (wisp/model/extinction.hpp). It is of the first input.
+/// Rule of a flame's extinction (wisp/model/extinction.hpp). It applies to the first input.
 struct ExtinctionRecipe {
   ExtinctionSource source = ExtinctionSource::kNone;
-  double level = 0;    ///< for kGiven: input, 1 is the 95th percentile of training; in the range of Extinction::level
-  double seconds = 0;  ///< for kGiven: for which it must last; in the range of Extinction::seconds
+  double level = 0;    ///< for kGiven: wind, 1 is training's 95th percentile; in Extinction::level's range
+  double seconds = 0;  ///< for kGiven: duration at that level until extinction; in the range of Extinction::seconds
 };
 
-/// How to learn an outline. What each field means: fields_of() below.
+/// Settings for learning an outline. fields_of() below documents each field.
 struct OutlineRecipe {
   int paper = 0;
   bool align = true;
@@ -44,7 +44,7 @@ struct OutlineRecipe {
   std::string name = "outline";
 };
 
-/// How to learn a flame: an outline that wind extinguishes.
+/// Settings for learning a flame: an outline that wind extinguishes.
 struct FlameRecipe : OutlineRecipe {
   FlameRecipe() { extinction.source = ExtinctionSource::kAuto; }
 };

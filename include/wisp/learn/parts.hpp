@@ -1,10 +1,10 @@
 #pragma once
-// An ARX fit in parts: of tables larger than memory, or spread over processes and machines. Parts are merged in any
+// ARX estimation in parts, for tables larger than memory or spread over processes and machines. Parts are merged in any
 // order.
 //
-// A part holds the triangle of its rows' regression, which is small however many rows there are. The fit of merged
-// parts is that of all rows in memory but for rounding. Other models are learned from recordings in one place: jobs
-// capture clips, and one of them learns from the folder of recordings.
+// A part holds the triangular factor of its rows' regression, whose size does not depend on the number of rows. The fit
+// of merged parts equals that of all rows in memory except for rounding. Other models are learned from recordings in
+// one place: jobs capture clips, and one of them learns from the folder of recordings.
 //
 // Source: J. Demmel et al., SIAM J. Sci. Comput. 34 (2012), tall-skinny QR.
 
@@ -26,10 +26,10 @@
 
 namespace wisp {
 
-/// Which rows of a table are taken in: of its rows [first, first + rows) the share `index` (0-based) of `count`.
+/// Selection of a table's rows: of its rows [first, first + rows) the share `index` (0-based) of `count` equal ones.
 struct TableShare {
   std::size_t first = 0;
-  std::size_t rows = std::numeric_limits<std::size_t>::max();  ///< the largest: all there are
+  std::size_t rows = std::numeric_limits<std::size_t>::max();  ///< number of rows; the default: all
   std::size_t index = 0;
   std::size_t count = 1;  ///< > index
 };
@@ -37,8 +37,8 @@ struct TableShare {
 /// A part of an ARX fit.
 class ArxPart {
  public:
-  /// An empty part of the model that a recipe describes by its channels, orders and coupling.
-  /// Errors: no outputs, orders that do not fit the channels; delays that are open, a search: these need all
+  /// Creates an empty part of the model that a recipe describes by its channels, orders and coupling.
+  /// Errors: no outputs, orders that do not fit the channels; unspecified delays or a search, since these need all
   /// recordings in memory.
   static Result<ArxPart> create(const ArxRecipe& recipe);
 
@@ -46,34 +46,34 @@ class ArxPart {
   ArxPart& operator=(ArxPart&&) noexcept;
   ~ArxPart();
 
-  /// Adds a share of a recording; where that fails nothing of it is added.
-  /// Errors: a channel that it has not, another rate than before, infinite samples, rows beyond its end, rows that were
-  /// added before.
+  /// Adds a share of a recording; after an error nothing of it is added.
+  /// Errors: a missing channel, a rate that differs from the previous one, infinite samples, rows beyond its end, rows
+  /// that were added before.
   Result<void> add(const Recording& recording, const TableShare& share = {});
 
-  /// The same of a CSV file, read a stretch at a time, in the same memory however long it is.
+  /// Adds a share of a CSV file, read in blocks, in memory that does not grow with its length.
   /// Errors: also those of CsvReader.
   Result<void> add(const std::filesystem::path& table, const CsvOptions& options = {}, const TableShare& share = {});
 
-  /// Takes in all that another part knows. Errors: a part of another model, rows that are in both.
+  /// Merges another part into this one. Errors: a part of another model, rows that are in both.
   Result<void> merge(const ArxPart& other);
 
-  /// Rows in the regression so far.
+  /// Returns the number of rows in the regression so far.
   std::size_t rows() const;
 
-  /// Parts that were merged, itself counted; and what the recordings are called whose rows they hold.
+  /// Returns the number of parts merged, this one included, and the names of the recordings whose rows they hold.
   std::size_t jobs() const;
   std::vector<std::string> sources() const;
 
-  /// As bytes, the same on every machine, with a hash.
+  /// Serialises the part to bytes, equal on every machine, with a hash.
   std::vector<std::byte> bytes() const;
 
-  /// From bytes. Errors: not a part, cut short, changed, of another version, or not meaningful.
+  /// Deserialises a part. Errors: not a part, truncated, modified, of another version, or inconsistent.
   static Result<ArxPart> from_bytes(std::span<const std::byte> bytes);
 
-  /// The fit of all that was taken in, as learn() makes it. Of the recipe only name, offset, kernel, radius,
-  /// keep_unstable and responses count here. Free simulation is judged where all that was taken in are CSV files, which
-  /// are read once more for it; residuals are not tested.
+  /// Fits the rows of all parts as learn() does. Of the recipe only name, offset, kernel, radius, keep_unstable and
+  /// responses are used. Free simulation is evaluated if all rows come from CSV files, which are read once more for it;
+  /// residuals are not tested.
   /// Errors: too few rows, rows of a recording's shares that are in no part, a file that cannot be read again,
   /// kStopped.
   Result<Fit> finish(const ArxRecipe& recipe, const Progress& progress = {}) const;

@@ -1,7 +1,6 @@
 #pragma once
-// What a recipe's fields are called, which values they take and what they mean, in one table a recipe: flags, their
-// help and their checks, Python's keywords and the studio's settings are made from it. The tables stand below the
-// recipes.
+// Names, ranges and meanings of a recipe's fields, in one table per recipe, from which flags, their help and their
+// checks, Python's keywords and the studio's settings are generated. The tables stand below the recipes.
 
 #include <array>
 #include <cmath>
@@ -17,17 +16,17 @@
 
 namespace wisp {
 
-/// The words of an enumeration, in its order, where it has any.
+/// Words of an enumeration's values, in their order; empty by default.
 template <class Enumeration>
 inline constexpr std::array<std::string_view, 0> kWordsOf{};
 
-/// The word of a value.
+/// Returns the word of a value.
 template <class Enumeration>
 requires(!kWordsOf<Enumeration>.empty()) constexpr std::string_view word_of(Enumeration value) {
   return kWordsOf<Enumeration>[static_cast<std::size_t>(value)];
 }
 
-/// The value of a word; nothing for another word.
+/// Returns the value of a word; nothing for another word.
 template <class Enumeration>
 constexpr std::optional<Enumeration> value_of(std::string_view wanted) {
   for (std::size_t k = 0; k < kWordsOf<Enumeration>.size(); ++k) {
@@ -36,20 +35,20 @@ constexpr std::optional<Enumeration> value_of(std::string_view wanted) {
   return std::nullopt;
 }
 
-/// What may be said of a field beside its meaning.
+/// Optional properties of a field.
 struct FieldTraits {
-  const char* flag = nullptr;  ///< of `wisp learn`, without dashes; none: no flag, or one that the command makes
-  const char* sign = "";       ///< what the flag's help calls the value
-  double lowest = -std::numeric_limits<double>::infinity();  ///< of a number, included
-  double highest = std::numeric_limits<double>::infinity();  ///< of a number, included
-  const char* unset = nullptr;         ///< word of a number that is 0 or not there: the recordings decide
-  std::array<const char*, 2> words{};  ///< of a flag for false and for true; none: a switch
+  const char* flag = nullptr;  ///< flag of `wisp learn`, without dashes; null: no flag, or one that the command defines
+  const char* sign = "";       ///< name of the value in the flag's help
+  double lowest = -std::numeric_limits<double>::infinity();  ///< lower bound of a number, inclusive
+  double highest = std::numeric_limits<double>::infinity();  ///< upper bound of a number, inclusive
+  const char* unset = nullptr;                               ///< word that means 0 or none: chosen from the recordings
+  std::array<const char*, 2> words{};                        ///< words of a flag for false and for true; none: a switch
 };
 
 /// One field of a recipe.
 template <class Recipe, class Value>
 struct RecipeField {
-  const char* name;  ///< in C++, Python and JSON
+  const char* name;  ///< name in C++, Python and JSON
   Value Recipe::*member;
   const char* help;
   FieldTraits traits;
@@ -61,10 +60,10 @@ constexpr RecipeField<Recipe, Value> field(const char* name, Value Recipe::*memb
   return {name, member, help, traits};
 }
 
-/// What a number may be: "0 to 0.9", "0 or more".
+/// Describes a range: "0 to 0.9", "0 or more".
 std::string range_text(double lowest, double highest);
 
-/// Whether a field's number is in its range, or left open.
+/// Checks that a field's number is in its range, or unset.
 /// Errors: it is outside, with the field's name and range.
 Result<void> check_number(std::string_view name, double value, const FieldTraits& traits);
 
@@ -74,7 +73,7 @@ void for_each_field(const Recipe& recipe, Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of(recipe));
 }
 
-/// The number that a field holds; nothing where it holds another thing, or none.
+/// Returns the number in a field; nothing for another type, or an unset one.
 template <class Value>
 constexpr std::optional<double> number_of(const Value& value) {
   if constexpr (std::is_same_v<Value, std::optional<int>>) {
@@ -85,7 +84,7 @@ constexpr std::optional<double> number_of(const Value& value) {
   return std::nullopt;
 }
 
-/// Whether all numbers of a recipe are in their ranges.
+/// Checks that all numbers of a recipe are in their ranges.
 /// Errors: the first that is not, by its name, with its range.
 template <class Recipe>
 Result<void> check_fields(const Recipe& recipe) {

@@ -1,14 +1,14 @@
 #pragma once
-// When a flame goes out, as a plain value: learned, stored, played.
+// Rule of a flame's extinction, as a plain value: learned, stored, played.
 //
-// Wind harms a flame while it is at least `level`, and a flame that is left alone recovers. Harm h goes from 0,
-// unharmed, to 1, where the flame goes out and stays out until it is lit again:
+// Wind of at least `level` accumulates damage, and a flame in weaker wind recovers. Damage h grows from 0 to 1, at
+// which the flame is extinguished and stays so until it is relit:
 //
-//   dh/dt =  (1 + haste · (w / level − 1)) / seconds   while w ≥ level, w = |wind|, counted up to kMaxWind · level
+//   dh/dt =  (1 + haste · (w / level − 1)) / seconds   while w ≥ level, w = |wind|, limited to kMaxWind · level
 //   dh/dt =  −1 / recovery                             below it; h is never less than 0
 //
-// So a wind of exactly `level` blows the flame out in `seconds`, a stronger one sooner, a gust that is shorter leaves
-// it alight, and gusts that follow each other closely add up.
+// So a wind of exactly `level` blows the flame out in `seconds`, a stronger one sooner; a shorter gust leaves it
+// alight, and gusts in close succession add up.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,10 +18,10 @@
 
 namespace wisp {
 
-/// The sizes of what is seen through recorded events, step after step: a stored 255 is the full size.
+/// Apparent size of a flame during recorded events, step by step: a stored 255 is the full size.
 struct SizeEvents {
-  static constexpr std::size_t kMaxEvents = 64;    ///< events
-  static constexpr std::size_t kMaxSizes = 65536;  ///< of all events
+  static constexpr std::size_t kMaxEvents = 64;    ///< largest number of events
+  static constexpr std::size_t kMaxSizes = 65536;  ///< largest number of sizes in all events
 
   std::vector<std::uint8_t> sizes;
   std::vector<std::uint32_t> ends;  ///< one past the last size of each event, ascending
@@ -33,29 +33,29 @@ struct SizeEvents {
 
 /// A rule of extinction.
 struct Extinction {
-  /// Wind counts up to this many levels: a single absurd sample does not blow a flame out.
+  /// Wind is limited to this many levels: a single outlier does not blow a flame out.
   static constexpr double kMaxWind = 3;
 
-  std::size_t input = 0;  ///< index of the model's input that blows; its strength counts, not its sign
-  double level = 2;       ///< least wind that kills, in the input's unit of 1, 1e-6 … 1e6. 2: twice the strong wind
-                          ///< of training, which the flame lived through
-  double seconds = 0.2;  ///< for which that wind must last, 1e-3 … 3600; a candle of about 30 mm is gone in that time
-  double haste = 2;  ///< how much sooner stronger wind kills, 0 … 100; 0: any wind above the level takes `seconds`.
-                     ///< 2 at twice the level: a third of the time
-  double recovery = 0.3;  ///< seconds below the level in which a flame on the verge of death recovers, 1e-3 … 3600: the
+  std::size_t input = 0;  ///< index of the model's wind input; its magnitude is used, not its sign
+  double level = 2;       ///< least extinguishing wind, in the input's unit, 1e-6 … 1e6. 2: twice the strong wind of
+                          ///< training, which the flame survived
+  double seconds = 0.2;   ///< time to extinction in that wind, 1e-3 … 3600; for a candle of about 30 mm
+  double haste = 2;  ///< acceleration by stronger wind, 0 … 100; 0: any wind above the level takes `seconds`. 2: at
+                     ///< twice the level a third of the time
+  double recovery = 0.3;  ///< seconds below the level in which a nearly extinguished flame recovers, 1e-3 … 3600: the
                           ///< wick stays hot that long
-  SizeEvents dying{};     ///< from going out on, of what was seen then; empty: those of a simulated candle
-  SizeEvents catching{};  ///< from being lit on; empty: those of a simulated candle
+  SizeEvents dying{};     ///< recorded sizes from extinction on; empty: those of a simulated candle
+  SizeEvents catching{};  ///< recorded sizes from lighting on; empty: those of a simulated candle
 
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
 
-/// The events that are played at a rate: the rule's own, or where it has none those of a simulated candle.
+/// Returns the events to play at a rate: the rule's own, or if it has none those of a simulated candle.
 SizeEvents dying_of(const Extinction& rule, double rate_hz);
 SizeEvents catching_of(const Extinction& rule, double rate_hz);
 
-/// Checks that every number is finite and in its range, and that there is an input of that index among `inputs` of
-/// them. Errors say which, what was found and what was expected.
+/// Checks that every number is finite and in its range, and that the rule's input is one of `inputs`. Errors say which,
+/// what was found and what was expected.
 Result<void> check(const Extinction& rule, std::size_t inputs);
 
 }  // namespace wisp

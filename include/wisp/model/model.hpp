@@ -1,7 +1,7 @@
 #pragma once
-// What a model is: plain values, as learned, as stored, as played.
+// A model as plain values: learned, stored, played.
 //
-// A model is dynamics, a view that says what the outputs mean, sometimes a rule of extinction, and an account of how it
+// A model is dynamics, a view that says what the outputs mean, optionally a rule of extinction, and a record of how it
 // was made. Every number is in the model's own units; design notes are in docs/architecture.md.
 
 #include <array>
@@ -20,90 +20,90 @@
 
 namespace wisp {
 
-/// How one external input enters the dynamics.
+/// Regressors that one external input contributes to the dynamics.
 enum class InputShape {
-  kLinear,      ///< as it is: one regressor
-  kEvenOdd,     ///< as six: |u|, its square root and its square, then the same with the sign of u
-  kWindAlong,   ///< the x of a level wind vector: as six, the vector's length, its square root and its square, then the
-                ///< same times the x of its direction
-  kWindAcross,  ///< the z of that vector, the input after kWindAlong: as three, the powers times its direction's z
+  kLinear,      ///< u itself: one regressor
+  kEvenOdd,     ///< six: |u|, its square root and its square, then these multiplied by the sign of u
+  kWindAlong,   ///< x component of a horizontal wind vector: six, the vector's length, its square root and its square,
+                ///< then these multiplied by the x component of its direction
+  kWindAcross,  ///< z component, the input after kWindAlong: three, the powers times the z of its direction
 };
 
-/// An input as the world gives it.
+/// One external input.
 struct Input {
   std::string name;
-  std::string unit;   ///< the unit of 1; empty where it has none
-  double lowest = 0;  ///< the trained range; input beyond it and a margin is clamped
+  std::string unit;   ///< the input's unit; empty: dimensionless
+  double lowest = 0;  ///< lowest value in training; input outside the range and a margin is clamped
   double highest = 0;
   InputShape shape = InputShape::kLinear;
 };
 
-/// An output as the dynamics make it.
+/// One output of the dynamics.
 struct Output {
   std::string name;
   std::string unit;
-  double lowest = 0;  ///< the seen range; output is clamped to it and half of it more
+  double lowest = 0;  ///< lowest value in training; output is clamped to the range extended by half its width
   double highest = 0;
 };
 
-/// The outputs are the control points of an outline: p0.x, p0.y, p1.x, p1.y, … from the base's left over the tip to the
+/// View of outputs as control points of an outline: p0.x, p0.y, p1.x, p1.y, … from the base's left over the tip to the
 /// base's right. Origin at the middle of the base, x right, y up, mean height 1.
 struct OutlineView {
   std::vector<double> knots;   ///< full, clamped, cubic: outputs/2 + 4 values
-  double metres_per_unit = 0;  ///< 0 where it is not known
-  double pixels_per_unit = 0;  ///< of the clip that it was learned from; 0 where there was none
-  ShapeComponents shape{};     ///< what the dynamics move; empty: the control points themselves
+  double metres_per_unit = 0;  ///< 0: unknown
+  double pixels_per_unit = 0;  ///< scale of the training clip; 0: no clip
+  ShapeComponents shape{};     ///< shape components moved by the dynamics; empty: the control points themselves
 };
 
-/// The outputs stand for nothing but themselves.
+/// View of outputs without further meaning.
 struct PlainView {};
 
-/// The outputs are a body's position pos.x, pos.y, pos.z in metres, z up, and its orientation, the unit quaternion q.w,
-/// q.x, q.y, q.z from the body's axes to the world's. The body is flat; its normal is its third axis.
+/// View of outputs as a body's position pos.x, pos.y, pos.z in metres, z up, and orientation, the unit quaternion q.w,
+/// q.x, q.y, q.z from body axes to world axes. The body is flat; its normal is its third axis.
 struct PoseView {
-  double half_width = 0;   ///< metres along the body's first axis; 0 where it is not known
+  double half_width = 0;   ///< metres along the body's first axis; 0: unknown
   double half_length = 0;  ///< metres along its second axis
 };
 
-/// The outputs are a thing's position pos.x, pos.y, pos.z in metres, z up.
+/// View of outputs as an object's position pos.x, pos.y, pos.z in metres, z up.
 struct PositionView {
-  double half_width = 0;  ///< metres; 0 where it is not known
+  double half_width = 0;  ///< metres; 0: unknown
 };
 
 using Dynamics = std::variant<ArxModel, ChainModel, SwitchedArxModel>;
 using View = std::variant<PlainView, OutlineView, PoseView, PositionView>;
 
-/// A model of how a thing behaves.
+/// A model of an object's behaviour.
 struct Model {
   std::string name;
-  double rate_hz = 0;  ///< its own steps a second
+  double rate_hz = 0;  ///< steps per second
   std::vector<Input> inputs;
   std::vector<Output> outputs;
   Dynamics dynamics;
   View view;
   Training training;
-  std::optional<Extinction> extinction;  ///< none: it never goes out
+  std::optional<Extinction> extinction;  ///< none: it is never extinguished
 };
 
-/// The same flame in the round, by rotational symmetry: symmetric components are numbers, antisymmetric ones are
-/// vectors of the level plane, and the wind is one, in two inputs. Wind along x gives the numbers of `plane`, seen from
-/// its camera, to the bit. One that is in the round already is returned as it is. Errors: it is no outline of symmetric
-/// and antisymmetric components with residuals of its own, or has an input that has no direction.
+/// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
+/// become vectors of the horizontal plane, and so does the wind, in two inputs. Wind along x reproduces the numbers of
+/// `plane`, in its camera's view, to the bit. A model of a body is returned unchanged. Errors: not an outline of
+/// symmetric and antisymmetric components with residuals of its own, or an input without a direction.
 Result<Model> in_the_round(const Model& plane);
 
-/// Whether a model is in the round: its outputs are its outline as it is seen from one side.
+/// Returns whether a model is a body: its outputs are its outline in the view from one side.
 bool is_in_the_round(const Model& model);
 
-/// Number of regressors that the inputs make: the number of inputs that the dynamics see.
+/// Returns the number of regressors of all inputs: the number of inputs of the dynamics.
 std::size_t regressor_count(const std::vector<Input>& inputs);
 
-/// Regressors that one input of that shape makes: 1, 6 or 3.
+/// Returns the number of regressors of one input of that shape: 1, 6 or 3.
 int regressor_count(InputShape shape);
 
-/// Whether its size and its sign make regressors of their own, each with its square root and its square.
+/// Returns whether magnitude and sign have regressors of their own, each with square root and square.
 bool has_powers(InputShape shape);
 
-/// Whether an input is one of the two numbers of a vector.
+/// Returns whether an input is one component of a vector.
 bool is_vector(InputShape shape);
 
 }  // namespace wisp

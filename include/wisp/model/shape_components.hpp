@@ -4,11 +4,11 @@
 // (1995)).
 //
 // Shape coordinates pair the control points of the left flank with those of the right one: half their distance and
-// their mean height are the same in the mirror image, their mean x and half the difference of their heights change
-// sign. Of N points the first N coordinates are the symmetric ones, the next N the antisymmetric ones.
+// their mean height are invariant under reflection, their mean x and half the difference of their heights change sign.
+// Of N points the first N coordinates are the symmetric ones, the next N the antisymmetric ones.
 //
-// In the round, turned about the vertical, symmetric coordinates are numbers and antisymmetric ones vectors of the
-// level plane: the first N of these are their x, in the plane of the picture, and N more their z, towards who looks.
+// For a body of revolution, symmetric coordinates are numbers and antisymmetric ones vectors of the horizontal plane:
+// the first N are their x, in the picture's plane, and N more their z, towards the viewer.
 
 #include <cstddef>
 #include <span>
@@ -26,20 +26,20 @@ struct ValueRange {
   friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
-/// The most components of a kind that a shape has.
+/// Largest number of components of each kind.
 inline constexpr std::size_t kMaxShapeComponents = 256;
 
-/// Shape coordinates = rest + basis · components, each clamped to the range that was recorded, so that flanks neither
-/// cross each other nor leave the base.
+/// Shape coordinates = rest + basis · components, each clamped to the recorded range, so that flanks neither cross each
+/// other nor leave the base.
 struct ShapeComponents {
-  std::size_t symmetric = 0;            ///< components that are the same in the mirror image; they come first
-  std::size_t antisymmetric = 0;        ///< components that change sign there
-  std::vector<double> rest;             ///< 2N shape coordinates; 3N in the round
+  std::size_t symmetric = 0;            ///< number of components invariant under reflection; they come first
+  std::size_t antisymmetric = 0;        ///< number of components that change sign under reflection
+  std::vector<double> rest;             ///< 2N shape coordinates; 3N for a body
   std::vector<double> basis;            ///< N × symmetric, then N × antisymmetric, row-major
-  std::vector<ValueRange> coordinates;  ///< one a coordinate
-  std::vector<ValueRange> components;   ///< one a component: to this and half of it more a component is clamped
-  std::size_t across = 0;               ///< in the round as many more as are antisymmetric: the z of vectors whose x
-                                        ///< these are
+  std::vector<ValueRange> coordinates;  ///< one range per coordinate
+  std::vector<ValueRange> components;   ///< one range per component, which is clamped to it extended by half its width
+  std::size_t across = 0;               ///< for a body equal to `antisymmetric`, the z components of its vectors; else
+                                        ///< 0
 
   bool empty() const { return rest.empty(); }
   std::size_t count() const { return symmetric + antisymmetric + across; }
@@ -48,20 +48,19 @@ struct ShapeComponents {
   friend bool operator==(const ShapeComponents&, const ShapeComponents&) = default;
 };
 
-/// Control points x0, y0, x1, y1, … as shape coordinates, and back.
+/// Convert control points x0, y0, x1, y1, … to shape coordinates, and back.
 ///
 /// Precondition: an even number of values.
 std::vector<double> shape_coordinates(std::span<const double> control_points);
 std::vector<double> control_points(std::span<const double> shape_coordinates);
 
-/// The control points of a shape whose components have these values; in the round as they are seen in the plane of the
-/// picture.
+/// Returns the control points of a shape with these component values; for a body in the view of the picture's plane.
 ///
-/// Precondition: the shape has passed check(); one value a component.
+/// Precondition: the shape has passed check(); one value per component.
 std::vector<double> control_points(const ShapeComponents& shape, std::span<const double> components);
 
-/// Checks that everything is finite and of the size that the others make, and that ranges are some, for an outline of
-/// so many points. Nothing is checked of an empty one.
+/// Checks that all numbers are finite, sizes consistent and ranges not empty, for an outline of so many points. An
+/// empty shape passes.
 Result<void> check(const ShapeComponents& shape, std::size_t points);
 
 }  // namespace wisp

@@ -1,7 +1,7 @@
 #pragma once
-// How a model was made: what it was learned from, by which recipe, on which scales, and how good it is.
+// Record of a model's making: source recordings, recipe, scales, and quality.
 //
-// Behaviour may depend on the typed fields. `recipe` and `figures` are for people: nothing reads them back.
+// Behaviour may depend on the typed fields. `recipe` and `figures` are for people and never parsed.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Whether a model may be used, and why not (or why so).
+/// Whether a model may be used, with the reason.
 struct Usable {
   bool verdict = false;
   std::string reason;
@@ -27,7 +27,7 @@ struct Note {
   bool operator==(const Note&) const = default;
 };
 
-/// A named figure of how good the model is.
+/// A named figure of the model's quality.
 struct Figure {
   std::string name;
   double value = 0;
@@ -35,7 +35,7 @@ struct Figure {
   bool operator==(const Figure&) const = default;
 };
 
-/// What one of the model's inputs was in the recordings that it was learned from.
+/// Scale of one of the model's inputs in the training recordings.
 struct InputTraining {
   double scale = 1;    ///< value of the recording's channel that is 1 in the model; > 0
   double one_rms = 0;  ///< RMS of the sound, full scale 1, where the recording's channel is 1; 0: unknown, or no sound
@@ -43,38 +43,38 @@ struct InputTraining {
   bool operator==(const InputTraining&) const = default;
 };
 
-/// How recorded motion was cut into segments.
+/// Settings by which recorded motion was cut into segments.
 struct MotionTraining {
-  std::string event;             ///< as parse_event() reads it, such as "zero:forward_speed"
+  std::string event;             ///< event in the syntax of parse_event(), such as "zero:forward_speed"
   double min_seconds = 0;        ///< shortest segment; ≥ 0
   double debounce = 0;           ///< standard deviations; ≥ 0
-  std::int32_t smooth_rows = 0;  ///< rows that velocities are taken over; 0: no smoothing
+  std::int32_t smooth_rows = 0;  ///< number of rows over which velocities are estimated; 0: no smoothing
 
   bool operator==(const MotionTraining&) const = default;
 };
 
-/// Where a rule or a duration comes from.
+/// Origin of a rule or a duration.
 enum class Origin : std::uint8_t {
-  kDefault,  ///< nothing was there to learn it from
-  kGiven,    ///< by the recipe
-  kLearned,  ///< from the recordings
+  kDefault,  ///< no data to learn it from
+  kGiven,    ///< set by the recipe
+  kLearned,  ///< learned from the recordings
 };
 
-/// What the rule of extinction was learned from, and how often it is right there.
+/// Data from which the rule of extinction was learned, and its success on them.
 struct ExtinctionTraining {
   Origin origin = Origin::kDefault;
-  std::uint32_t deaths = 0;      ///< recorded extinctions,
-  std::uint32_t died = 0;        ///< and those of them that the rule reproduces
-  std::uint32_t gusts = 0;       ///< recorded gusts that were survived,
-  std::uint32_t spared = 0;      ///< and those of them that the rule survives too
-  double vanishing_seconds = 0;  ///< for which a camera sees a flame that has gone out
+  std::uint32_t deaths = 0;      ///< number of recorded extinctions
+  std::uint32_t died = 0;        ///< number of those that the rule reproduces
+  std::uint32_t gusts = 0;       ///< number of recorded gusts that were survived
+  std::uint32_t spared = 0;      ///< number of those that the rule survives
+  double vanishing_seconds = 0;  ///< time for which an extinguished flame stays visible to the camera
 
   bool operator==(const ExtinctionTraining&) const = default;
 };
 
-/// What was done to the recordings before learning, and is done to every recording that the model is judged on.
+/// Preprocessing of the training recordings, and of every recording on which the model is judged.
 struct Preparation {
-  bool detrend = false;    ///< a straight line is taken off every channel; means stay
+  bool detrend = false;    ///< remove a linear trend from every channel; means stay
   double highpass_hz = 0;  ///< ≥ 0; 0: none
   double lowpass_hz = 0;
   double resample_hz = 0;
@@ -82,24 +82,24 @@ struct Preparation {
   bool operator==(const Preparation&) const = default;
 };
 
-/// Figures of a flame's own candle, where the film showed one: its width in mean heights of the flame, and its red,
-/// green and blue, 0 to 255, as it was lit.
+/// Names of the figures of a flame's own candle, if the film showed one: its width in mean flame heights, and its red,
+/// green and blue, 0 to 255, as lit in the film.
 inline constexpr std::array<const char*, 4> kCandleFigures{"candle.width", "candle.red", "candle.green", "candle.blue"};
 
-/// How the model was made.
+/// Record of how the model was made.
 struct Training {
-  std::string program;               ///< name and version of what wrote it
+  std::string program;               ///< name and version of the program that wrote it
   std::vector<std::string> sources;  ///< file names of all recordings, gusts included
-  std::vector<Note> recipe;          ///< settings, given or decided
-  std::vector<Figure> figures;       ///< finite
+  std::vector<Note> recipe;          ///< settings, given or chosen
+  std::vector<Figure> figures;       ///< finite figures
   Usable usable;
-  std::vector<InputTraining> inputs;  ///< one an input of the model; empty: it was not learned from recordings
-  std::vector<double> residual_sd;    ///< of every output, one step ahead; empty where the dynamics are no regression
-  std::optional<bool> underside;      ///< outlines: whether they run on along the flame's underside; none: mixed
+  std::vector<InputTraining> inputs;  ///< one per input of the model; empty: it was not learned from recordings
+  std::vector<double> residual_sd;    ///< one-step residual standard deviation per output; chains: empty
+  std::optional<bool> underside;      ///< outlines: whether they include the flame's underside; none: mixed
   Preparation preparation{};
-  bool own_levels = false;                       ///< every recording was taken about its own means
-  std::optional<MotionTraining> motion;          ///< chains: how motion was cut
-  std::optional<ExtinctionTraining> extinction;  ///< where there is a rule
+  bool own_levels = false;                       ///< every recording was centred on its own means
+  std::optional<MotionTraining> motion;          ///< chains: cutting of motion
+  std::optional<ExtinctionTraining> extinction;  ///< present if there is a rule
   std::int64_t multiply_adds_per_frame = 0;      ///< by the paper's count; 0: not counted
   std::int64_t operations_per_frame = 0;         ///< all arithmetic; 0: not counted
 

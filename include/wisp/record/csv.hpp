@@ -14,20 +14,20 @@
 
 namespace wisp {
 
-/// How to understand a table that does not say so itself. A file's own words win where both speak, except
+/// Interpretation of a table that does not describe itself. The file's own statements take precedence, except over
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
 struct CsvOptions {
-  double rate_hz = 0;                        ///< samples a second; 0: the file must state it, or have a column of time
-  double usual_rate_hz = 0;                  ///< where it does neither; 0: an error then
+  double rate_hz = 0;                        ///< samples per second; 0: the file must state it, or have a time column
+  double usual_rate_hz = 0;                  ///< rate assumed if the file has neither; 0: an error then
   std::vector<std::string> inputs{};         ///< columns that are inputs
   std::vector<std::string> outputs{};        ///< columns that are outputs
-  std::vector<std::string> usual_inputs{};   ///< columns that are inputs where a plain table has them
-  std::vector<std::string> usual_outputs{};  ///< and outputs
-  bool every_column = false;           ///< take all columns of numbers, as outputs where nothing else is said of them
-  std::vector<std::string> columns{};  ///< names of all columns in their order, in place of a header or without one
+  std::vector<std::string> usual_inputs{};   ///< columns that are inputs if a plain table has them
+  std::vector<std::string> usual_outputs{};  ///< columns that are outputs if a plain table has them
+  bool every_column = false;                 ///< read all numeric columns, as outputs unless their role is stated
+  std::vector<std::string> columns{};        ///< names of all columns in order, in place of a header or without one
 };
 
-/// A table read a stretch at a time, for recordings larger than memory.
+/// Reads a table in blocks, for recordings larger than memory.
 class CsvReader {
  public:
   CsvReader(CsvReader&&) noexcept;
@@ -36,27 +36,27 @@ class CsvReader {
 
   /// Reads the comment lines and the header. `name` stands for the file in messages.
   /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
-  /// tells Excel the separator, a line of units, and comment lines that begin with # or %, also between rows. Where
-  /// nothing else says the rate, a column of time does (t, time, seconds, timestamp, in s unless its name or the line
-  /// of units says ms, us, min or h), and every row must go on evenly then; one that counts rows, without a unit, is
-  /// none. Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no names, no
-  /// rate, an unknown version, an unknown or repeated column.
+  /// states the separator for Excel, a line of units, and comment lines that begin with # or %, also between rows. If
+  /// nothing else states the rate, a time column does (t, time, seconds, timestamp, in s unless its name or the line of
+  /// units says ms, us, min or h), and its steps must then be equal; a column that counts rows, without a unit, is no
+  /// time column. Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no
+  /// names, no rate, an unknown version, an unknown or repeated column.
   ///
   /// Precondition: `stream` outlives the reader.
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
 
-  /// The recording without its rows: rate, channels, flags and attributes.
+  /// Returns the recording without its rows: rate, channels, flags and attributes.
   const Recording& header() const;
 
-  /// Appends up to `max_rows` further rows to `recording`, which is the header or what was read before.
-  /// Returns how many; 0 at the end.
+  /// Appends up to `max_rows` further rows to `recording`, which is the header or was read before.
+  /// Returns their number; 0 at the end.
   /// An empty cell, NaN or NA is a missing sample.
-  /// Errors: time that does not go on evenly, a wrong number of columns, text or infinity where a number belongs,
-  /// decimal points and commas in one table, commas that may separate thousands, a line longer than 16 MiB.
+  /// Errors: uneven time steps, a wrong number of columns, text or infinity in place of a number, decimal points and
+  /// commas in one table, commas that may separate thousands, a line longer than 16 MiB.
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
-  /// Passes over up to `max_rows` rows without looking at their numbers.
-  /// Returns how many; fewer than requested at the end only.
+  /// Skips up to `max_rows` rows without parsing their numbers.
+  /// Returns their number; fewer than requested at the end only.
   /// Errors: bytes that are not text, a line longer than 16 MiB.
   Result<std::size_t> skip(std::size_t max_rows);
 
@@ -68,20 +68,20 @@ class CsvReader {
 };
 
 /// Reads a recording from a CSV file.
-/// Returns it with missing samples as NaN; numbers are the nearest doubles to what is written. A column of time that
-/// does not go on evenly, as a logger on a PC writes it, is resampled to its median step by straight lines between
-/// samples; `rate_note` says so, with the error. Longer gaps are missing samples. Errors: as CsvReader, but for uneven
-/// time; no rows, time that goes back or has no usual step, and where the file cannot be opened.
+/// Returns it with missing samples as NaN; numbers are the nearest doubles to the text. A time column with uneven
+/// steps, as written by a PC's logger, is resampled to its median step by linear interpolation; `rate_note` reports
+/// that, with the error. Longer gaps are missing samples. Errors: those of CsvReader, except for uneven time; no rows,
+/// time that decreases or has no typical step, and a file that cannot be opened.
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
-/// The same from a stream; `name` stands for the file in messages. Uneven time needs a stream that can seek.
+/// Reads a recording from a stream; `name` stands for the file in messages. Uneven time needs a seekable stream.
 Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options = {});
 
-/// Writes a recording as CSV, whole or not at all. Reading it gives back every number bit for bit.
-/// Errors: as check(), and where the file cannot be written.
+/// Writes a recording as CSV, completely or not at all. Reading it restores every number bit for bit.
+/// Errors: those of check(), and a file that cannot be written.
 Result<void> write_csv(const std::filesystem::path& path, const Recording& recording);
 
-/// The text that write_csv writes.
+/// Returns the text that write_csv() writes.
 std::string csv_text(const Recording& recording);
 
 }  // namespace wisp

@@ -1,15 +1,15 @@
 #pragma once
-// Living instances of one model, stepped together. A single flame is a bank of one.
+// Instances of one model, stepped together. A single flame is a bank of one.
 //
 // The frame path (everything here but create() and the destructor) allocates nothing, takes no lock and makes no system
-// call. What comes out depends only on the model, the seed, each instance's stream number and its inputs: the same bits
-// with any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
+// call. Outputs depend only on the model, the seed, each instance's stream number and its inputs: the same bits with
+// any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
 //
-// Bulk buffers have one row per slot, in the order of the slots: row `id.slot` belongs to instance `id`. Rows of empty
-// slots, and what a buffer has beyond slots(), are ignored on the way in and are zeros on the way out: a buffer of
-// capacity() rows always serves.
+// Bulk buffers have one row per slot, in slot order: row `id.slot` belongs to instance `id`. Rows of empty slots, and
+// the part of a buffer beyond slots(), are ignored in inputs and zero in outputs: a buffer of capacity() rows is always
+// large enough.
 //
-// A bank is used by one thread at a time (which may have others step it, set_crew()); different banks are independent.
+// A bank is used by one thread at a time (which may delegate to others, set_crew()); different banks are independent.
 
 #include <array>
 #include <chrono>
@@ -28,8 +28,8 @@ class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
 
-/// Names one living instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot
-/// has another generation.
+/// Names one instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot has
+/// another generation.
 struct InstanceId {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;  ///< 0 names no instance
@@ -37,129 +37,128 @@ struct InstanceId {
   friend bool operator==(const InstanceId&, const InstanceId&) = default;
 };
 
-/// A longer pause is cut to this by Bank::advance(): nobody has watched it.
+/// Default of BankOptions::longest_advance and its upper bound.
 inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
 
-/// How a bank is made.
+/// Options of creating a bank.
 struct BankOptions {
-  int capacity = 1;          ///< most instances alive at once; 1 to 1 048 576
-  std::uint64_t seed = 1;    ///< of all random streams of the bank
-  int polyline_points = 32;  ///< points of an outline's polyline; 2 to 4096. 32 is smooth at 500 pixels' height
-  std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< what advance() cuts pauses to: above 0, at most that
-  std::span<std::byte> memory = {};  ///< where it lives, at least bank_bytes(); none: it allocates once
+  int capacity = 1;          ///< largest number of instances alive at once; 1 to 1 048 576
+  std::uint64_t seed = 1;    ///< seed of all random streams of the bank
+  int polyline_points = 32;  ///< points of an outline's polyline; 2 to 4096. 32 is smooth at a height of 500 pixels
+  std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< longest pause that advance() plays, > 0
+  std::span<std::byte> memory = {};  ///< memory for the bank, at least bank_bytes(); empty: it allocates once
 };
 
-/// Bytes that a bank with these options needs, wherever its memory comes from (`options.memory` is not looked at).
-/// Errors: as Bank::create().
+/// Returns the number of bytes that a bank with these options needs; `options.memory` is ignored.
+/// Errors: those of Bank::create().
 Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 
-/// The time of one step of a model, as banks keep it: whole nanoseconds.
+/// Returns the duration of one step of a model, in the whole nanoseconds that banks use.
 std::chrono::nanoseconds step_time(const Model& model);
 
-/// Share of the trained or seen range by which inputs and outputs may go beyond it, on either side.
+/// Share of the trained or seen range by which inputs and outputs may exceed it, on either side.
 inline constexpr double kRangeMargin = 0.5;
 
-/// A flame as a source of light.
+/// A flame as a light source.
 struct FlameLight {
-  std::array<float, 3> position{};  ///< the middle of its outline, in the outline's units; z in the round, 0 elsewhere
-  float intensity = 0;              ///< its area against that of the flame at rest
+  std::array<float, 3> position{};  ///< middle of its outline, in the outline's units; z of a body, else 0
+  float intensity = 0;              ///< area relative to that of the flame at rest
   float kelvin = 0;                 ///< colour temperature: 1900 K at rest, times the 16th root of the intensity
 };
 
-/// Threads of the caller's that step parts of a bank at once. `run` calls task(of, part) for every part below `parts`,
-/// each once and on any thread, and returns when all calls have returned.
+/// Threads of the caller that step parts of a bank in parallel. `run` calls task(of, part) for every part below
+/// `parts`, each once and on any thread, and returns when all calls have returned.
 struct Crew {
-  int parts = 1;  ///< one, or without `run`: the calling thread does all
+  int parts = 1;  ///< 1, or no `run`: the calling thread steps all instances
   void (*run)(void* pool, int parts, void (*task)(void* of, int part), void* of) = nullptr;
-  void* pool = nullptr;  ///< handed to `run`
+  void* pool = nullptr;  ///< first argument of `run`
 };
 
 /// A bank of instances of one model.
 ///
 /// Precondition of every bulk function: the span has room for slots() rows or more; of every other one: exactly the
-/// stated size. Checked in every build: a call that breaks it is reported (wisp/base/result.hpp) and does nothing.
+/// stated size. Checked in every build: a call that violates it is reported (wisp/base/result.hpp) and does nothing.
 /// Precondition of all but move and destruction: the bank has not been moved from.
 class Bank {
  public:
   struct State;  ///< private to run/
 
-  /// Makes an empty bank. The model is copied as far as it is needed and may go afterwards; memory that the caller
-  /// gives must outlive the bank.
-  /// Errors: the model is not valid (check()) or holds numbers that single precision can't, an option is out of its
-  /// range, the memory is too small.
+  /// Creates an empty bank. The needed parts of the model are copied, and it may be destroyed afterwards; memory given
+  /// by the caller must outlive the bank.
+  /// Errors: the model is not valid (check()) or holds numbers outside single precision, an option is out of its range,
+  /// the memory is too small.
   static Result<Bank> create(const Model& model, const BankOptions& options = {});
 
   Bank(Bank&& other) noexcept;
   Bank& operator=(Bank&& other) noexcept;
   ~Bank();
 
-  // Facts.
+  // Properties.
   int capacity() const;
-  int size() const;             ///< instances alive
+  int size() const;             ///< number of instances alive
   int slots() const;            ///< rows of every bulk buffer: one more than the highest slot in use
-  int input_count() const;      ///< external inputs
+  int input_count() const;      ///< number of external inputs
   int output_count() const;     ///< for an outline: x and y of each control point, as OutlineView orders them
-  int polyline_points() const;  ///< 0 where the view is not an outline
+  int polyline_points() const;  ///< 0 if the view is not an outline
   std::chrono::nanoseconds step_time() const;
 
   /// Starts an instance at the model's operating point, in the lowest empty slot, with all inputs zero. Its random
-  /// stream is `stream`, or the count of spawns so far. Two instances of the same stream and inputs live the same life.
-  /// Returns its id; an id that is not valid when the bank is full.
+  /// stream is `stream`, or the count of spawns so far. Two instances with equal streams and inputs have equal outputs.
+  /// Returns its id; an invalid id when the bank is full.
   InstanceId spawn();
   InstanceId spawn(std::uint64_t stream);
 
   /// Ends an instance. Returns false, and does nothing, when `id` is not valid.
   bool end(InstanceId id);
 
-  /// Whether `id` names a living instance.
+  /// Returns whether `id` names a living instance.
   bool valid(InstanceId id) const;
 
-  /// The id of the instance in a slot; not valid when the slot is empty.
+  /// Returns the id of the instance in a slot; an invalid one when the slot is empty.
   InstanceId at(int slot) const;
 
-  /// Sets what acts on every instance from the next step on: slots() × input_count(), in the inputs' units. Numbers
-  /// beyond the trained range and kRangeMargin are clamped to it; what is not a number counts as 0.
+  /// Sets the inputs of every instance from the next step on: slots() × input_count(), in the inputs' units. Numbers
+  /// outside the trained range and kRangeMargin are clamped to it; NaN counts as 0.
   void set_inputs(std::span<const float> values);
 
-  /// The same inputs for every instance: input_count() values.
+  /// Sets equal inputs for every instance: input_count() values.
   void set_common_inputs(std::span<const float> values);
 
-  /// The inputs of one instance: input_count() values. Returns false when `id` is not valid.
+  /// Sets the inputs of one instance: input_count() values. Returns false when `id` is not valid.
   bool set_inputs(InstanceId id, std::span<const float> values);
 
-  /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step costs less.
-  /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
-  /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
-  /// later repeat themselves. Any other scale leaves a chain as it is.
+  /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper.
+  /// A segment chain has no residual noise, only a random walk: at 0 the likeliest mode follows, as the best-joining
+  /// segment. Instances then differ by their initial heading alone, and their motion eventually becomes periodic. Any
+  /// other scale leaves a chain unchanged.
   void set_noise(float scale);
   float noise() const;
 
-  /// One step of the model, for all instances. Outputs read afterwards are those of that step.
+  /// Makes one step of the model, for all instances. Outputs read afterwards are those of that step.
   void step();
 
-  /// Many steps in one call, for play offline: the same bits as so many single ones. Row t of `inputs`, slots() ×
-  /// input_count(), is set before step t, and stays set after the last; none: what was set acts on all. Row t of
-  /// `outputs`, slots() × output_count(), is what is read after it; none: nothing is.
+  /// Makes many steps in one call, for offline play, with the same bits as single steps. Row t of `inputs`, slots() ×
+  /// input_count(), is set before step t, and the last one stays set; empty: the inputs stay as they are. Row t of
+  /// `outputs`, slots() × output_count(), receives the outputs after step t; empty: they are not read.
   ///
   /// Precondition: count >= 0; `inputs` and `outputs` have `count` rows, or none.
   void step(int count, std::span<const float> inputs = {}, std::span<float> outputs = {});
 
-  /// Lets time pass: makes the steps that fall into it, and shows the outputs between the last two steps in proportion
-  /// (one step of latency). A negative time counts as none, a longer one than BankOptions::longest_advance as that.
+  /// Advances time: makes the steps that are due in it, and interpolates outputs between the last two steps (one step
+  /// of latency). Negative time counts as 0, longer time than BankOptions::longest_advance as that.
   /// Returns the number of steps made.
   int advance(std::chrono::nanoseconds time);
 
-  /// The same with seconds; what is not a number counts as none.
+  /// Advances time in seconds; NaN counts as 0.
   int advance(double seconds);
 
-  /// From now on step() and advance() are shared by a crew: each part steps some of the instances, with the same bits.
-  /// Worth its while from some thousand instances on. A chain in which an instance has been steered is stepped by the
-  /// calling thread.
+  /// Distributes step() and advance() over a crew from now on: each part steps some of the instances, with the same
+  /// bits. Worthwhile from some thousand instances on. A chain with a steered instance is stepped by the calling
+  /// thread.
   void set_crew(const Crew& crew);
 
   /// Reads all outputs: slots() × output_count(), in the outputs' units, clamped to the seen range and kRangeMargin
-  /// (those of an instance that is out, or about to be, lie between there and 0). A chain's positions go as far as they
-  /// go.
+  /// (those of an extinguished or shrinking flame lie between there and 0). A chain's positions are not clamped.
   void outputs(std::span<float> values) const;
 
   /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.
@@ -174,47 +173,47 @@ class Bank {
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
   bool polyline(InstanceId id, std::span<float> values) const;
 
-  /// The light of an instance whose view is an outline; nothing where it is none or `id` is not valid.
+  /// Returns the light of an instance whose view is an outline; nothing for another view or an invalid `id`.
   std::optional<FlameLight> light(InstanceId id) const;
 
-  /// The mode of a switched ARX model that made an instance's newest sample; nothing where there is none.
+  /// Returns the mode of a switched ARX model that produced an instance's newest sample; nothing for other models.
   std::optional<int> mode(InstanceId id) const;
 
-  /// What only some models have is asked of a facet, which is null where the model has none of it. Facets live as long
-  /// as the bank, move with it, and may be asked for every frame.
-  ChainFacet* chain();  ///< of a segment chain (wisp/run/chain_facet.hpp)
+  /// Facets offer the functions of particular kinds of model; null for another kind. They live as long as the bank,
+  /// move with it, and are cheap enough to be requested every frame.
+  ChainFacet* chain();  ///< for a segment chain (wisp/run/chain_facet.hpp)
   const ChainFacet* chain() const;
-  ExtinctionFacet* extinction();  ///< where there is a rule of extinction (wisp/run/extinction_facet.hpp)
+  ExtinctionFacet* extinction();  ///< for a model with a rule of extinction (wisp/run/extinction_facet.hpp)
   const ExtinctionFacet* extinction() const;
-  BodyFacet* body();  ///< of a model in the round (wisp/run/body_facet.hpp)
+  BodyFacet* body();  ///< for a model of a body (wisp/run/body_facet.hpp)
   const BodyFacet* body() const;
 
-  /// Puts one instance, or all that live and the bank's time, back to where they were when spawned, lit; streams and
-  /// inputs stay. Returns false when `id` is not valid.
+  /// Resets one instance, or all instances and the bank's time, to the state at spawning, lit; streams and inputs stay.
+  /// Returns false when `id` is not valid.
   bool reset(InstanceId id);
   void reset();
 
-  /// How many instance-steps there were since the bank was made or restored, and in how many of them at least one
-  /// output of an instance that burns was clamped at its range. More than 1 in 1000 on ordinary input says that the
-  /// model is not usable. A chain's positions have no range: they are clamped at 1000 km from the origin.
+  /// Number of instance-steps since the bank was created or restored, and of those in which at least one output of a
+  /// burning instance was clamped to its range. More than 1 in 1000 on ordinary input means that the model is not
+  /// usable. A chain's positions have no range: they are clamped at 1000 km from the origin.
   struct Clamped {
     std::uint64_t clamped = 0;
     std::uint64_t steps = 0;
   };
   Clamped clamped() const;
 
-  /// Bytes that save() writes for a bank with this model and capacity.
+  /// Returns the number of bytes that save() writes for a bank with this model and capacity.
   std::size_t save_bytes() const;
 
-  /// Writes the whole state of the bank, all that was set included, so that a bank restored from it goes on with the
-  /// same bits.
+  /// Writes the whole state of the bank, settings included, so that a bank restored from it continues with the same
+  /// bits.
   ///
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;
 
-  /// Takes over a state written by save() of a bank with the same model and capacity (the seed comes with it).
+  /// Restores a state written by save() of a bank with the same model and capacity (the seed comes with it).
   /// Errors: too short or too long, not a bank's state, a version that this build does not read, another model or
-  /// capacity, damaged. The bank stays as it was then.
+  /// capacity, damaged. The bank is then unchanged.
   Result<void> restore(std::span<const std::byte> bytes);
 
  private:

@@ -1,9 +1,9 @@
 #pragma once
-// Three-dimensional bodies, which a bank of a model in the round plays (in_the_round(), Bank::body()). A flame that one
-// camera filmed becomes a body by assuming that it looks alike from all sides.
+// Three-dimensional bodies, played by a bank of a model that in_the_round() made (Bank::body()). A flame filmed by one
+// camera becomes a body by assuming rotational symmetry.
 //
-// x is to the right of the camera that filmed it, y up, z towards that camera. The inputs of its wind are the wind's x
-// and z components.
+// x points to the right of the camera that filmed it, y up, z towards that camera. The inputs of its wind are the
+// wind's x and z components.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,33 +13,33 @@
 
 namespace wisp {
 
-/// Numbers of a ring: the middle's x, y and z, the radius, and by how much the ring rises from its middle to its rim
-/// towards +x and towards +z.
+/// Number of values per ring: the centre's x, y and z, the radius, and the rise from centre to rim towards +x and
+/// towards +z.
 inline constexpr std::size_t kRingNumbers = 6;
 
-/// Numbers of a vertex: its place and its normal.
+/// Number of values per vertex: position and normal.
 inline constexpr std::size_t kVertexNumbers = 6;
 
-/// Writes the surface of a body from two rings or more: 3 to 256 vertices a ring, `stride` numbers from one to the
-/// next. Returns false, and writes nothing, where it is not so, or there is no room for rings × segments × stride.
+/// Writes the surface of two or more rings: 3 to 256 vertices per ring, `stride` numbers from one to the next. Returns
+/// false, and writes nothing, for an argument out of range or room below rings × segments × stride.
 bool ring_mesh(std::span<const float> rings, int segments, std::span<float> numbers,
                std::size_t stride = kVertexNumbers);
 
-/// Its triangles, three indices each, anticlockwise from outside, the base's and the tip's caps included.
+/// Returns the number of triangles, three indices each, anticlockwise from outside, including the caps at base and tip.
 constexpr int ring_triangle_count(int rings, int segments) { return 2 * rings * segments - 4; }
 
-/// Returns false likewise, or where there are not exactly 3 × ring_triangle_count() indices.
+/// Returns false for an argument out of range, or if there are not exactly 3 × ring_triangle_count() indices.
 bool ring_triangles(int rings, int segments, std::span<std::uint32_t> indices);
 
-/// The bodies of a bank. It lives as long as the bank, and moves with it. Nothing here allocates.
+/// The bodies of a bank. It lives as long as the bank, and moves with it. No function allocates.
 class BodyFacet {
  public:
-  /// Sets the level camera whose view Bank::outputs() and polylines() return. (right_x, right_z), of length 1, points
+  /// Sets the level camera whose view Bank::outputs() and polylines() return. The unit vector (right_x, right_z) points
   /// to the camera's right: (1, 0) for the camera that filmed the flame, (0, −1) for one a quarter turn further,
   /// anticlockwise from above. save() does not write it.
   void look(float right_x, float right_z);
 
-  /// Rings of a body, from the base to the tip: half of the polyline's points.
+  /// Returns the number of rings of a body, from base to tip: half of the polyline's points.
   int rings() const;
 
   /// Reads all rings: slots() × rings() × kRingNumbers.

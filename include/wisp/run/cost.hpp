@@ -1,5 +1,5 @@
 #pragma once
-// What a model costs: counted by running the real kernels on numbers that count.
+// Cost of a model in operations, counted by running the real kernels on a counting number type.
 
 #include <cstdint>
 
@@ -8,28 +8,28 @@
 
 namespace wisp {
 
-/// Work of one instance in one frame (one step, one reading of the view).
+/// Operations of one instance in one frame (one step, one reading of the view).
 struct Cost {
-  std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: coefficients of A and B that are not zero
+  std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: number of nonzero coefficients of A and B
   std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the five below
-  std::int64_t dynamics_operations = 0;  ///< inputs, filters, and noting what was clamped: + − × ÷ √ on numbers, logic
-  std::int64_t noise_operations = 0;   ///< from random words to what is added to the outputs, on numbers
+  std::int64_t dynamics_operations = 0;  ///< inputs, filters, and the record of clamping: + − × ÷ √ on numbers, logic
+  std::int64_t noise_operations = 0;   ///< from random words to noise added to the outputs, on numbers
   std::int64_t random_operations = 0;  ///< arithmetic and logic on 32-bit words, for the noise
-  std::int64_t view_operations = 0;    ///< outputs between two steps, in their units, and the polyline; on numbers
+  std::int64_t view_operations = 0;    ///< interpolation between two steps, units, and the polyline; on numbers
   std::int64_t worst_operations =
       0;  ///< the most in any frame: one that joins a segment, or searches for another
           ///< residual in an input that swings, or shrinks a flame that goes out; without any of them the same
-  std::int64_t steered_operations = 0;  ///< the most in any frame of a chain that is steered, where a join weighs
-                                        ///< --best-of x modes candidates; 0: it can't be steered
+  std::int64_t steered_operations = 0;  ///< largest in any frame of a steered chain, where a join weighs --best-of ×
+                                        ///< modes candidates; 0: not steerable
   std::int64_t extinction_operations =
       0;  ///< of the rule of extinction, where there is one, while it burns; on numbers
 };
 
-/// Counts what one frame of one instance costs, with an outline read as a polyline of `polyline_points` (0: read as
-/// control points only), while every input is at its highest: signed wind blows from one side, and costs what the other
-/// side would for as long as the model's history reaches after it turned.
+/// Counts the operations of one frame of one instance, with an outline read as a polyline of `polyline_points` (0:
+/// control points only), while every input is at its highest: signed wind blows from one side, and after a reversal
+/// costs the other side's operations too, for as long as the model's history reaches.
 /// Comparisons, conversions and moves are not arithmetic and are not counted.
-/// Errors: as Bank::create().
+/// Errors: those of Bank::create().
 Result<Cost> count_operations(const Model& model, int polyline_points = 32);
 
 }  // namespace wisp

@@ -1,7 +1,7 @@
 #pragma once
-// What only a bank of things that go out has (Bank::extinction()): instances whose wind the model's rule
-// (wisp/model/extinction.hpp) finds too strong go out in a step and stay out, whatever the wind does then; their
-// outputs shrink to 0 and are 0 until they are lit again. Their random streams go on.
+// Extinction in a bank (Bank::extinction()): when the model's rule (wisp/model/extinction.hpp) finds the wind too
+// strong, an instance is extinguished and stays so, whatever the wind does then; its outputs shrink to 0 and stay 0
+// until it is relit. Its random stream continues.
 
 #include <chrono>
 #include <optional>
@@ -11,34 +11,34 @@
 
 namespace wisp {
 
-/// The age of what never happened.
+/// Age of an event that never happened.
 inline constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max();
 
-/// Whether an instance burns, and how that shows. Ages are of what is shown, in time that passed through steps; a
-/// drawing makes smoke and ember of them.
+/// Whether an instance burns, and its appearance. Ages are those of the displayed state, in time that passed through
+/// steps; a renderer derives smoke and ember from them.
 struct LitState {
   bool lit = true;
-  float size = 1;  ///< of what is seen, 0 … 1; outputs and polylines are already multiplied by it
-  std::chrono::nanoseconds since_lit = kNever;  ///< since it was last lit again; one that was spawned lit was not
-  std::chrono::nanoseconds since_out = kNever;  ///< since it last went out
-  bool relit = false;                           ///< in the last call of step() or advance(), or by hand since
-  bool went_out = false;                        ///< likewise
+  float size = 1;  ///< apparent size, 0 … 1; outputs and polylines are already multiplied by it
+  std::chrono::nanoseconds since_lit = kNever;  ///< time since it was last relit; kNever if never since spawned
+  std::chrono::nanoseconds since_out = kNever;  ///< time since it was last extinguished
+  bool relit = false;                           ///< relit in the last call of step() or advance(), or by hand since
+  bool went_out = false;                        ///< it was extinguished in that time
 };
 
-/// Going out and being lit again. It lives as long as the bank, and moves with it; it allocates nothing.
+/// Extinction and relighting. It lives as long as the bank, and moves with it; it allocates nothing.
 class ExtinctionFacet {
  public:
-  /// Whether an instance burns; nothing when `id` is not valid.
+  /// Returns the state of an instance; nothing when `id` is not valid.
   std::optional<LitState> state_of(InstanceId id) const;
 
-  /// The same of all: at least Bank::slots() values; what is in an empty slot does not burn and never did.
+  /// Reads the states of all: at least Bank::slots() values; an empty slot does not burn and never did.
   void states(std::span<LitState> states) const;
 
-  /// Lights an instance that is out: it starts at the model's operating point, unharmed, and grows from the size that
-  /// is left of it. One that burns goes on. Returns false when `id` is not valid.
+  /// Lights an extinguished instance: it starts at the model's operating point, undamaged, and grows from its remaining
+  /// size. A burning one continues. Returns false when `id` is not valid.
   bool relight(InstanceId id);
 
-  /// Puts an instance out, whatever the wind. One that is out stays so. Returns false when `id` is not valid.
+  /// Extinguishes an instance, whatever the wind, if it burns. Returns false when `id` is not valid.
   bool extinguish(InstanceId id);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A clip of a candle in wind, with sound, and the truth beside it.
+// Simulation of a clip of a candle in wind, with sound and ground truth.
 
 #include <cstdint>
 #include <functional>
@@ -12,82 +12,82 @@
 
 namespace wisp {
 
-/// The rig. Its parameters have been calibrated together: the height of the tip depends on cell and time step.
+/// Flow, flame and candle. The parameters were calibrated together: the tip's height depends on cell and time step.
 struct CandleRigOptions {
-  // The grid and its time.
+  // Grid and time.
   int columns = 64;              ///< 16 … 1024
   int rows = 128;                ///< 16 … 1024
   double cell_mm = 2.0 / 3;      ///< 0.1 … 2; a flame is about 6 mm wide
-  double rate_hz = 60;           ///< frames a second, 1 … 1000
-  double steps_a_second = 1200;  ///< 100 … 100000, rounded to whole steps a frame: the flame depends on the step, not
+  double rate_hz = 60;           ///< frames per second, 1 … 1000
+  double steps_a_second = 1200;  ///< 100 … 100000, rounded to whole steps per frame: the flame depends on the step, not
                                  ///< on the camera's rate
 
   // The candle.
-  double position = 0.35;      ///< of the candle's axis, as a share of the width, 0.1 … 0.9: room on the lee side
+  double position = 0.35;      ///< candle axis as a share of the width, 0.1 … 0.9: the lee side needs room
   double wick_damping = 80;    ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
-  double wick_cold = 500;      ///< K, calibrated: temperature around the wick at which it emits nothing
-  double wick_warm = 900;      ///< K, calibrated: and at which it emits fuel_rate
-  double fuel_rate = 1.35e-4;  ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
+  double wick_cold = 500;      ///< K, calibrated: temperature around the wick at which it emits no fuel
+  double wick_warm = 900;      ///< K, calibrated: temperature at which it emits fuel_rate
+  double fuel_rate = 1.35e-4;  ///< m²/s, calibrated: volume of cold vapour per second and depth of a warm wick
 };
 
-/// The camera. Colours are chosen to look like a photograph of a candle; they are not colorimetry.
+/// Options of the virtual camera. Colours resemble a photograph of a candle; they are not colorimetry.
 struct VirtualCameraOptions {
-  int width = 320;         ///< pixels, 16 … 4096; even, as video wants it
+  int width = 320;         ///< pixels, 16 … 4096; even, as required by video
   int height = 480;        ///< pixels, 16 … 4096; even
   double gain = 2.5;       ///< exposure: higher is brighter and whiter, 0.01 … 100
   double glow = 0.05;      ///< light scattered in the lens, as a share of the flame's, 0 … 1
   double noise = 1.2;      ///< standard deviation of the sensor's noise in steps of 255, 0 … 50
-  std::uint64_t seed = 1;  ///< of the noise
+  std::uint64_t seed = 1;  ///< seed of the noise
 };
 
-/// The microphone.
+/// Options of the virtual microphone.
 struct VirtualMicrophoneOptions {
-  double rate_hz = 44100;  ///< samples a second, 4000 … 192000
-  double exponent = 2;     ///< amplitude ∝ wind^exponent, 0.5 … 4: 2 is stagnation pressure, a real chain outdoors
-                           ///< was nearer to 1.5
-  double level = 0.12;     ///< root mean square of the sound of 1 m/s, full scale 1, 1e-6 … 1; gusts go beyond 1 m/s
-  double corner_hz = 300;  ///< the spectrum is flat below and falls with 12 dB an octave above, 20 … 5000
+  double rate_hz = 44100;  ///< samples per second, 4000 … 192000
+  double exponent = 2;     ///< amplitude ∝ wind^exponent, 0.5 … 4: 2 is stagnation pressure; an outdoor measurement
+                           ///< gave about 1.5
+  double level = 0.12;     ///< root mean square of the sound at 1 m/s, full scale 1, 1e-6 … 1; gusts exceed 1 m/s
+  double corner_hz = 300;  ///< corner of the spectrum, flat below and falling by 12 dB per octave above, 20 … 5000
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
-  double other_sounds = 0.05;  ///< sounds that are not wind, a second on average, 0 … 10: half voice, half knocks
+  double other_sounds = 0.05;  ///< mean number of sounds other than wind per second, 0 … 10: half voice, half knocks
   std::uint64_t seed = 1;
 };
 
 /// Kinds of wind.
 enum class WindKind {
-  kCalm,      ///< nothing: a flame that does not move at all
-  kDraughts,  ///< a closed room's still air: a few cm/s from either side, by which the brightness varies by 1 %, as
-              ///< an undisturbed candle's does (cpldcpu/RealCandle, a photodiode's record)
-  kGusts,     ///< wideband noise and gusts of all lengths, with rests: what a learner needs to see
+  kCalm,      ///< no wind: a perfectly still flame
+  kDraughts,  ///< a closed room's still air: a few cm/s from either side, which vary the brightness by 1 %, as of an
+              ///< undisturbed candle (cpldcpu/RealCandle, a photodiode's record)
+  kGusts,     ///< wideband noise and gusts of all lengths, with rests: excitation for learning
 };
 
-/// The wind. Speeds in m/s.
+/// Parameters of the wind. Speeds in m/s.
 struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
   double most = 1.0;         ///< clamp of gusts and noise together, 0 … 10; a candle survives 1 m/s
   double noise = 0.35;       ///< standard deviation of the wideband part while it blows, 0 … 10
-  double bandwidth_hz = 6;   ///< of that noise, two poles, 0.1 … 50; slower wind does not show how a flame swings
+  double bandwidth_hz = 6;   ///< bandwidth of that noise, two poles, 0.1 … 50; slow wind excites no resonance
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10
-  double rest_share = 0.25;  ///< of the time that is calm, 0 … 0.9
+  double rest_share = 0.25;  ///< share of calm time, 0 … 0.9
   bool both_sides = false;   ///< gusts from the right as well (negative); a microphone hears only strength
-  double blow_out_at = -1;   ///< seconds: a puff of 3 m/s for 0.3 s that extinguishes the flame; negative: none
-  double puff_every = 0;     ///< seconds between puffs of 1.2 to 4 m/s that last 0.05 to 0.6 s, of which some kill and
-                             ///< some do not: what blowing out is learned from; 0: none, else 2 … 86400
-  double relight_after = 2;  ///< seconds from a blow-out or a puff until the candle is lit again; negative: never
+  double blow_out_at = -1;   ///< time of a puff of 3 m/s for 0.3 s that extinguishes the flame, seconds; negative: none
+  double puff_every = 0;     ///< seconds between puffs of 1.2 to 4 m/s and 0.05 to 0.6 s, some of which extinguish the
+                             ///< flame: data for learning extinction; 0: none, else 2 … 86400
+  double relight_after = 2;  ///< seconds from a blow-out or a puff until the candle is relit; negative: never
   std::uint64_t seed = 1;
 };
 
-/// The clip. Its frame rate is rig.rate_hz.
+/// Options of the clip. Its frame rate is rig.rate_hz.
 struct CandleClipOptions {
   CandleRigOptions rig{};
   VirtualCameraOptions camera{};
   VirtualMicrophoneOptions microphone{};
   WindSignalOptions wind{};
-  std::optional<Recording> wind_recording{};  ///< where set, its only input is the wind and `wind` is not
+  std::optional<Recording> wind_recording{};  ///< if set, its only input is the wind, and `wind` is ignored
   double seconds = 60;                        ///< length, more than 0, at most 86400
-  double settle_seconds = 1.5;  ///< simulated in still air before the first frame, 0 … 60: until the flame burns evenly
+  double settle_seconds = 1.5;  ///< time simulated in still air before the first frame, 0 … 60, for a steady flame
 };
 
-/// A frame of the clip.
+/// One frame of the clip.
 struct CandleFrame {
   std::uint64_t index = 0;
   double seconds = 0;  ///< since the clip's start
@@ -96,21 +96,21 @@ struct CandleFrame {
   std::span<const std::uint8_t> picture;  ///< rows from the top, RGB, width × height × 3; valid during the call only
 };
 
-/// Outputs of the clip. Each is called from the thread that called simulate_candle, in the order of time: a
-/// frame's picture first, then the sound that was heard while it lasted. An error ends the clip and is passed on.
+/// Callbacks that receive the clip. Each is called from the thread that called simulate_candle, in time order: a
+/// frame's picture first, then the sound during it. An error ends the clip and is returned.
 struct CandleClipOutputs {
   std::function<Result<void>(const CandleFrame&)> on_frame;
   std::function<Result<void>(std::span<const float>)> on_sound;  ///< mono, microphone.rate_hz, within ±1
-  std::function<void(double share)> on_progress;                 ///< 0 … 1, once a frame
+  std::function<void(double share)> on_progress;                 ///< 0 … 1, once per frame
 };
 
-/// Simulates a candle, films it and listens to it.
-/// Returns the truth, one row a frame: u:wind[m/s] (at the frame's end), y:tip.x, y:tip.y, y:height [mm],
+/// Simulates a candle, its film and its sound.
+/// Returns the ground truth, one row per frame: u:wind[m/s] (at the frame's end), y:tip.x, y:tip.y, y:height [mm],
 /// y:lean[deg], y:brightness[mm2], y:lit[1], and the outline's control points y:p0.x[px], y:p0.y[px], … in pixels of
-/// the picture; tip and outline are missing (NaN) while there is no flame. Attributes tell the view (pixels_per_mm,
+/// the picture; tip and outline are missing (NaN) while there is no flame. Attributes state the view (pixels_per_mm,
 /// origin_x, origin_y), the seed, and the grid.
-/// Errors: an option outside its range (which, what was found, what was expected), a wind channel that is not there,
-/// whatever an output returned, or a flow that left the finite numbers (a defect; never seen).
+/// Errors: an option outside its range (which, what was found, what was expected), a missing wind channel, an error
+/// returned by an output, or a numerically unstable flow (a defect; never seen).
 Result<Recording> simulate_candle(const CandleClipOptions& options, const CandleClipOutputs& outputs);
 
 }  // namespace wisp

@@ -1,5 +1,5 @@
 #pragma once
-// Many falls of one leaf as a recording: what a chain is learned from.
+// Simulation of many falls of one leaf as a recording, from which a chain is learned.
 
 #include <array>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace wisp {
 
-/// Coefficients of the air's forces, without dimension where nothing else is said. The default is fitted to discs let
-/// go vertically and, apart from that, horizontally.
+/// Coefficients of the air's forces, dimensionless unless stated. The default is fitted to discs dropped vertically
+/// and, separately, horizontally.
 struct LeafAir {
   double rotational_lift = 0.33;     ///< C_R, 0 … 10
   double translational_lift = 2.66;  ///< C_T, 0 … 10
@@ -23,7 +23,7 @@ struct LeafAir {
   double spin_drag = 0.05;           ///< C_3, of rotation in the leaf's own plane, 0 … 20
 };
 
-/// The leaf and the air it falls in. The default is the leaf of the training recordings.
+/// Properties of the leaf and the air in which it falls. The default is the leaf of the training recordings.
 struct Leaf {
   double length = 0.073;        ///< full axis along the midrib (body x), metres, 0.001 … 1
   double width = 0.049;         ///< full axis across it (body y), metres, 0.001 … length
@@ -33,52 +33,51 @@ struct Leaf {
   LeafAir air{};
 };
 
-/// A wind that was measured: the same everywhere, between its rows along a smooth curve through them, before the first
-/// and after the last as there.
+/// A measured wind: uniform in space, interpolated smoothly between its rows, constant before and after them.
 struct MeasuredWind {
-  std::vector<std::array<double, 3>> rows;  ///< m/s, world's axes; none: there is no such wind
+  std::vector<std::array<double, 3>> rows;  ///< m/s, world axes; empty: no measured wind
   double rate_hz = 60;                      ///< > 0
-  double begins = 0;                        ///< seconds: when the first row is
+  double begins = 0;                        ///< time of the first row, seconds
 };
 
-/// Falls of one leaf from random attitudes, velocities and spins. One leaf, since segments of different leaves must not
-/// be joined.
+/// Falls of one leaf from random attitudes, velocities and spins. All falls have one leaf, since segments of different
+/// leaves must not be joined.
 struct LeafDropsOptions {
   Leaf leaf{};
-  bool gusts = false;         ///< each drop has gusts of its own, of random strength, length and direction, with rests
+  bool gusts = false;         ///< each drop has its own gusts of random strength, length and direction, with rests
                               ///< between them
-  MeasuredWind track{};       ///< where it has rows, this is the wind of every drop, from where the recording begins
+  MeasuredWind track{};       ///< if it has rows, the wind of every drop, from the recording's beginning
   int drops = 200;            ///< episodes, 1 … 100000
-  double seconds = 20;        ///< recorded of each, 0.1 … 3600
-  double settle_seconds = 2;  ///< before that, 0 … 60: until the fall has forgotten how it began
-  double rate_hz = 60;        ///< rows a second, 1 … 10000
+  double seconds = 20;        ///< recorded duration of each drop, 0.1 … 3600
+  double settle_seconds = 2;  ///< simulated before that, 0 … 60: until the initial state is forgotten
+  double rate_hz = 60;        ///< rows per second, 1 … 10000
   std::uint64_t seed = 1;
-  int threads = 0;                               ///< 0 … 256; 0: one a core. The result does not depend on it
-  std::function<void(double)> on_progress = {};  ///< called now and then with the share that is done
+  int threads = 0;                               ///< 0 … 256; 0: one per core. The result does not depend on it
+  std::function<void(double)> on_progress = {};  ///< called now and then with the finished share
 };
 
-/// Falls them all.
-/// Returns one episode a drop: outputs `pos.x pos.y pos.z` [m], counted from the episode's first row, and `q.w … q.z`,
-/// unit quaternions, leaf to world, whose sign never jumps; inputs `wind.x wind.y wind.z` [m/s] where the leaf is.
+/// Simulates all falls.
+/// Returns one episode per drop: outputs `pos.x pos.y pos.z` [m], relative to the episode's first row, and `q.w … q.z`,
+/// unit quaternions, leaf to world, whose sign never jumps; inputs `wind.x wind.y wind.z` [m/s] at the leaf.
 /// Errors: an option outside its range, more than 2^31 rows, or a state that is no longer finite (the drop is named).
 Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options);
 
-/// Gusts that hit a leaf in many states, each many times over. Falls are chaotic, and only the mean over clones that
-/// differ a little tells what the wind did and what chance.
+/// Gusts that hit a leaf in many states, each repeated over clones. Falls are chaotic, and only the mean over clones
+/// with slightly different states separates the effect of the wind from chance.
 struct LeafPairsOptions {
   LeafDropsOptions drops{};  ///< `drops` is the number of gusts; its own `gusts` and `track` are ignored
-  int clones = 32;           ///< of each, 1 … 10000
+  int clones = 32;           ///< clones per gust, 1 … 10000
 };
 
-/// The same falls with a gust each, and without. Episode k of both began alike; clones of one gust follow each other.
+/// The same falls with a gust each, and without. Episodes k of both begin alike; clones of one gust are consecutive.
 struct LeafPairs {
   Recording windy;
   Recording calm;
 };
 
-/// Falls them. The recordings share the value of their attribute `pair`; `clones` says how many episodes in a row
-/// belong to one gust.
-/// Errors: as simulate_leaf_drops().
+/// Simulates the pairs. The recordings share the value of their attribute `pair`; `clones` is the number of consecutive
+/// episodes per gust.
+/// Errors: those of simulate_leaf_drops().
 Result<LeafPairs> simulate_leaf_pairs(const LeafPairsOptions& options);
 
 }  // namespace wisp

@@ -1,7 +1,7 @@
 #pragma once
-// The wind of a whole recording: as WindLevel, but the background is the mean of all stretches without wind, the gain
-// is exact, and under voices the wind is read between their harmonics, since the whole is known when the frames are
-// made.
+// Wind estimate of a whole recording: like WindLevel, but since all sound is known when the frames are made, the
+// background is the mean of all stretches without wind, the gain is exact, and under voices the wind is measured
+// between their harmonics.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,29 +14,29 @@
 
 namespace wisp {
 
-/// The wind of a recording and what was found on the way.
+/// The wind of a recording and the estimates behind it.
 struct WindTrack {
-  std::vector<WindFrame> frames;  ///< one a video frame that the sound covers; a last part frame is dropped
-  WindCalibration calibration;    ///< background and gust level of the whole
-  float one_rms = 0;              ///< RMS of the band at speed 1: the gust level, or the option's where nothing blows
+  std::vector<WindFrame> frames;  ///< one per video frame that the sound covers; a last part frame is dropped
+  WindCalibration calibration;    ///< background and gust level of the whole recording
+  float one_rms = 0;              ///< RMS of the band at speed 1: the gust level, or the option's if nothing blows
   double seconds = 0;             ///< length of the sound
   float quiet_share = 0;          ///< share of frames taken as background
   float blowing_share = 0;        ///< share of frames whose wind is above 0.05
   float clipped_share = 0;        ///< share of samples at full scale
-  bool silent = false;            ///< nothing at all is heard (below −80 dB throughout)
+  bool silent = false;            ///< nothing is heard (below −80 dB throughout)
   bool background_found = false;  ///< false: no stretch without wind was found; the background is then the softest part
 };
 
-/// Makes a WindTrack from sound that comes in blocks; keeps its wind band (16 kB a second a channel), not
-/// the sound.
+/// Computes a WindTrack from sound that comes in blocks; stores its wind band (16 kB per second and channel), not the
+/// sound.
 class WindTracker {
  public:
-  /// For video at a fixed frame rate (options.frame_rate_hz). Errors: as WindLevel::create.
+  /// For video at a fixed frame rate (options.frame_rate_hz). Errors: those of WindLevel::create().
   static Result<WindTracker> create(const SoundFormat& format, const WindOptions& options = {});
 
-  /// For video whose frames come at uneven times: frame k covers the sound from frame_seconds[k] to
-  /// frame_seconds[k + 1], so there is one frame fewer than times.
-  /// Errors: as WindLevel::create; times not finite, negative or not ascending (named by index).
+  /// For video whose frames come at uneven times: frame k covers the sound from frame_seconds[k] to frame_seconds[k +
+  /// 1], so there is one frame fewer than times.
+  /// Errors: those of WindLevel::create(); times not finite, negative or not ascending (named by index).
   static Result<WindTracker> create(const SoundFormat& format, std::span<const double> frame_seconds,
                                     const WindOptions& options = {});
 
@@ -50,7 +50,7 @@ class WindTracker {
   void feed(std::span<const float> samples);
   void feed(std::span<const std::int16_t> samples);
 
-  /// The wind of all that was fed. Errors: the sound is shorter than one frame.
+  /// Returns the wind of all sound fed so far. Errors: the sound is shorter than one frame.
   Result<WindTrack> finish() const;
 
  private:
@@ -59,7 +59,7 @@ class WindTracker {
   std::unique_ptr<State> state_;
 };
 
-/// The wind of sound that is all there. Errors: as WindTracker.
+/// Returns the wind of sound that is all in memory. Errors: those of WindTracker.
 Result<WindTrack> wind_from_sound(std::span<const float> interleaved, const SoundFormat& format,
                                   const WindOptions& options = {});
 

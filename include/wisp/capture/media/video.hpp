@@ -1,8 +1,8 @@
 #pragma once
-// Frames of a video file, or of a folder of numbered images, one after the other.
+// Reader of the frames of a video file, or of a folder of numbered images, in order.
 //
-// Frames are handed out as the decoder leaves them, its own planes borrowed, and each has its place on a grid of one
-// fixed rate: where a clip lost frames, places stay empty.
+// Frames are the decoder's own planes, borrowed, and each has a place on a grid of one fixed rate: places of lost
+// frames stay empty.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,26 +17,26 @@
 
 namespace wisp {
 
-/// How a clip is read.
+/// Options of reading a clip.
 struct VideoOptions {
-  double rate_hz = 0;  ///< frames a second; needed for a folder of images, overrides a file's own; 0: none
-  std::optional<FrameRange> frames;  ///< nothing: all
-  int turn = 0;     ///< quarters by which pictures are turned clockwise, beyond what the file asks for, 0 to 3
-  int threads = 1;  ///< decoding threads, 1 to 64; more are faster by the clock, not by the processor
+  double rate_hz = 0;  ///< frames per second; needed for a folder of images, overrides a file's own; 0: none
+  std::optional<FrameRange> frames;  ///< none: all
+  int turn = 0;                      ///< additional clockwise rotation beyond the file's own, in quarter turns, 0 to 3
+  int threads = 1;                   ///< decoding threads, 1 to 64; more shorten wall-clock time, not processor time
 };
 
-/// What a clip says of itself.
+/// Properties of a clip.
 struct VideoInfo {
   int width = 0;  ///< square pixels, as shown (after rotation)
   int height = 0;
   double rate_hz = 0;       ///< frames a second
-  std::int64_t frames = 0;  ///< as stated, or as guessed from its duration; 0 where unknown
+  std::int64_t frames = 0;  ///< as stated, or as estimated from its duration; 0: unknown
   bool images = false;      ///< a folder of images
-  bool has_sound = false;   ///< a sound track is there (it may be silent)
-  double begin = 0;         ///< of the first frame that was read, seconds after the first of the track
+  bool has_sound = false;   ///< the clip has a sound track (it may be silent)
+  double begin = 0;         ///< time of the first frame read, seconds after the track's first
 };
 
-/// One decoded frame; its picture is good until the next call of the reader.
+/// One decoded frame; its picture is valid until the reader's next call.
 struct VideoFrame {
   Picture picture;
   std::int64_t index = 0;  ///< 0-based place on the grid of the clip's rate
@@ -49,7 +49,7 @@ struct RgbImage {
   std::vector<std::uint8_t> pixels;
 };
 
-/// Whether a file is read as one of the images where its folder is a clip: by its ending, and a number in its name.
+/// Returns whether a file counts as an image of a clip folder: by its extension, and a number in its name.
 bool is_numbered_image(const std::filesystem::path& path);
 
 /// Reads a clip in bounded memory.
@@ -66,25 +66,24 @@ class VideoReader {
 
   const VideoInfo& info() const;
 
-  /// The next frame, or nothing at the end.
-  /// Errors: an image that cannot be decoded or has another size than the first (both named). A broken frame inside a
-  /// video is left out, and told of in warnings().
+  /// Returns the next frame, or nothing at the end.
+  /// Errors: an image that cannot be decoded or whose size differs from the first one's (both named). A broken frame
+  /// inside a video is skipped and reported by warnings().
   Result<std::optional<VideoFrame>> next();
 
-  /// Up to `count` pictures spread over the clip's whole length, cheap to come by (a video's key frames); what next()
-  /// gives is not changed. None of a folder of
-  /// images, fewer or none where the file cannot be searched.
+  /// Returns up to `count` pictures spread over the clip's whole length that are cheap to decode (a video's key
+  /// frames), without affecting next(). None for a folder of images; fewer or none where the file is not seekable.
   std::vector<OwnedPicture> glimpses(int count);
 
-  /// The frame that next() gave last, as RGB.
+  /// Returns the frame last returned by next(), as RGB.
   ///
-  /// Precondition: next() has given a frame.
+  /// Precondition: next() has returned a frame.
   RgbImage rgb();
 
-  /// When frames came that were not in their places, from the clip's first frame on; good until the next call.
+  /// Returns the timing of unevenly spaced frames, from the clip's first frame on; valid until the next call.
   ClipTimes times() const;
 
-  /// What was found wrong and got over, one sentence each; complete after the last frame.
+  /// Returns defects that were found and worked around, one sentence each; complete after the last frame.
   std::vector<std::string> warnings() const;
 
  private:

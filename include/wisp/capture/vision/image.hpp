@@ -1,8 +1,8 @@
 #pragma once
-// Pictures as the vision stage sees them: borrowed 8-bit planes, nothing more.
+// 8-bit image planes, borrowed, as input of the vision stage.
 //
-// Coordinates are in pixels from the top left, y down, and a pixel's centre is at whole numbers: the first pixel covers
-// [−0.5, 0.5] in both directions (as OpenCV counts; a drawing library that puts corners at whole numbers adds 0.5).
+// Coordinates are in pixels from the top left, y down, with pixel centres at whole numbers: the first pixel covers
+// [−0.5, 0.5] in both directions (OpenCV's convention; a drawing library with corners at whole numbers adds 0.5).
 
 #include <array>
 #include <cstddef>
@@ -34,38 +34,38 @@ struct Region {
   int right() const { return x + width; }
   int bottom() const { return y + height; }
   bool empty() const { return width <= 0 || height <= 0; }
-  /// Pixels.
+  /// Returns the area in pixels.
   double area() const { return empty() ? 0 : static_cast<double>(width) * height; }
   friend bool operator==(const Region&, const Region&) = default;
 };
 
-/// What two rectangles share; empty where they share nothing.
+/// Returns the overlap of two rectangles; empty if they do not overlap.
 Region intersection(const Region& a, const Region& b);
 
-/// The smallest rectangle around both; an empty one adds nothing.
+/// Returns the smallest rectangle that contains both; an empty one adds nothing.
 Region enclosing(const Region& a, const Region& b);
 
-/// The rectangle grown by `margin` pixels on every side.
+/// Returns the rectangle enlarged by `margin` pixels on every side.
 Region grown(const Region& region, int margin);
 
-/// The part of an image inside `region`, without copying.
+/// Returns a view of an image's part inside `region`, without copying.
 ///
 /// Precondition: region lies inside the image.
 ImageView crop(const ImageView& image, const Region& region);
 
-/// Which brightness of a picture is looked at.
+/// Channel of a picture whose brightness is analysed.
 enum class PixelChannel { kLuma, kRed, kGreen, kBlue };
 
-/// "luma", "red", "green", "blue".
+/// Returns "luma", "red", "green" or "blue".
 std::string_view channel_name(PixelChannel channel);
 
-/// The channel of that name, or nothing.
+/// Returns the channel of that name, or nothing.
 std::optional<PixelChannel> channel_from_name(std::string_view name);
 
 /// The side of a picture on which an outline is open and clamped.
 enum class BaseSide { kBottom, kLeft, kTop, kRight };
 
-/// Pixels of each brightness.
+/// Number of pixels at each brightness level.
 using Histogram = std::array<std::uint64_t, 256>;
 
 }  // namespace wisp

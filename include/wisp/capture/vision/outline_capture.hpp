@@ -1,8 +1,8 @@
 #pragma once
-// From frames to a recording of an outline, one frame at a time and in bounded memory.
+// Captures an outline as a recording, one frame at a time and in bounded memory.
 //
-// The first frames are held back until channel, level, place and knots are decided; from then on a frame is looked at
-// once, in the neighbourhood of the thing, and let go.
+// The first frames are buffered until channel, level, position and knots are chosen; from then on each frame is
+// processed at once, in the neighbourhood of the object, and released.
 
 #include <array>
 #include <cstdint>
@@ -18,98 +18,98 @@
 
 namespace wisp {
 
-/// How an outline is captured.
+/// Options of capturing an outline.
 struct OutlineCaptureOptions {
   int points = 8;                       ///< control points, 4 to 64; 8 as in the paper
-  std::optional<PixelChannel> channel;  ///< nothing: the one that separates best
-  bool dark = false;                    ///< the thing is dark on a light ground
-  int flame = 1;                        ///< which of several flames, 1 the largest; 0: what moves, flame or not
-  Region region;                        ///< where to look, pixels; empty: the whole picture
-  std::optional<BaseSide> base;         ///< where the outline is open; nothing: the side that cuts it off, else below
-  bool place_knots = true;              ///< put knots where the outline bends, if that fits better than uniform ones
-  std::vector<double> knots;      ///< full knot vector to use, of a model or an earlier capture; empty: chosen here
-  std::optional<bool> underside;  ///< whether the underside is followed, as in that capture; nothing: where it pays
-  double rate_hz = 0;             ///< frames a second, > 0
-  std::string source;             ///< where the frames come from, for messages and the recording
-  std::size_t held_bytes = 48u << 20;  ///< frames held back for the first decisions, bytes; at least 8 frames are
-  int held_frames = 40;                ///< … and frames, 8 to 200
+  std::optional<PixelChannel> channel;  ///< colour channel to segment by; none: the one that separates best
+  bool dark = false;                    ///< the object is dark on a light background
+  int flame = 1;                        ///< size rank of the flame to capture, 1 the largest; 0: any moving object
+  Region region;                        ///< search region, pixels; empty: the whole picture
+  std::optional<BaseSide> base;         ///< side where the outline is open; none: the side that cuts it off, else
+                                        ///< bottom
+  bool place_knots = true;              ///< place knots where the outline bends, if that fits better than uniform knots
+  std::vector<double> knots;            ///< full knot vector to use, of a model or an earlier capture; empty: estimated
+  std::optional<bool> underside;        ///< include the underside, as in that capture; none: where it fits better
+  double rate_hz = 0;                   ///< frames a second, > 0
+  std::string source;                   ///< name of the frames' source, for messages and the recording
+  std::size_t held_bytes = 48u << 20;   ///< bytes of frames buffered for the first decisions; at least 8 frames are
+  int held_frames = 40;                 ///< number of frames buffered for them, 8 to 200
 };
 
-/// Why a frame has no outline.
+/// A frame without an outline, and the reason.
 struct DroppedFrame {
   std::size_t frame = 0;  ///< 0-based row of the recording
   std::string reason;     ///< "fade", "nothing there", "elsewhere", "duplicate", "lost"
 };
 
-/// What a film is like, whatever is in it.
+/// Properties of a film that do not depend on its subject.
 struct FilmFacts {
   std::size_t pictures = 0;
   double brightest = 255;         ///< the brightest point of all pictures, of 255 levels
-  double flat = 0;                ///< share of a picture that is as bright as a camera shows anything, median
-  double camera = 0;              ///< how far the whole picture moves from frame to frame, share of its size, mean
-  std::vector<std::size_t> cuts;  ///< pictures, 0-based and in order, that begin another scene
+  double flat = 0;                ///< share of a picture that is saturated, median
+  double camera = 0;              ///< displacement of the whole picture per frame, share of its size, mean
+  std::vector<std::size_t> cuts;  ///< indices of the pictures that begin another scene, 0-based, ascending
 };
 
-/// What tells an outline of a flame from one of something else. Shares are of the rows with an outline.
+/// Features that distinguish the outline of a flame from that of another object. Shares are of rows with an outline.
 struct OutlineFacts {
-  std::size_t rows = 0;            ///< from the first outline until the flame is out for good
-  std::size_t absent = 0;          ///< of them, without an outline, although their frame does not repeat the one before
-  std::size_t blown = 0;           ///< of those, because the flame was blown out and lit again: see excuse_absence()
-  std::size_t seen_from = 0;       ///< the first row with an outline
-  std::size_t still = 0;           ///< rows before it in which the thing stood there and did not move
-  std::size_t other_before = 0;    ///< rows before it, where most of them show another bright thing elsewhere
-  std::size_t other_after = 0;     ///< … and rows after the last outline
-  bool fades_out = false;          ///< the thing dims before the last outline, as where a film fades to black
-  double lost = 0;                 ///< share of the clip's rows that have no frame, filled or not
-  double repeated = 0;             ///< … and whose frame repeats the one before
-  double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
-  std::array<double, 4> border{};  ///< share that reach the picture's left, upper, right and lower border
-  double movement = 0;             ///< how far the shape moves on its base: root mean square over the median height
-  double edge_noise = 0;           ///< what the film's stillest edges move by at random, pixels
-  double wander = 0;               ///< how far the base moves over how far the shape moves on it
-  double steadiness = 0;           ///< how much less its base moves than its tip, of the survey: 1 only the tip moves
-  int stands = 1;                  ///< how many times every frame stands in the clip
-  double misfit = 0;               ///< distance of edge points from the curve over the median height, mean
-  double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
-  double lean = 0;                 ///< from upright, degrees, median: 90 lies on its side
-  double width = 0;                ///< across its axis, over its height, median
-  double light = 0;                ///< luma over the brightest there is
-  double contrast = 255;           ///< its brightness less that of what is around it, levels of 255
-  double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
-  double height = 0;               ///< median, pixels
+  std::size_t rows = 0;            ///< number of rows from the first outline until the flame stays extinguished
+  std::size_t absent = 0;          ///< number of those without an outline whose frame is not a repeated one
+  std::size_t blown = 0;           ///< number of those for which the flame was blown out: see excuse_absence()
+  std::size_t seen_from = 0;       ///< index of the first row with an outline
+  std::size_t still = 0;           ///< number of earlier rows that show the object motionless
+  std::size_t other_before = 0;    ///< number of earlier rows, if most of them show another bright object elsewhere
+  std::size_t other_after = 0;     ///< number of rows after the last outline, on the same condition
+  bool fades_out = false;          ///< the object dims before the last outline, as in a fade to black
+  double lost = 0;                 ///< share of the clip's rows without a frame, filled or not
+  double repeated = 0;             ///< share of the clip's rows whose frame repeats the previous one
+  double jumps = 0;                ///< share of steps in which base or height change more than a flame's can
+  std::array<double, 4> border{};  ///< share of rows that reach the picture's left, upper, right and lower border
+  double movement = 0;             ///< root-mean-square motion of the shape relative to its base, over median height
+  double edge_noise = 0;           ///< random displacement of the film's stillest edges, pixels
+  double wander = 0;               ///< motion of the base over motion of the shape relative to it
+  double steadiness = 0;           ///< how much less its base moves than its tip, in the survey: 1: only the tip moves
+  int stands = 1;                  ///< number of times that every frame is repeated in the clip
+  double misfit = 0;               ///< mean distance of edge points from the curve, over median height
+  double taper = 0;                ///< median reduction of the width from the middle to near the tip
+  double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
+  double width = 0;                ///< median width across the axis, over height
+  double light = 0;                ///< luma over the largest possible one
+  double contrast = 255;           ///< brightness of the object minus that of its surroundings, levels of 255
+  double clipped = 0;              ///< share of the object that is saturated in every channel
+  double height = 0;               ///< median height, pixels
   FilmFacts film;
 };
 
-/// What happened, in figures.
+/// Figures and verdict of a capture.
 struct CaptureReport {
   std::size_t frames = 0;             ///< rows, lost frames included
-  std::size_t tracked = 0;            ///< rows with an outline of their own
-  std::size_t duplicates = 0;         ///< frames that repeat the one before
-  std::size_t filled = 0;             ///< rows filled between their neighbours
+  std::size_t tracked = 0;            ///< number of rows with an outline of their own
+  std::size_t duplicates = 0;         ///< number of frames that repeat the previous one
+  std::size_t filled = 0;             ///< number of rows interpolated between their neighbours
   std::vector<DroppedFrame> dropped;  ///< rows without an outline
   double rate_hz = 0;
   int points = 0;
-  double threshold = 0;  ///< brightness of the level, 0 black to 255 white
+  double threshold = 0;  ///< segmentation threshold, brightness from 0 black to 255 white
   PixelChannel channel = PixelChannel::kLuma;
-  Histogram histogram{};  ///< of brightness, 0 black to 255 white
-  int width = 0;          ///< of the picture, pixels
+  Histogram histogram{};  ///< histogram of brightness, 0 black to 255 white
+  int width = 0;          ///< picture width, pixels
   int height = 0;
   double residual = 0;                ///< mean root-mean-square distance of edge points from the curve, pixels
-  bool knots_placed = false;          ///< knots are not uniform
+  bool knots_placed = false;          ///< the knots are not uniform
   std::vector<double> knots;          ///< the full knot vector
-  bool underside = false;             ///< the underside is followed (attribute `underside`)
-  int flames = 0;                     ///< how many there are; 0 where no flame was looked for
-  std::optional<std::size_t> out_at;  ///< row from which on the flame is out for good
-  OutlineFacts facts;                 ///< what the verdict rests on
-  double likely_flame = 1;            ///< how likely a person would call the thing a flame, 0 to 1
-  double likely_right = 0;            ///< … and its outline right and fit to be learned from
+  bool underside = false;             ///< the outline includes the underside (attribute `underside`)
+  int flames = 0;                     ///< number of flames; 0 if the object is no flame
+  std::optional<std::size_t> out_at;  ///< row from which on the flame stays extinguished
+  OutlineFacts facts;                 ///< features from which the verdict is derived
+  double likely_flame = 1;            ///< probability that a person would call the object a flame
+  double likely_right = 0;            ///< probability that its outline is correct and fit for learning
   bool usable = false;                ///< whether the outline can be learned from
-  std::string reason;                 ///< why, or why not and what to film instead: one sentence
-  std::vector<std::string> warnings;  ///< what the maker should know, one sentence each
+  std::string reason;                 ///< reason of the verdict, and if unusable what to film instead: one sentence
+  std::vector<std::string> warnings;  ///< warnings for the author of the film, one sentence each
 };
 
-/// One of the facts that the verdict weighs, and what it takes from the log odds of a flame and of a right outline: 0
-/// where it could not be better.
+/// One feature of the verdict, and its reduction of the log odds of a flame and of a correct outline: 0 at its best.
 struct WeighedFact {
   std::string name;
   double value = 0;
@@ -117,29 +117,29 @@ struct WeighedFact {
   double against_right = 0;
 };
 
-/// The facts of a capture; those of a flame are left out where none was looked for.
+/// Returns the features of a capture; those of a flame only where a flame was captured.
 std::vector<WeighedFact> weighed_facts(const CaptureReport& report);
 
-/// Judges anew where it is known why `rows` of the rows have no outline: the flame had been blown out, `times` times,
-/// and was lit again. A picture alone cannot tell that from a flame that was not found.
+/// Recomputes the verdict given that `rows` rows have no outline because the flame had been extinguished, `times`
+/// times, and was relit. A picture alone cannot distinguish that from a flame that was not found.
 void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times);
 
-/// A recording of an outline and how it came about.
+/// A recording of an outline and the report on its capture.
 struct CapturedOutline {
   Recording recording;
   CaptureReport report;
 };
 
-/// What is seen of the thing while it is captured, for whoever watches.
+/// Observations of the object during capture, for live display.
 struct OutlineSeen {
-  std::size_t frames = 0;  ///< rows so far, lost frames included
-  bool decided = false;    ///< channel, level and place are; until then frames are held back, and all below is empty
-  std::vector<double> polyline;  ///< x and y of 64 points of the outline in the last frame, pixels; empty: not there
-  Region found;                  ///< its box in the last frame that it was found in, pixels
+  std::size_t frames = 0;        ///< number of rows so far, lost frames included
+  bool decided = false;          ///< channel, level and position are chosen; until then all fields below are empty
+  std::vector<double> polyline;  ///< x and y of 64 outline points in the last frame, pixels; empty: no outline
+  Region found;                  ///< bounding box in the last frame with an outline, pixels
   PixelChannel channel = PixelChannel::kLuma;
-  double threshold = 0;  ///< brightness of the level, 0 black to 255 white
-  double clipped = 0;    ///< share of the thing that is as bright in every channel as it gets
-  int flames = 0;        ///< how many there are; 0 where no flame was looked for
+  double threshold = 0;  ///< segmentation threshold, brightness from 0 black to 255 white
+  double clipped = 0;    ///< share of the object that is saturated in every channel
+  int flames = 0;        ///< number of flames; 0 if the object is no flame
 };
 
 /// Captures an outline from frames that are fed in their order.
@@ -151,29 +151,29 @@ class OutlineCapture {
   OutlineCapture& operator=(OutlineCapture&&) noexcept;
   ~OutlineCapture();
 
-  /// Shows a picture from anywhere in the clip, before the first frames are over: what holds for the whole clip is
-  /// decided better when more of it has been seen. It is copied.
+  /// Adds a picture from anywhere in the clip, before the first frames are over: a larger sample of the clip improves
+  /// decisions that hold for all of it. It is copied.
   ///
   /// Precondition: the picture has the size and layout of the frames.
   void glimpse(const Picture& picture);
 
-  /// Takes in the next frame; it is borrowed for the call.
-  /// Errors: a frame of another size than the first, a region outside the picture, a channel that the picture has not,
-  /// nothing that stands out in the first frames.
+  /// Takes the next frame; it is borrowed for the call.
+  /// Errors: a frame whose size differs from the first one's, a region outside the picture, a channel that the picture
+  /// lacks, no object that stands out in the first frames.
   Result<void> feed(const Picture& picture);
 
-  /// Notes that the clip lost `count` frames here.
+  /// Records that the clip lost `count` frames here.
   void lost(int count = 1);
 
-  /// What the film is like so far.
+  /// Returns the film's properties so far.
   FilmFacts film() const;
 
-  /// What the frames so far have shown.
+  /// Returns the observations from the frames so far.
   OutlineSeen seen() const;
 
   /// Ends the clip. Returns the recording: outputs p0.x, p0.y, … and motion base.x, base.y in pixels, flag `filled`,
-  /// one row a frame, missing rows empty.
-  /// Errors: fewer than 10 frames with an outline, and why.
+  /// one row per frame, missing rows empty.
+  /// Errors: fewer than 10 frames with an outline, with the reason.
   Result<CapturedOutline> finish();
 
  private:

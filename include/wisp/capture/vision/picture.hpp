@@ -1,8 +1,8 @@
 #pragma once
-// One frame of a video as the planes that it already has, and any channel of it over a region.
+// One video frame as borrowed planes, and extraction of any channel of it over a region.
 //
-// A decoder hands out luma and two planes of colour difference; a picture file or a browser hands out packed RGB. Both
-// are borrowed as they are, so that what is never looked at is never converted.
+// A decoder delivers luma and two planes of colour difference; a picture file or a browser delivers packed RGB. Both
+// are borrowed unchanged, so that pixels that are never used are never converted.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace wisp {
 
-/// How the planes make colour.
+/// Colour model of the planes.
 enum class PictureLayout {
   kGrey,  ///< one plane: brightness
   kYuv,   ///< luma, blue difference, red difference; the latter two perhaps at lower resolution
@@ -33,45 +33,45 @@ struct Picture {
   int width = 0;
   int height = 0;
   std::array<PicturePlane, 3> planes;
-  int chroma_shift_x = 0;  ///< kYuv: colour planes are 2^shift times narrower
-  int chroma_shift_y = 0;  ///< kYuv: … and lower
-  bool full_range = true;  ///< kYuv and kGrey: black is 0 and white 255; else 16 and 235, as video has it
+  int chroma_shift_x = 0;  ///< kYuv: log2 of the horizontal subsampling of the colour planes
+  int chroma_shift_y = 0;  ///< kYuv: log2 of their vertical subsampling
+  bool full_range = true;  ///< kYuv and kGrey: black is 0 and white 255; else 16 and 235, as in video
   bool bt709 = false;      ///< kYuv: colour matrix ITU-R BT.709; else BT.601
 
   Region frame() const { return {0, 0, width, height}; }
 };
 
-/// A grey picture over one plane.
+/// Returns a grey picture over one plane.
 Picture grey_picture(const ImageView& image);
 
-/// A picture over packed RGB (`step` 3) or RGBA (`step` 4).
+/// Returns a picture over packed RGB (`step` 3) or RGBA (`step` 4).
 Picture rgb_picture(const ImageView& first_channel, int step);
 
-/// Whether `channel` exists in the picture: a grey one has luma only.
+/// Returns whether `channel` exists in the picture: a grey one has luma only.
 bool has_channel(const Picture& picture, PixelChannel channel);
 
-/// The channel as a plane of the picture itself, without copying; `pixels` is null where it must be computed.
+/// Returns the channel as a plane of the picture itself, without copying; `pixels` is null where it must be computed.
 ImageView plane_in_place(const Picture& picture, PixelChannel channel);
 
-/// Computes `channel` over `region` into `out`, row by row, `region.width` bytes a row, as it is stored: luma of a
-/// picture that is not full range keeps its range, red, green and blue are 0 to 255.
+/// Computes `channel` over `region` into `out`, row by row, `region.width` bytes per row, in the stored range: limited
+/// for luma of a picture without full range, 0 to 255 for red, green and blue.
 ///
 /// Precondition: has_channel(picture, channel).
 /// Precondition: region lies inside the picture and `out` holds region.width × region.height bytes.
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out);
 
-/// The same for every `step`-th pixel of every `step`-th row, beginning with the region's first.
+/// Like extract_channel(), for every `step`-th pixel of every `step`-th row, beginning with the region's first.
 ///
-/// Precondition: as extract_channel(), and step >= 1; `out` holds the number of pixels taken.
+/// Precondition: those of extract_channel(), and step >= 1; `out` holds the number of pixels taken.
 void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out);
 
-/// A stored value of `channel` as brightness from 0 (black) to 255 (white).
+/// Converts a stored value of `channel` to brightness from 0 (black) to 255 (white).
 double brightness(const Picture& picture, PixelChannel channel, double stored);
 
 /// A picture that owns its planes.
 class OwnedPicture {
  public:
-  /// Copies a picture, packed planes becoming planar.
+  /// Copies a picture; packed planes become planar.
   explicit OwnedPicture(const Picture& picture);
   OwnedPicture(OwnedPicture&&) noexcept = default;
   OwnedPicture& operator=(OwnedPicture&&) noexcept = default;
