@@ -338,7 +338,7 @@ WISP_API wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_
 WISP_API wisp_status wisp_bank_rings(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
 /* Compute the surface of `rings` rings: rings * segments vertices, position and normal, `stride` numbers apart,
- * segments from 3 to 256; and 2 * rings * segments - 4 triangles of three indices, anticlockwise from outside. */
+ * segments from 3 to 256; and 2 * rings * segments - 4 triangles of three constant indices, anticlockwise from outside. */
 WISP_API wisp_status wisp_ring_mesh(const float* rings, uint32_t count, uint32_t segments, float* numbers, size_t room,
                                     size_t stride);
 WISP_API wisp_status wisp_ring_triangles(uint32_t rings, uint32_t segments, uint32_t* indices, size_t count);
