@@ -103,10 +103,8 @@ void limit_baseline(benchmark::State& state) { multiply_add<16>(state); }
 BENCHMARK(limit_baseline);
 #ifdef __x86_64__
 __attribute__((target("avx2"))) void limit_avx2(benchmark::State& state) { multiply_add<32>(state); }
-__attribute__((target("avx512f"))) void limit_avx512(benchmark::State& state) { multiply_add<64>(state); }
 const int limits = [] {
   if (__builtin_cpu_supports("avx2")) benchmark::RegisterBenchmark("limit_avx2", limit_avx2);
-  if (__builtin_cpu_supports("avx512f")) benchmark::RegisterBenchmark("limit_avx512", limit_avx512);
   return 0;
 }();
 #endif

@@ -128,7 +128,6 @@ ArxProgram lay_out(const Regression& regression, const ResampledProgram& resampl
   program.shock = arena.take<std::uint32_t>(program.shocks);
   program.shock_end = arena.take<std::uint32_t>(ny);
   program.shock_size = arena.take<float>(program.shocks * modes);
-  if (kFewApart) program.side_by_side = make_output_program(regression, arena);
   if (!arena.measures()) fill_rows(regression, program);
   return program;
 }

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "run/arx/output_program.hpp"
 #include "run/arx/resampled_program.hpp"
 #include "run/state/arena.hpp"
 #include "run/state/channels.hpp"
@@ -40,7 +39,6 @@ struct ArxProgram {
   std::span<std::uint32_t> shock_end;  ///< per output, one past its last
   std::span<float> shock_size;         ///< shocks × modes
   ResampledProgram resampled;          ///< residuals to play instead; empty: Gaussian shocks
-  OutputProgram side_by_side;          ///< for few instances
 };
 
 /// A number of every mode that one sample is multiplied with, in channel units.

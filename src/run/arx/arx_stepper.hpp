@@ -11,7 +11,6 @@
 
 #include "run/arx/arx_program.hpp"
 #include "run/arx/mode_lanes.hpp"
-#include "run/arx/output_lanes.hpp"
 #include "run/arx/resampled_lanes.hpp"
 #include "run/arx/time_lanes.hpp"
 #include "run/lanes/blocks.hpp"
@@ -55,7 +54,6 @@ class ArxStepper : public ChannelHistory<N> {
       shock_size_[k] = scale * program_.shock_size[k];
       if (shock_size_[k] != 0) shaken_[program_.shock[k / modes_.count()]] = 1;
     }
-    few_.set_shocks(shock_size_);
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
@@ -63,7 +61,6 @@ class ArxStepper : public ChannelHistory<N> {
   void turn(int samples = 1) {
     ChannelHistory<N>::turn(samples);
     resampled_.turn(samples);
-    few_.turn(samples);
   }
 
   /// Blocks that step_group() steps at once.
@@ -74,11 +71,30 @@ class ArxStepper : public ChannelHistory<N> {
   /// is read once for all, and sums that do not wait for each other keep the machine busy.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
-    if constexpr (kBlocks == 1 && kGroup > 1 && OutputLanes<N>::kMost > 0) {
-      if (block == 0 && few_.takes(moment.lanes())) return step_few(moment);
+    std::uint64_t quiet = ~std::uint64_t{0};
+    for (int b = 0; b < kBlocks; ++b) {
+      quiet &= count_quiet(block + b);
+      if (!resampled_.empty()) resampled_.hear(block + b, this->regressors(block + b));
     }
-    if (block == 0) few_.fall_behind();
-    step_blocks<kBlocks>(block, moment);
+    const Step<kBlocks> step{program_.coefficients.data(),
+                             modes_.count(),
+                             ring_.back(),
+                             ring_.begin(block),
+                             ring_.sample(block, 0),
+                             ring_.stride(),
+                             modes_.choose(block, moment),
+                             quiet,
+                             moment.clamped};
+    if (noisy_) make_shocks(block, step, moment);
+    std::fill_n(moment.clamped, kBlocks * kLanes, 0U);
+    for (int i = 0; i < program_.outputs;) {
+      if (kTwins<kBlocks> && program_.twin[i] != 0) {
+        make_rows<2>(i, step);
+        i += 2;
+      } else {
+        make_rows<1>(i++, step);
+      }
+    }
   }
 
   /// Whether step_alone() makes the steps of a bank's only instance. It knows nothing of modes: not where kGroup is 1.
@@ -115,7 +131,6 @@ class ArxStepper : public ChannelHistory<N> {
     modes_.start(block, lane);
     if (!resampled_.empty()) resampled_.start(block, lane);
     this->start_history(block, lane);
-    if (block == 0) few_.fall_behind();
   }
 
   /// Whether ranges of blocks can be stepped at once.
@@ -142,7 +157,6 @@ class ArxStepper : public ChannelHistory<N> {
     const auto [low, high] = resampled_bounds();
     resampled_.visit_lane(block, lane, low, high, visit);
     this->visit_history(block, lane, visit);
-    if (block == 0) few_.fall_behind();
   }
 
   /// Goes into the hash that tells models apart.
@@ -157,7 +171,6 @@ class ArxStepper : public ChannelHistory<N> {
         program_(program),
         modes_(modes),
         resampled_(program.resampled, blocks, arena),
-        few_(program.side_by_side, channels, program.depth, program.shock_channels, arena),
         alone_(program, arena),
         shared_(arena.take<Real>(static_cast<std::size_t>(blocks) * shared_row())),
         shaken_(arena.take<std::uint8_t>(program.shock_channels)),
@@ -184,45 +197,6 @@ class ArxStepper : public ChannelHistory<N> {
 
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
-
-  template <int kBlocks>
-  void step_blocks(int block, const Moment<N>& moment) {
-    std::uint64_t quiet = ~std::uint64_t{0};
-    for (int b = 0; b < kBlocks; ++b) {
-      quiet &= count_quiet(block + b);
-      if (!resampled_.empty()) resampled_.hear(block + b, this->regressors(block + b));
-    }
-    const Step<kBlocks> step{program_.coefficients.data(),
-                             modes_.count(),
-                             ring_.back(),
-                             ring_.begin(block),
-                             ring_.sample(block, 0),
-                             ring_.stride(),
-                             modes_.choose(block, moment),
-                             quiet,
-                             moment.clamped};
-    if (noisy_) make_shocks(block, step, moment);
-    std::fill_n(moment.clamped, kBlocks * kLanes, 0U);
-    for (int i = 0; i < program_.outputs;) {
-      if (kTwins<kBlocks> && program_.twin[i] != 0) {
-        make_rows<2>(i, step);
-        i += 2;
-      } else {
-        make_rows<1>(i++, step);
-      }
-    }
-  }
-
-  // As step_blocks(), for the only block of a bank in which few instances live.
-  void step_few(const Moment<N>& moment) {
-    std::fill_n(quiet_.begin(), program_.regressors, 0);  // nobody counts
-    std::fill_n(moment.clamped, kLanes, 0U);
-    if (!resampled_.empty()) {
-      resampled_.hear(0, this->regressors(0));
-      if (noisy_) resampled_.step(0, moment);
-    }
-    few_.step(ring_, moment, noisy_, resampled_);
-  }
 
   // Two rows at once where registers hold their sums and as much again.
   template <int kBlocks>
@@ -305,24 +279,18 @@ class ArxStepper : public ChannelHistory<N> {
   // Puts what the sums of the blocks' outputs start from where their newest samples will be.
   template <int kBlocks>
   void make_shocks(int block, const Step<kBlocks>& step, const Moment<N>& moment) {
-    constexpr int kAtOnce = PartsOfBlocks<N, kBlocks>::kBlocksAtOnce;
-    using Values = BlockReals<N, kAtOnce>;
     if (!resampled_.empty()) {
       for (int b = 0; b < kBlocks; ++b) play_drawn(block + b, step.choice, moment.later(b));
       return;
     }
     if (kGroup > 1 && own_shocks_) {
       draw<kBlocks>(moment, [&](int i, int b, const auto& normals) {
-        const auto size = step.choice.template pick<Values>(shock_size_.data() + i * modes_.count());
-        const BlockPlaces<Real, kAtOnce> places(step.newest + b * step.stride + i * kLanes, step.stride);
-        store_blocks<N>(constant<Values>(step.choice, i) + size * normals, places);
+        const auto size = step.choice.template pick<Reals<N>>(shock_size_.data() + i * modes_.count());
+        store(constant<Reals<N>>(step.choice, i) + size * normals, step.newest + b * step.stride + i * kLanes);
       });
       return;
     }
-    draw<kBlocks>(moment, [&](int channel, int b, const auto& normals) {
-      const std::size_t stride = channel < program_.outputs ? step.stride : shared_row();
-      store_blocks<N>(normals, BlockPlaces<Real, kAtOnce>(shock(block + b, channel), stride));
-    });
+    draw<kBlocks>(moment, [&](int channel, int b, const auto& normals) { store(normals, shock(block + b, channel)); });
     for (int b = 0; b < kBlocks; ++b) start_all(block + b, step.choice);
   }
 
@@ -347,19 +315,15 @@ class ArxStepper : public ChannelHistory<N> {
   static constexpr int kDrawnAtOnce = 32;
   template <int kBlocks, class Take>
   void draw(const Moment<N>& moment, Take take) const {
-    constexpr int kAtOnce = PartsOfBlocks<N, kBlocks>::kBlocksAtOnce;
-    using Bits = BlockWords<N, kAtOnce>;
-    using Word = typename N::Word;
-    Word words[kBlocks][kDrawnAtOnce / 2][kLanes];
+    typename N::Word words[kBlocks][kDrawnAtOnce / 2][kLanes];
     for (int first = 0; first < program_.shock_channels; first += kDrawnAtOnce) {
       const int last = std::min(first + kDrawnAtOnce, program_.shock_channels);
       for (int b = 0; b < kBlocks; ++b) draw_words(moment.later(b), first, last, words[b]);
       for (int channel = first; channel < last; channel += 2) {
         const bool second = channel + 1 < last && shaken_[channel + 1];
         if (!shaken_[channel] && !second) continue;
-        for (int b = 0; b < kBlocks; b += kAtOnce) {
-          const BlockPlaces<const Word, kAtOnce> places(words[b][(channel - first) / 2], kDrawnAtOnce / 2 * kLanes);
-          const auto pair = normal_lanes(load_blocks<N, Bits>(places));
+        for (int b = 0; b < kBlocks; ++b) {
+          const auto pair = normal_lanes(load<Words<N>>(words[b][(channel - first) / 2]));
           if (shaken_[channel]) take(channel, b, pair.first);
           if (second) take(channel + 1, b, pair.second);
         }
@@ -411,7 +375,6 @@ class ArxStepper : public ChannelHistory<N> {
   ArxProgram program_;
   Modes modes_;
   ResampledLanes<N> resampled_;
-  OutputLanes<N> few_;
   TimeLanes<N> alone_;
   std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers that outputs share
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it

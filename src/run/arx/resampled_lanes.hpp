@@ -108,7 +108,6 @@ class ResampledLanes {
     if (program_.across > 0) return turned_.data() + (block * kLanes + lane) * stride_;
     return program_.played(whole(state(block, kPlace)[lane]));
   }
-  float scale() const { return scale_; }
 
   std::size_t lane_values() const {
     const auto depth = static_cast<std::size_t>(past_.depth());

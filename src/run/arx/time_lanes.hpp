@@ -21,8 +21,8 @@ class TimeLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// A build whose size comes first has not got it, as it has no kernel for few instances.
-  static constexpr bool kThere = kFewApart;
+  /// A build whose size comes first has not got it.
+  static constexpr bool kThere = WISP_BLOCKS_AT_ONCE > 1;
   /// Steps that are made between two looks at what goes in and out.
   static constexpr int kAtOnce = 8 * kLanes;
 

@@ -8,7 +8,6 @@
 extern "C" WISP_INSIDE const wisp::FramePath wisp_frame_path;
 #ifdef WISP_WIDE_PATHS
 extern "C" WISP_INSIDE const wisp::FramePath wisp_frame_path_avx2;
-extern "C" WISP_INSIDE const wisp::FramePath wisp_frame_path_avx512;
 #endif
 
 namespace wisp {
@@ -16,14 +15,8 @@ namespace wisp {
 #ifdef WISP_WIDE_PATHS
 
 std::span<const FramePath* const> frame_paths() {
-  static constexpr std::array kPaths{&wisp_frame_path, &wisp_frame_path_avx2, &wisp_frame_path_avx512};
-  std::size_t count = 1;
-  if (__builtin_cpu_supports("avx2")) {
-    const bool longer = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-    count = longer ? 3 : 2;
-  }
-  return std::span(kPaths).first(count);
+  static constexpr std::array kPaths{&wisp_frame_path, &wisp_frame_path_avx2};
+  return std::span(kPaths).first(__builtin_cpu_supports("avx2") ? 2 : 1);
 }
 
 Result<const FramePath*> choose_frame_path() {

@@ -1,6 +1,6 @@
 #pragma once
-// Values of several consecutive blocks, which a kernel computes together: in vectors of two blocks where the machine
-// has such, else one block after the other. Either way every lane does what it does in a block alone.
+// Values of several consecutive blocks, which a kernel computes together. Every lane does what it does in a block
+// alone.
 
 #include <cstddef>
 
@@ -19,19 +19,8 @@ template <class N, int kBlocks>
 struct PartsOfBlocks {
   using RealPart = typename N::RealPart;
   using WordPart = typename N::WordPart;
-  static constexpr int kBlocksAtOnce = 1;  // blocks to which one part belongs
   static constexpr int kParts = kBlocks * N::kParts;
 };
-
-#ifdef WISP_LONG_PARTS
-template <int kBlocks>
-requires(kBlocks % 2 == 0) struct PartsOfBlocks<LiveNumbers, kBlocks> {
-  using RealPart = LongRealPart;
-  using WordPart = LongWordPart;
-  static constexpr int kBlocksAtOnce = 2;
-  static constexpr int kParts = kBlocks / 2;
-};
-#endif
 
 template <class N, int kBlocks>
 using BlockReals = Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, PartsOfBlocks<N, kBlocks>::kParts>;
@@ -51,23 +40,15 @@ struct BlockPlaces {
 /// Loads one part, one value a lane, from `after` values behind the address in each block.
 template <class N, class Part, class Value, int kBlocks>
 inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i, Part& out) {
-  if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
-    long_part(places.of[2 * i] + after, places.of[2 * i + 1] + after, out);
-  } else {
-    const Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
-    std::memcpy(static_cast<void*>(&out), static_cast<const void*>(first), sizeof out);
-  }
+  const Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
+  std::memcpy(static_cast<void*>(&out), static_cast<const void*>(first), sizeof out);
 }
 
 /// Stores one part there.
 template <class N, class Part, class Value, int kBlocks>
 inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
-  if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
-    store_long_part(part, places.of[2 * i] + after, places.of[2 * i + 1] + after);
-  } else {
-    Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
-    std::memcpy(static_cast<void*>(first), static_cast<const void*>(&part), sizeof part);
-  }
+  Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
+  std::memcpy(static_cast<void*>(first), static_cast<const void*>(&part), sizeof part);
 }
 
 /// Load and store all parts.

@@ -29,7 +29,7 @@ static_assert(FLT_EVAL_METHOD == 0, "float must be computed as float: the frame 
 
 namespace wisp {
 
-#if defined(WISP_LONG_WORDS) && !defined(__AVX512VL__)
+#ifdef WISP_LONG_WORDS
 inline constexpr int kVectorRegisters = 16;
 #else
 inline constexpr int kVectorRegisters = 32;
@@ -71,14 +71,6 @@ inline RealPart square_root_part(RealPart a) {
 inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x, without rounding
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value - WordPart{}; }
 inline void first_part(float value, RealPart& part) { part = RealPart{value}; }  // 0 in the other lanes
-inline void gather_part(const float* from, const std::uint32_t* place, RealPart& part) {
-#ifdef __AVX2__
-  part = RealPart{from[place[0]], from[place[1]], from[place[2]], from[place[3]],
-                  from[place[4]], from[place[5]], from[place[6]], from[place[7]]};
-#else
-  part = RealPart{from[place[0]], from[place[1]], from[place[2]], from[place[3]]};
-#endif
-}
 #else
 inline constexpr int kPartLanes = 1;
 using RealPart = float;
@@ -99,7 +91,6 @@ inline RealPart square_root_part(RealPart a) { return std::sqrt(a); }
 inline void spread_part(float value, RealPart& part) { part = value; }
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value; }
 inline void first_part(float value, RealPart& part) { part = value; }
-inline void gather_part(const float* from, const std::uint32_t* place, RealPart& part) { part = from[*place]; }
 #endif
 
 /// The high and low words of a product of two words.
@@ -129,21 +120,6 @@ inline std::uint32_t value_of(std::uint32_t a) { return a; }
 #ifdef WISP_LONG_WORDS
 // The words of a part, each in the lower half of 64 bits, as x86 multiplies them. The upper halves are ignored, so
 // successive products need no shuffles between them.
-#if defined(__AVX512F__) && defined(__AVX512VL__)
-struct LongWords {
-  __m512i all;
-};
-
-inline LongWords long_words(WordPart words) { return {_mm512_cvtepu32_epi64((__m256i)words)}; }
-inline WordPart words_of(LongWords a) { return (WordPart)_mm512_cvtepi64_epi32(a.all); }
-inline LongWords product(LongWords a, std::uint32_t b) {
-  return {_mm512_mul_epu32(a.all, _mm512_set1_epi64(static_cast<long long>(b)))};
-}
-inline LongWords high_half(LongWords a) { return {_mm512_srli_epi64(a.all, 32)}; }
-inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
-  return {_mm512_ternarylogic_epi64(a.all, b.all, _mm512_set1_epi32(static_cast<int>(key)), 0x96)};
-}
-#else
 using LongPart = std::uint64_t __attribute__((vector_size(4 * kPartLanes)));
 struct LongWords {
   LongPart even, odd;
@@ -173,44 +149,6 @@ inline LongWords product(LongWords a, std::uint32_t b) {
   return {(LongPart)_mm_mul_epu32((__m128i)a.even, factor), (LongPart)_mm_mul_epu32((__m128i)a.odd, factor)};
 }
 #endif
-#endif
-#endif
-
-#if defined(WISP_LONG_WORDS) && defined(__AVX512F__) && defined(__AVX512DQ__)
-#define WISP_LONG_PARTS 1
-// Parts of two blocks side by side (run/lanes/blocks.hpp), where the machine's vectors hold twice the lanes of a block.
-using LongRealPart = float __attribute__((vector_size(64)));
-using LongWordPart = std::uint32_t __attribute__((vector_size(64)));
-
-inline void long_part(const void* first, const void* second, LongWordPart& out) {
-  const __m512i low = _mm512_castsi256_si512(_mm256_loadu_si256(static_cast<const __m256i*>(first)));
-  out = (LongWordPart)_mm512_inserti32x8(low, _mm256_loadu_si256(static_cast<const __m256i*>(second)), 1);
-}
-inline void long_part(const void* first, const void* second, LongRealPart& out) {
-  LongWordPart bits;
-  long_part(first, second, bits);
-  out = (LongRealPart)bits;
-}
-template <class Part>
-inline void store_long_part(const Part& part, void* first, void* second) {
-  _mm256_storeu_si256(static_cast<__m256i*>(first), _mm512_castsi512_si256((__m512i)part));
-  _mm256_storeu_si256(static_cast<__m256i*>(second), _mm512_extracti32x8_epi32((__m512i)part, 1));
-}
-
-inline LongRealPart real_of_part(LongWordPart word) { return (LongRealPart)_mm512_cvtepi32_ps((__m512i)word); }
-inline LongWordPart bits_of_part(LongRealPart real) { return (LongWordPart)real; }
-inline LongRealPart real_of_bits_part(LongWordPart bits) { return (LongRealPart)bits; }
-template <int bits>
-inline LongWordPart signed_shift_part(LongWordPart word) {
-  return (LongWordPart)_mm512_srai_epi32((__m512i)word, bits);
-}
-inline LongRealPart square_root_part(LongRealPart a) { return (LongRealPart)_mm512_sqrt_ps((__m512)a); }
-inline LongWordPart differ_part(LongRealPart a, LongRealPart b) { return (LongWordPart)(a != b); }
-inline LongRealPart magnitude_part(LongRealPart a) { return (LongRealPart)((LongWordPart)a & 0x7fffffffU); }
-inline void spread_part(float value, LongRealPart& part) { part = (LongRealPart)_mm512_set1_ps(value); }
-inline void spread_part(std::uint32_t value, LongWordPart& part) {
-  part = (LongWordPart)_mm512_set1_epi32(static_cast<int>(value));
-}
 #endif
 
 /// The numbers of a live bank.
@@ -335,9 +273,7 @@ inline void store(const Packed& packed, Value* values) {
 /// Keeps a loaded value in a register, where the compiler would load it again for every use.
 template <class Part>
 inline void hold_in_register([[maybe_unused]] Part& part) {
-#if defined(WISP_LONG_PARTS)
-  if constexpr (sizeof(Part) >= 16) asm("" : "+v"(part));
-#elif defined(WISP_LONG_WORDS) && !defined(__wasm__)
+#if defined(WISP_LONG_WORDS) && !defined(__wasm__)
   if constexpr (sizeof(Part) >= 16) asm("" : "+x"(part));
 #endif
 }
@@ -395,9 +331,6 @@ inline bool any_part(const Part& set) {
   for (const std::uint32_t lane : lanes) any |= lane;
   return any != 0;
 }
-#if defined(WISP_LONG_PARTS)
-inline bool any_part(const LongWordPart& set) { return _mm512_test_epi32_mask((__m512i)set, (__m512i)set) != 0; }
-#endif
 #if defined(__AVX2__)
 inline bool any_part(const WordPart& set) { return _mm256_testz_si256((__m256i)set, (__m256i)set) == 0; }
 #elif defined(WISP_LONG_WORDS)
@@ -412,14 +345,6 @@ inline bool any(const Pack<Part, kParts>& words) {
   Part set = words.part[0];
   for (int i = 1; i < kParts; ++i) set = set | words.part[i];
   return any_part(set);
-}
-
-/// Gathers one number from each of several addresses.
-template <class N>
-inline Reals<N> gathered(const typename N::Real* from, const std::uint32_t* place) {
-  Reals<N> out;
-  unrolled<N::kParts>([&](auto i) { gather_part(from, place + i * N::kPartLanes, out.part[i]); });
-  return out;
 }
 
 template <class Part, int kParts>

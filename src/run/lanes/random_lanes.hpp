@@ -83,16 +83,6 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
   unrolled<4>([&](auto k) { words[k] = load<Words<N>>(counters[k]); });
 }
 
-/// The counters of one lane, in every lane, for group 0.
-template <class Packed>
-inline void random_counters_of(const LaneCounters& lanes, int lane, Packed (&words)[4]) {
-  const std::uint64_t age = lanes.step - lanes.born[lane], stream = lanes.stream[lane];
-  words[0] = all<Packed>(static_cast<std::uint32_t>(age));
-  words[1] = all<Packed>(static_cast<std::uint32_t>(age >> 32) << 16);
-  words[2] = all<Packed>(static_cast<std::uint32_t>(stream));
-  words[3] = all<Packed>(static_cast<std::uint32_t>(stream >> 32));
-}
-
 /// Number of channels whose deviates come from one group of words.
 inline constexpr int kGroupChannels = 8;
 
