@@ -1,4 +1,4 @@
-// Recordings of motion in another program's names, axes and units.
+// Recordings of motion in another program's names.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,18 +48,15 @@ class MotionFlags : public InFolder {
   }
 };
 
-TEST_F(MotionFlags, AnotherProgramsConventionsAreTakenOver) {
+TEST_F(MotionFlags, AnotherProgramsNamesAreTakenOver) {
   const auto plain = falls("plain.csv", "episode,y:pos.x[m],y:pos.y[m],y:pos.z[m],y:q.w,y:q.x,y:q.y,y:q.z",
                            [](const std::array<double, 7>& r) { return r; });
-  // Millimetres, y up, and quaternions in columns of other names and another order. Up is turned to y by a quarter turn
-  // back about x.
+  // Quaternions in columns of other names and another order.
   const auto other = falls("other.csv", "episode,X,Y,Z,qx,qy,qz,qw", [](const std::array<double, 7>& r) {
-    const double half = std::sqrt(0.5);
-    return std::array<double, 7>{1000 * r[0],          1000 * r[2],          -1000 * r[1],        half * (r[4] - r[3]),
-                                 half * (r[5] + r[6]), half * (r[6] - r[5]), half * (r[3] + r[4])};
+    return std::array<double, 7>{r[0], r[1], r[2], r[4], r[5], r[6], r[3]};
   });
   const auto a = learned(plain, "");
-  const auto b = learned(other, "--position X,Y,Z --orientation qw,qx,qy,qz --units mm --up y --rate 60");
+  const auto b = learned(other, "--position X,Y,Z --orientation qw,qx,qy,qz --rate 60");
   EXPECT_EQ(a["segments"], b["segments"]);
   EXPECT_NEAR(a["mean_segment_seconds"], b["mean_segment_seconds"], 1e-6);
   EXPECT_NEAR(a["fidelity"]["real"]["descent_speed"], b["fidelity"]["real"]["descent_speed"], 1e-6);

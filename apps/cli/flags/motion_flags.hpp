@@ -1,5 +1,5 @@
 #pragma once
-// How a recording of motion is to be understood whose names, axes or units are another program's.
+// How a recording of motion is to be understood whose names are another program's.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace wisp::cli {
 
-/// --up, --units, --position and --orientation.
+/// --position and --orientation.
 std::vector<Flag> motion_flags();
 
 /// The columns that --position and --orientation name; none where they are not given.
@@ -21,8 +21,8 @@ Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 /// others, nor does the rate, where one is given. A column of time is kept, so that uneven time is found.
 CsvOptions motion_table(const Arguments& arguments, double rate_hz = 0);
 
-/// The recording as learning expects it: pos.x, pos.y, pos.z in metres with z up, q.w, q.x, q.y, q.z. Where none of the
-/// flags is given it is as it was.
+/// The recording with the names that learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z. Where none of the flags is
+/// given it is as it was.
 /// Errors: a column that is not there.
 ///
 /// Precondition: motion_columns() has none.
