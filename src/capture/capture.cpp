@@ -28,7 +28,7 @@ Result<void> check_frames(const std::filesystem::path& path, const std::optional
                " reach beyond its end, frame " + std::to_string(last)};
 }
 
-// Of the rows that were captured.
+// Times of the captured rows.
 ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   ClipTimes times = reader.times();
   const auto skipped = static_cast<std::size_t>(options.frames ? options.frames->first - 1 : 0);
@@ -36,7 +36,7 @@ ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   return times;
 }
 
-// Hands a clip's sound on. Returns what it was, nothing where there was none.
+// Passes a clip's sound to `hear`. Returns the sound's facts; empty where there is none.
 template <class Hear>
 Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, Hear hear) {
   Result<void> heard;
@@ -48,10 +48,10 @@ Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, H
   return info;
 }
 
-// The camera's curve is undone as ITU-R BT.709-6, item 1.2, says that it was applied.
+// Inverts the camera's transfer function (ITU-R BT.709-6, item 1.2).
 double linear_light(double value) { return value < 0.081 ? value / 4.5 : std::pow((value + 0.099) / 1.099, 1 / 0.45); }
 
-// Mean light of a region, black 0 and white 1.
+// Mean linear light of a region: black 0, white 1.
 double light_of(const Picture& picture, const Region& region, std::vector<std::uint8_t>& pixels) {
   pixels.resize(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
   extract_channel(picture, PixelChannel::kLuma, region, pixels.data());
@@ -67,8 +67,8 @@ double light_of(const Picture& picture, const Region& region, std::vector<std::u
 
 struct Look {
   bool sound = true;
-  int turn = 0;               // quarters, clockwise
-  FilmFacts* film = nullptr;  // where to write what the film is like
+  int turn = 0;               // rotation in quarter turns, clockwise
+  FilmFacts* film = nullptr;  // receives the film's facts
 };
 
 Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, const Look& look,
@@ -94,7 +94,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest stretch without a row that breaks it, in the film's frames; nothing where it is hardly a part, or all.
+// The longest run of rows without a break, in the film's frames; empty where it is nearly nothing, or the whole film.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
@@ -109,8 +109,8 @@ std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t 
                     first + static_cast<std::int64_t>(best_begin + best) - 1};
 }
 
-// What would make a refused film usable: a sentence in the place of the reason, or a clause behind it; both empty where
-// nothing would. Nobody films again for what a flag or a turn cures.
+// Remedy for a refused film: a sentence that replaces the reason, or a clause that follows it; both empty without a
+// remedy. A flag or a rotation is tried first, so that nobody films again needlessly.
 struct Cure {
   std::string reason;
   std::string advice;
@@ -118,7 +118,7 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // of a turned look; on its side a glow is hardly as sure as a flame
+  constexpr std::int64_t kEnoughFrames = 120;  // minimum for a rotated film; a glow is hardly as certain as a flame
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -260,7 +260,7 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     if (region.empty())
       return Error{path.string() + ": the region lies outside its picture of " + std::to_string(picture.width) + " x " +
                    std::to_string(picture.height) + " pixels"};
-    // Frames that the clip has lost stay missing.
+    // Rows of lost frames stay missing.
     channel.samples.resize(static_cast<std::size_t>((*frame)->index), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, reader->info().frames));

@@ -1,12 +1,12 @@
 #pragma once
-// Shows a clip on disk to a capture.
+// Feeds a clip on disk to a capture.
 
 #include "wisp/base/progress.hpp"
 #include "wisp/capture/media/video.hpp"
 
 namespace wisp {
 
-/// Shows a capture all that a reader has; `progress` is told after each frame.
+/// Feeds all frames of a reader to a capture, with a call of `progress` after each.
 /// Errors: as VideoReader and the capture, of an outline or of falls, and kStopped where `progress` returned false.
 template <class Capture>
 Result<void> read_into(VideoReader& reader, Capture& capture, const Progress& progress = {}) {

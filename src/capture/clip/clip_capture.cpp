@@ -30,10 +30,10 @@ OutlineCaptureOptions outline_options(const ClipSource& source, const ClipCaptur
   return out;
 }
 
-constexpr double kClippedShare = 0.01;  // of samples at full scale: beyond it the wind's peaks are cut off
+constexpr double kClippedShare = 0.01;  // share of samples at full scale above which peaks of the wind are clipped
 
-// A stretch without an outline that begins in or just after wind, and ends with the flame back, is a flame that was
-// blown out and lit again. Wind of half the strong one puts a flame out at the earliest.
+// An absence of the outline that begins during wind or just after, and ends with the flame back, is a blow-out followed
+// by re-ignition. Half of the strong wind is the least that extinguishes a flame.
 constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // of wind 1; seconds; seconds
 
 void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
@@ -77,7 +77,7 @@ void warn_of_sound(const ClipSource& source, const ClipWind& wind, Report& repor
   }
 }
 
-// What makes a clip's rows wrong although its outlines are right.
+// Reason why a clip's rows are wrong in time although its outlines are right.
 std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& times) {
   float worst = 0;
   for (const float offset : times.offsets) worst = std::max(worst, std::abs(offset));
@@ -97,10 +97,10 @@ std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& t
   return first_missed(criteria);
 }
 
-// Outlines are smooth: where frames were not in their places, they are interpolated there, between the two frames
-// around a place. Rows that were filled take no part.
+// Where frames were off their grid times, interpolates outlines there from the two neighbouring frames. Filled rows
+// take no part.
 void put_in_place(std::span<const float> offsets, Recording& recording) {
-  constexpr float kThere = 0.1F;  // of a row
+  constexpr float kThere = 0.1F;  // rows: smaller offsets are ignored
   if (std::all_of(offsets.begin(), offsets.end(), [](float offset) { return std::abs(offset) < kThere; })) return;
   const std::vector<double> outline = recording.channels[0].samples;
   const std::vector<std::uint8_t>& filled = recording.flags[0].rows;
@@ -162,7 +162,7 @@ ReportSection outline_section(const CaptureReport& picture) {
   return section;
 }
 
-// What the verdict rests on, for programs and for whoever asks why.
+// Section with the facts behind the verdict.
 ReportSection facts_section(const CaptureReport& picture) {
   ReportSection section{"Facts"};
   section.entries = {{"likely.flame", picture.likely_flame, "", ""}, {"likely.right", picture.likely_right, "", ""}};
@@ -242,8 +242,8 @@ Result<void> LiveCapture::hear(const SoundFormat& format, double begin, std::spa
   return {};
 }
 
-// The wind of the captured frames. The sound is heard from the clip's start, whichever frames are captured, so that its
-// background is known.
+// Wind of the captured frames. Sound is analysed from the clip's start, whichever frames are captured, so that the
+// background level is known.
 Result<ClipWind> LiveCapture::wind_of(std::size_t rows) const {
   if (!ear_) {
     ClipWind none;

@@ -8,7 +8,7 @@ namespace wisp {
 namespace {
 
 constexpr float kSilence = 1e-4F;  // −80 dB of full scale
-constexpr double kJitter = 0.05;   // seconds by which blocks may be stamped off their samples
+constexpr double kJitter = 0.05;   // seconds: tolerated offset of a block's time stamp from its samples
 
 WindFrame missing_frame(std::size_t index) {
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
@@ -57,8 +57,8 @@ void ClipEar::be_silent(double samples) {
   fed_ += static_cast<double>(count / format_.channels);
 }
 
-// The tracker hears no silence in place of a hole, which would pass for the room's: only the frames at its two ends are
-// filled up, and those between are missing.
+// Skips a gap in the sound without feeding silence, which the tracker would take for the background. Only the frames at
+// its two ends are completed; those between are missing.
 void ClipEar::pass_over(double seconds) {
   const double frame = format_.rate_hz / rate_hz_, hole = seconds * format_.rate_hz;
   const double to_next = (std::ceil(fed_ / frame - 1e-9) * frame - fed_);
@@ -76,7 +76,7 @@ void ClipEar::feed(double begin, std::span<const float> samples) {
     pass_over(gap);
     heard_to_ = begin;
   }
-  // What began before the picture, or repeats what was heard, is left out.
+  // Drops samples from before the first picture, and repeated ones.
   std::size_t skipped = 0;
   if (!begun_ ? gap < 0 : gap < -kJitter) {
     const double early = std::min(-gap * format_.rate_hz, static_cast<double>(samples.size()) / format_.channels);
@@ -90,7 +90,7 @@ void ClipEar::feed(double begin, std::span<const float> samples) {
   heard_to_ += count / format_.rate_hz;
 }
 
-// Puts what was heard where it belongs, holes between. Returns the end of the last frame that was.
+// Places wind frames at their times, with gaps between. Returns the end of the last frame placed.
 std::size_t ClipEar::place(std::span<const WindFrame> heard, std::size_t frames, std::vector<WindFrame>& placed) const {
   placed.clear();
   for (std::size_t k = 0; k < frames; ++k) placed.push_back(missing_frame(k));

@@ -1,5 +1,5 @@
 #pragma once
-// The wind in a clip's sound, one value a frame of its picture (section 3.3 of the paper).
+// Wind in a clip's sound, one value per frame of its picture (section 3.3 of the paper).
 
 #include <span>
 #include <utility>
@@ -10,27 +10,27 @@
 
 namespace wisp {
 
-/// Puts a clip's wind before a recording's channels, where there is any.
+/// Inserts a clip's wind before a recording's channels, if the clip has wind.
 void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording);
 
-/// Hears the wind of a clip from its sound as it comes.
+/// Measures the wind of a clip from its sound, block by block.
 class ClipEar {
  public:
-  /// For a picture of `rate_hz` frames a second. Errors: as WindTracker.
+  /// An ear for a picture of `rate_hz` frames a second. Errors: as WindTracker.
   ///
   /// Precondition: rate_hz > 0.
   static Result<ClipEar> create(const SoundFormat& format, double rate_hz);
 
-  /// Takes interleaved samples, full scale ±1, that begin `begin` seconds after the picture's first frame, or before
-  /// it. Where that is not where the last ones ended, sound was lost, or comes twice.
+  /// Takes interleaved samples, full scale ±1, beginning `begin` seconds after the picture's first frame (may be
+  /// negative). A `begin` other than the end of the last block means lost or repeated sound.
   void feed(double begin, std::span<const float> samples);
 
-  /// The wind of the picture's first `frames` frames; none where the sound was silent. Errors: as WindTracker.
+  /// Wind of the picture's first `frames` frames; empty where the sound was silent. Errors: as WindTracker.
   Result<ClipWind> finish(std::size_t frames) const;
 
  private:
   struct Hole {
-    std::size_t at = 0;  // of the frames that were heard, the one after it
+    std::size_t at = 0;  // index after it, among the measured frames
     double frames = 0;
   };
   ClipEar(WindTracker tracker, const SoundFormat& format, double rate_hz)
@@ -42,8 +42,8 @@ class ClipEar {
   WindTracker tracker_;
   SoundFormat format_;
   double rate_hz_;
-  double fed_ = 0;       // samples a channel, to the tracker
-  double heard_to_ = 0;  // seconds after the picture's first frame
+  double fed_ = 0;       // samples per channel fed to the tracker
+  double heard_to_ = 0;  // end of the sound, in seconds after the picture's first frame
   bool begun_ = false;
   std::vector<Hole> holes_;
   float peak_ = 0;

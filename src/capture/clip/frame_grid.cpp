@@ -7,10 +7,10 @@
 namespace wisp {
 namespace {
 
-// A longer hole in a clip's times is taken as this long: what matters is that an episode ends there.
+// Maximum length of a gap in a clip's times; longer gaps are shortened to it, as an episode ends there anyway.
 constexpr double kLongestGapSeconds = 2;
 
-// Frames farther off their places than this do not come at a fixed rate.
+// Offset from the grid, in places, above which frames do not have a fixed rate.
 constexpr double kIrregular = 0.6;
 
 }  // namespace
@@ -21,7 +21,7 @@ std::int64_t FrameGrid::place(double seconds) {
   const double place = (seconds - *first_) * rate_hz_;
   const double longest = static_cast<double>(next) + kLongestGapSeconds * rate_hz_;
   if (place > longest) {
-    // From here on, time is counted from this frame.
+    // Restarts the time origin at this frame.
     ++long_gaps_;
     last_ = static_cast<std::int64_t>(longest);
     first_ = seconds - static_cast<double>(last_) / rate_hz_;

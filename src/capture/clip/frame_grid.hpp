@@ -1,5 +1,5 @@
 #pragma once
-// Frames that come at times of their own, on a grid of one fixed rate.
+// Assigns frames with arbitrary time stamps to a grid of fixed rate.
 
 #include <cstdint>
 #include <optional>
@@ -13,23 +13,23 @@ class FrameGrid {
   /// Precondition: rate_hz > 0.
   explicit FrameGrid(double rate_hz) : rate_hz_(rate_hz) {}
 
-  /// The place of the next frame, whose time is `seconds` on any clock: the nearest after the last one. A hole of more
-  /// than two seconds is shortened to that.
+  /// Returns the next frame's place: the nearest to its time `seconds` (any clock) after the last place. Gaps of more
+  /// than two seconds are shortened to two.
   std::int64_t place(double seconds);
 
-  /// The place of the next frame, whose time is not known.
+  /// Returns the next frame's place where its time is unknown.
   std::int64_t follow();
 
-  /// The last frame's; -1 before the first.
+  /// Place of the last frame; -1 before the first.
   std::int64_t last() const { return last_; }
 
-  /// How far each place's frame was from it, in places, later positive; 0 where none is.
+  /// Offset of each place's frame from its grid time, in places, positive if late; 0 without a frame.
   const std::vector<float>& offsets() const { return offsets_; }
 
-  /// How many holes were shortened.
+  /// Number of gaps that were shortened.
   int shortened() const { return long_gaps_; }
 
-  /// What was odd about the times, one sentence each about `name`.
+  /// Warnings about irregular times of the clip `name`, one sentence each.
   std::vector<std::string> warnings(const std::string& name) const;
 
  private:

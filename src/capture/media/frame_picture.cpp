@@ -10,7 +10,7 @@ const AVPixFmtDescriptor* descriptor(const AVFrame& frame) {
   return av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
 }
 
-// Whether every colour is a byte of its own that can be borrowed.
+// Whether every colour component is a separate byte, so that the planes can be borrowed.
 bool plain_bytes(const AVPixFmtDescriptor& format) {
   constexpr std::uint64_t kOther =
       AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER;
@@ -46,7 +46,7 @@ Picture borrowed(const AVFrame& frame) {
   return out;
 }
 
-// One plane turned clockwise by quarters; `width` and `height` are the plane's own.
+// Rotates one plane clockwise by quarter turns; `width` and `height` are those of the input plane.
 void turn_plane(const PicturePlane& in, int width, int height, int quarters, std::uint8_t* out) {
   const auto at = [&](int x, int y) { return in.pixels[y * in.stride + static_cast<std::ptrdiff_t>(x) * in.step]; };
   const int out_width = quarters % 2 == 0 ? width : height, out_height = quarters % 2 == 0 ? height : width;
@@ -59,7 +59,7 @@ void turn_plane(const PicturePlane& in, int width, int height, int quarters, std
   }
 }
 
-// A frame of that format and size, kept from call to call. Returns false without memory.
+// Provides a reused frame of the given format and size. Returns false where memory is exhausted.
 bool take_frame(FrameOwner& kept, std::pair<int, int> size, AVPixelFormat format) {
   if (!kept) kept.reset(av_frame_alloc());
   if (!kept) return false;
@@ -75,7 +75,7 @@ bool take_frame(FrameOwner& kept, std::pair<int, int> size, AVPixelFormat format
 
 }  // namespace
 
-// To square pixels: the shorter way grows.
+// Size with square pixels: the dimension with the shorter pixel side is enlarged.
 std::pair<int, int> FramePictures::stretched(int width, int height) const {
   if (aspect_ > 1) return {static_cast<int>(std::lround(width * aspect_)), height};
   return {width, static_cast<int>(std::lround(height / aspect_))};
@@ -149,7 +149,7 @@ RgbImage FramePictures::rgb(const AVFrame& frame) {
     sws_setColorspaceDetails(to_rgb_.get(), matrix, frame.color_range == AVCOL_RANGE_JPEG, matrix, 1, 0, 1 << 16,
                              1 << 16);
   }
-  // The scaler writes whole vectors, past a row's end: into a frame that has room there, and from that row by row.
+  // The scaler writes whole vectors beyond a row's end: it needs an output frame with padding, copied row by row.
   sws_scale(to_rgb_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
   for (int y = 0; y < out.height; ++y) {
     std::copy_n(rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0], row_bytes,

@@ -1,5 +1,5 @@
 #pragma once
-// A decoded frame as a Picture, its own planes borrowed wherever their format allows, and as RGB.
+// Converts a decoded frame to a Picture, borrowing its planes where their format allows, and to RGB.
 
 #include <utility>
 #include <vector>
@@ -10,22 +10,22 @@
 
 namespace wisp {
 
-/// Turns frames into pictures; keeps its converters and memory from one frame to the next.
+/// Converts frames to pictures; reuses converters and memory between frames.
 class FramePictures {
  public:
-  /// Frames are to be turned clockwise by this many quarters before they are shown, as the file asks for, and stretched
-  /// to square pixels where theirs are `aspect` times as wide as high.
+  /// Frames are rotated clockwise by this many quarter turns, as the file requests, and stretched to square pixels
+  /// where a pixel's width is `aspect` times its height.
   explicit FramePictures(int quarter_turns = 0, double aspect = 1) : quarter_turns_(quarter_turns), aspect_(aspect) {}
 
-  /// Width and height as they are shown, of a frame.
+  /// Width and height of a frame as displayed.
   std::pair<int, int> shown(int width, int height) const;
 
-  /// The frame as a picture, good until the next call and while the frame lives. 8-bit planes and packed pixels are
+  /// The frame as a picture, valid until the next call and while the frame exists. 8-bit planes and packed pixels are
   /// borrowed; other formats (palettes, more bits) are converted first.
   /// Errors: a format that FFmpeg cannot convert.
   Result<Picture> view(const AVFrame& frame);
 
-  /// The frame as RGB, turned as it is shown.
+  /// The frame as RGB, rotated for display.
   RgbImage rgb(const AVFrame& frame);
 
  private:

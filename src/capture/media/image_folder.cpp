@@ -29,10 +29,10 @@ constexpr std::array<ImageKind, 9> kKinds{{{".png", AV_CODEC_ID_PNG},
                                            {".tif", AV_CODEC_ID_TIFF},
                                            {".tiff", AV_CODEC_ID_TIFF}}};
 
-// A picture of more than this is not a frame of a clip.
+// Maximum size of an image file; a larger one is no frame of a clip.
 constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
 
-// A longer hole in the numbers is taken as this long, as in a video: what matters is that an episode ends there.
+// Maximum gap in the numbers, as in a video; longer gaps are shortened, as an episode ends there anyway.
 constexpr double kLongestGapSeconds = 2;
 constexpr std::size_t kMaxDigits = 18;
 
@@ -49,7 +49,7 @@ AVCodecID codec_of(const std::filesystem::path& path) {
   return AV_CODEC_ID_NONE;
 }
 
-// The last group of digits in the name.
+// The last group of digits in the file's name.
 std::string digits_in(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
@@ -60,7 +60,7 @@ std::string digits_in(const std::filesystem::path& path) {
   return stem.substr(begin, end - begin);
 }
 
-// Whether an image lacks its end: decoders show what there is of it, and grey below.
+// Whether an image file is truncated: decoders fill the missing part with grey.
 bool is_cut(std::span<const std::byte> bytes, AVCodecID codec) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto last = [&](std::string_view mark) { return text.rfind(mark); };
@@ -75,7 +75,7 @@ std::string pixels(int width, int height) { return std::to_string(width) + " x "
 }  // namespace
 
 bool ImageFolder::reads(const std::filesystem::path& path) {
-  // Other systems leave notes beside images that they copy: ._001.jpg
+  // Some systems put metadata files beside copied images, such as ._001.jpg
   return codec_of(path) != AV_CODEC_ID_NONE && !digits_in(path).empty() && !path.filename().string().starts_with('.');
 }
 
@@ -112,7 +112,7 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
   return images;
 }
 
-// Numbers that are left out are lost frames; numbering by tens (an extract of every tenth frame) is not.
+// Missing numbers are lost frames, except for regular steps (such as an extract of every tenth frame).
 void ImageFolder::place(std::vector<NumberedImage>& images) {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   for (std::size_t k = 1; k < images.size(); ++k) step = std::min(step, images[k].number - images[k - 1].number);
@@ -176,7 +176,7 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     return Error{path.string() + ": not enough memory to read the image"};
   }
   std::memcpy(packet_->data, bytes->data(), bytes->size());
-  packet_->flags |= AV_PKT_FLAG_KEY;  // or the PNG decoder takes it for a difference to the image before
+  packet_->flags |= AV_PKT_FLAG_KEY;  // otherwise the PNG decoder treats it as a difference to the last image
   int code = avcodec_send_packet(codec_.get(), packet_.get());
   av_packet_unref(packet_.get());
   if (code >= 0) code = avcodec_receive_frame(codec_.get(), frame_.get());

@@ -1,5 +1,5 @@
 #pragma once
-// Frames of a folder of numbered images.
+// Reads the frames of a folder of numbered images.
 
 #include "capture/media/frame_picture.hpp"
 #include "capture/media/libav.hpp"

@@ -6,7 +6,7 @@
 namespace wisp {
 namespace {
 
-// The container formats that are opened. FFmpeg knows more, among them playlists and scripts that make it open other
+// Container formats that may be opened. FFmpeg supports more, among them playlists and scripts that make it open other
 // files.
 constexpr const char* kContainers =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,mpegvideo,flv,asf,ogg,nut,ivf,gif,apng,yuv4mpegpipe,h264,"
@@ -27,7 +27,7 @@ Result<void> check_pictures(const std::string& name, const AVFormatContext& form
   return {};
 }
 
-// FFmpeg finds out what tracks hold by decoding some of them: no larger pictures than are decoded later.
+// FFmpeg identifies tracks by decoding some frames; limits the size of pictures as in later decoding.
 int look_at_tracks(AVFormatContext& format) {
   std::vector<AVDictionary*> options(format.nb_streams, nullptr);
   for (AVDictionary*& entries : options) av_dict_set_int(&entries, "max_pixels", kMaxFilmPixels, 0);
@@ -64,7 +64,7 @@ Result<FormatOwner> open_media(const std::filesystem::path& path) {
   av_dict_set(&options.entries, "format_whitelist", kContainers, 0);
   av_dict_set(&options.entries, "protocol_whitelist", "file", 0);
   AVFormatContext* raw = nullptr;
-  // Without "file:" a name with a colon would be taken for a protocol.
+  // Without the prefix "file:" a name with a colon would be parsed as a protocol.
   int code = avformat_open_input(&raw, ("file:" + name).c_str(), nullptr, &options.entries);
   if (code < 0) {
     return Error{name + ": cannot be read as video or sound (" + libav_message(code) +

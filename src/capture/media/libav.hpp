@@ -1,5 +1,5 @@
 #pragma once
-// FFmpeg's C interface with owners for what it allocates.
+// FFmpeg's C interface, with owning types for its allocations.
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -22,14 +22,14 @@ extern "C" {
 
 namespace wisp {
 
-/// Makes one of FFmpeg's calls and returns its code. Throws std::bad_alloc where the code, or errno, says that an
-/// allocation failed in it: the file is not at fault, and leaving frames out would change what is measured. (FFmpeg's
-/// H.264 decoder returns success where an allocation for a picture failed; malloc reports it in errno.) Every call that
-/// may read or decode goes through it, the last, empty packet's too. errno belongs to the calling thread: what fails in
-/// decoding threads is only seen where FFmpeg returns it.
+/// Calls an FFmpeg function and returns its code. Throws std::bad_alloc where the code or errno reports a failed
+/// allocation: the file is not at fault, and skipping frames would change the measurement. (FFmpeg's H.264 decoder
+/// returns success where the allocation of a picture failed; malloc reports it in errno.) Every call that may read or
+/// decode uses this wrapper, including the last, empty packet's. errno is per thread: failures in decoding threads are
+/// seen only where FFmpeg returns them.
 template <class Call, class... Arguments>
 int with_memory(Call call, Arguments... arguments) {
-  errno = 0;  // encoders and malloc leave there what they got over
+  errno = 0;  // encoders and malloc leave errors there that they recovered from
   const int code = call(arguments...);
   if (code == -ENOMEM || errno == ENOMEM) throw std::bad_alloc();
   return code;
@@ -61,26 +61,26 @@ using PacketOwner = std::unique_ptr<AVPacket, PacketCloser>;
 using ScalerOwner = std::unique_ptr<SwsContext, ScalerCloser>;
 using ResamplerOwner = std::unique_ptr<SwrContext, ResamplerCloser>;
 
-/// More in an image is a damaged size, not a camera's: eight times 4K.
+/// Maximum pixels of an image, eight times 4K: a larger size is corrupt.
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
 
-/// The same of a film's picture: 8K in its widest form, 8192 by 4320. A decoder keeps up to twenty of them, and a
-/// black one of any size takes a few bytes of a file.
+/// Maximum pixels of a film's picture: 8K in its widest form, 8192 by 4320. A decoder keeps up to twenty pictures, and
+/// a black one of any size takes only a few bytes in a file.
 inline constexpr std::int64_t kMaxFilmPixels = 36'000'000;
 
-/// From now on FFmpeg prints nothing itself.
+/// Disables FFmpeg's own messages from now on.
 void silence_libav();
 
-/// FFmpeg's words for one of its error codes.
+/// FFmpeg's text for an error code.
 std::string libav_message(int code);
 
-/// Opens a media file and reads what tracks it has. FFmpeg's own chatter on standard error is silenced: what matters
-/// comes back as errors and warnings.
-/// Nothing but the file itself is read, whatever it says: playlists and scripts are not media files here.
-/// Errors: missing, a folder, a pipe or a device, not a media file, cut off before its index.
+/// Opens a media file and reads its list of tracks. FFmpeg's own messages on standard error are disabled; problems are
+/// returned as errors and warnings.
+/// Only the file itself is read, whatever it refers to: playlists and scripts are not accepted.
+/// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
-/// A decoder for one track, opened with `threads` threads.
+/// Opens a decoder with `threads` threads for one track.
 /// Errors: a codec that FFmpeg cannot decode.
 Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads);
 

@@ -9,7 +9,7 @@
 namespace wisp {
 namespace {
 
-// One sound track on its way from the file to blocks of floats.
+// A sound track being decoded to blocks of floats.
 struct SoundTrack {
   FormatOwner format;
   CodecOwner codec;
@@ -18,24 +18,24 @@ struct SoundTrack {
   FrameOwner frame{av_frame_alloc()};
   int track = -1;
   SoundInfo info;
-  double first_picture = 0;   // seconds on the file's clock
-  std::optional<double> now;  // when the next sample is, on that clock
+  double first_picture = 0;   // time of the first picture, seconds on the file's clock
+  std::optional<double> now;  // time of the next sample, on that clock
   std::vector<float> samples;
 };
 
-constexpr double kJitter = 0.05;  // seconds: times that are off their samples by less are not a hole
+constexpr double kJitter = 0.05;  // seconds: smaller deviations of time stamps are not gaps
 
 double start_of(const AVStream& track) {
   return track.start_time == AV_NOPTS_VALUE ? 0 : static_cast<double>(track.start_time) * av_q2d(track.time_base);
 }
 
-// The time of the clip's first picture, or of the sound where it has none, on the file's clock.
+// Time of the clip's first picture (of the sound, where there is none) on the file's clock.
 double first_picture(AVFormatContext& format, const AVStream& sound) {
   const int video = av_find_best_stream(&format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   return start_of(video < 0 ? sound : *format.streams[video]);
 }
 
-// Samples follow each other, and times that are stamped on them jitter; where those are far off, sound was lost.
+// Samples are consecutive, but their time stamps jitter; a large deviation means lost sound.
 void take_time(SoundTrack& track) {
   const AVFrame& frame = *track.frame;
   if (frame.best_effort_timestamp != AV_NOPTS_VALUE) {
@@ -47,7 +47,7 @@ void take_time(SoundTrack& track) {
   track.now = track.info.begin + static_cast<double>(frame.nb_samples) / track.info.rate_hz;
 }
 
-// Planar or packed samples of any kind to packed floats, rate and channels unchanged.
+// Sets up conversion from any sample format, planar or packed, to packed floats at unchanged rate and channels.
 bool start_resampler(SoundTrack& track) {
   AVFrame& frame = *track.frame;
   SwrContext* raw = nullptr;
@@ -58,11 +58,11 @@ bool start_resampler(SoundTrack& track) {
   return code >= 0 && with_memory(swr_init, raw) >= 0;
 }
 
-// Returns whether to go on.
+// Delivers a block. Returns whether to continue.
 bool hand_out(SoundTrack& track, const SoundBlock& block) {
   const AVFrame& frame = *track.frame;
   if (!track.resampler && !start_resampler(track)) return false;
-  if (frame.ch_layout.nb_channels != track.info.channels) return true;  // a stray block of another make
+  if (frame.ch_layout.nb_channels != track.info.channels) return true;  // ignores a block of another format
   take_time(track);
   track.samples.resize(static_cast<std::size_t>(frame.nb_samples) * track.info.channels);
   std::uint8_t* out[1] = {reinterpret_cast<std::uint8_t*>(track.samples.data())};

@@ -10,13 +10,13 @@
 namespace wisp {
 namespace {
 
-// Above this, a frame rate is a file's clock, not a camera's.
+// Hz: a higher frame rate is the file's time base, not a camera's rate.
 constexpr double kHighestRate = 1000;
 
-// Pixels that are wider or higher than this are a damaged header's.
+// Maximum pixel aspect ratio; a larger one comes from a corrupt header.
 constexpr double kWidestPixel = 8;
 
-// Seconds at which a track's frames are shown, in their order, without decoding any.
+// Display times of a track's frames in seconds, in order, without decoding.
 std::vector<double> frame_times(const std::filesystem::path& path, int track) {
   std::vector<double> times;
   auto format = open_media(path);
@@ -32,7 +32,7 @@ std::vector<double> frame_times(const std::filesystem::path& path, int track) {
   return times;
 }
 
-// The rate at which most frames of an uneven film come. Times are often rounded to milliseconds.
+// Most common frame rate of an irregular film. Times are often rounded to milliseconds.
 double usual_rate(const std::vector<double>& times, double nominal, double mean) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < times.size(); ++k) {
@@ -40,7 +40,7 @@ double usual_rate(const std::vector<double>& times, double nominal, double mean)
   }
   if (steps.empty()) return mean > 0 ? mean : nominal;
   std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-  // Jitter may go either way; a frame that was lost, or a lower rate in the dark, takes twice as long.
+  // Jitter has either sign; lost frames and a reduced rate in the dark double the interval.
   const double median = steps[steps.size() / 2];
   double sum = 0, count = 0;
   for (const double one : steps) {
@@ -60,8 +60,8 @@ double usual_rate(const std::vector<double>& times, double nominal, double mean)
   return 1 / step;
 }
 
-// The rate of the grid that frames lie on. A camera's nominal rate (the lowest in which all times can be written) is
-// right while not too many of its frames were lost; else the usual one is.
+// Rate of the frames' grid: the camera's nominal rate (the lowest that represents all times) unless too many of its
+// frames were lost; then the most common rate.
 double grid_rate(const std::filesystem::path& path, const AVStream& track) {
   const double nominal = av_q2d(track.r_frame_rate), mean = av_q2d(track.avg_frame_rate);
   const bool plausible = nominal > 0 && nominal <= kHighestRate;
@@ -69,7 +69,7 @@ double grid_rate(const std::filesystem::path& path, const AVStream& track) {
   return usual_rate(frame_times(path, track.index), nominal, mean);
 }
 
-// How wide a pixel is shown, over its height.
+// Pixel aspect ratio in display, width / height.
 Result<double> pixel_aspect(const std::filesystem::path& path, AVFormatContext& format, AVStream& track) {
   const double aspect = av_q2d(av_guess_sample_aspect_ratio(&format, &track, nullptr));
   if (!(aspect > 0) || std::abs(aspect - 1) < 0.005) return 1.0;
@@ -80,8 +80,7 @@ Result<double> pixel_aspect(const std::filesystem::path& path, AVFormatContext& 
                "scale=iw*sar:ih,setsar=1 OUT.mp4"};
 }
 
-// Clockwise, as the file says that it is to be shown. A mirrored picture is left mirrored: a flame has no left or
-// right.
+// Clockwise rotation that the file requests. A mirrored picture is left mirrored: a flame has no left or right.
 int quarter_turns(const AVStream& track) {
   const std::uint8_t* stated = av_stream_get_side_data(&track, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
   if (stated == nullptr) return 0;
@@ -94,7 +93,7 @@ int quarter_turns(const AVStream& track) {
   return static_cast<int>(std::lround(degrees / 90) % 4 + 4) % 4;
 }
 
-// Frames that are in the file and not shown: a phone that trims a film writes an edit list and leaves all frames there.
+// Number of frames in the file that are not displayed: a phone trims a film by an edit list and keeps all frames.
 std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
   if (std::strstr(format.iformat->name, "mov") == nullptr) return 0;
   auto& indexed = const_cast<AVStream&>(track);
@@ -112,7 +111,7 @@ std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track,
     return std::llround(static_cast<double>(track.duration) * av_q2d(track.time_base) * rate);
   }
   if (format.duration == AV_NOPTS_VALUE) return 0;
-  // Matroska's duration counts from 0, whenever the first frame is.
+  // Matroska's duration counts from 0, whatever the time of the first frame.
   const bool from_zero = std::strstr(format.iformat->name, "matroska") != nullptr;
   const std::int64_t before = from_zero && format.start_time != AV_NOPTS_VALUE ? format.start_time : 0;
   return std::max<std::int64_t>(0, std::llround(static_cast<double>(format.duration - before) / AV_TIME_BASE * rate));
@@ -156,7 +155,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   return file;
 }
 
-// Feeds the decoder one packet of the track. Returns false once there are none.
+// Sends one packet of the track to the decoder. Returns false at the end of the file.
 bool VideoFile::send_packet() {
   while (true) {
     const int code = with_memory(av_read_frame, format_.get(), packet_.get());
@@ -174,7 +173,7 @@ bool VideoFile::send_packet() {
   }
 }
 
-// The next whole frame into frame_. Returns false at the end.
+// Decodes the next complete frame into frame_. Returns false at the end.
 bool VideoFile::decode() {
   while (true) {
     const int code = with_memory(avcodec_receive_frame, codec_.get(), frame_.get());
@@ -221,8 +220,7 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
   return std::optional<VideoFrame>();
 }
 
-// The key frame at or before a time, alone: it is decoded without what follows, unless it is the one of time `before`.
-// Returns its time.
+// Decodes only the key frame at or before a time, unless it is the one at time `before`. Returns its time.
 std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before) {
   if (with_memory(av_seek_frame, format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
   while (with_memory(av_read_frame, format_.get(), packet_.get()) >= 0) {
@@ -239,7 +237,7 @@ std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before)
   return before;
 }
 
-// Through a second reader, so that this one goes on undisturbed.
+// Uses a second reader, so that the position of this one is unaffected.
 std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   std::vector<OwnedPicture> out;
   auto opened = open(path_, options_);
@@ -250,7 +248,7 @@ std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   const double ticks_per_frame = 1 / (file.seconds_per_tick_ * file.info_.rate_hz);
   const std::int64_t first = options_.frames ? options_.frames->first - 1 : 0;
   const std::int64_t last = options_.frames ? std::min(options_.frames->last, info_.frames) : info_.frames;
-  std::int64_t before = begin;  // the first frames are seen anyway
+  std::int64_t before = begin;  // the first frames are read anyway
   for (int k = 1; k <= count; ++k) {
     const double frame = static_cast<double>(first) + static_cast<double>(last - 1 - first) * k / count;
     const std::int64_t at = file.decode_key_frame(begin + std::llround(frame * ticks_per_frame), before);
@@ -269,7 +267,7 @@ std::vector<std::string> VideoFile::warnings() const {
   if (broken_ > 0)
     out.push_back(name + ": " + std::to_string(broken_) +
                   (broken_ == 1 ? " broken frame was left out" : " broken frames were left out"));
-  // A duration is not exact to the frame; a count is.
+  // A duration is not exact to the frame; a frame count is.
   const bool counted = format_->streams[track_]->nb_frames > 0;
   const std::int64_t least = counted ? info_.frames : info_.frames - info_.frames / 20 - 2;
   const std::int64_t found = counted ? decoded_ + broken_ : grid_->last() + 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Frames of a video file.
+// Reads the frames of a video file.
 
 #include "capture/clip/frame_grid.hpp"
 #include "capture/media/frame_picture.hpp"

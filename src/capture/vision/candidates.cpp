@@ -9,22 +9,22 @@
 namespace wisp {
 namespace {
 
-constexpr double kPersistence = 0.6;     // a candidate is there in this share of the pictures
-constexpr std::size_t kMaxRegions = 24;  // of one picture at one level, the largest
-constexpr std::size_t kMinRows = 3;      // a shape of fewer rows has none
-constexpr double kSurelyMoves = 0.06;    // shapes that differ by this share move for sure
-constexpr double kStillWorth = 0.15;     // … and this is what one is worth that does not
-constexpr double kAloneIsBetter = 0.5;   // what must be cut from its stand, against what stands out alone
-constexpr double kLightPower = 8;        // what is a tenth dimmer than the brightest is half as likely
-constexpr double kSolidPower = 4;        // a flame has no notches; what has run together with something has
+constexpr double kPersistence = 0.6;     // minimum share of the pictures that contain a candidate
+constexpr std::size_t kMaxRegions = 24;  // maximum per picture and level, largest first
+constexpr std::size_t kMinRows = 3;      // minimum rows of a region with a shape
+constexpr double kSurelyMoves = 0.06;    // change of shape that proves motion
+constexpr double kStillWorth = 0.15;     // … and the weight of a candidate without change
+constexpr double kAloneIsBetter = 0.5;   // weight of a candidate cut from its stand, against one seen alone
+constexpr double kLightPower = 8;        // exponent: 10 % less luma than the brightest halves the likelihood
+constexpr double kSolidPower = 4;        // exponent: a flame has no notches; one merged with something has
 
-// One region from picture to picture.
+// One region followed over pictures.
 struct Track {
   std::vector<std::size_t> pictures;
   std::vector<BrightRegion> regions;
 };
 
-// Each track goes on with the region that shares most with the last one.
+// Continues each track with the region that overlaps its last one most.
 void continue_tracks(std::vector<Track>& tracks, std::span<const BrightRegion> regions, std::size_t picture) {
   for (Track& track : tracks) {
     double best = 0;
@@ -64,25 +64,25 @@ std::vector<Track> find_tracks(const PictureGrid& grid, int level) {
   std::erase_if(tracks, [&](const Track& t) { return static_cast<double>(t.pictures.size()) < kPersistence * count; });
   std::stable_sort(tracks.begin(), tracks.end(),
                    [](const Track& a, const Track& b) { return a.pictures.size() > b.pictures.size(); });
-  std::vector<Track> apart;  // tracks that have run into one region are one
+  std::vector<Track> apart;  // tracks that merge into one region become one
   for (Track& track : tracks) {
     if (!taken(apart, track.regions.back(), track.pictures.back())) apart.push_back(std::move(track));
   }
   return apart;
 }
 
-// A region's outline as rows, and where they are.
+// Rows of a region's outline, and their position.
 struct Shape {
   std::size_t picture = 0;
   Profile profile;
   double area = 0;
-  double middle_across = 0;  // of gravity
+  double middle_across = 0;  // centre of gravity
   double middle_row = 0;
   double tip_across = 0;
   double base_across = 0;
 };
 
-// Mean middle of the rows [from, to).
+// Mean centre of the rows [from, to).
 double across(const Profile& profile, std::size_t from, std::size_t to) {
   double sum = 0;
   for (std::size_t k = from; k < to; ++k) sum += 0.5 * (profile.rows[k].low + profile.rows[k].high);
@@ -124,7 +124,7 @@ std::vector<Shape> shapes_of(const PictureGrid& grid, int level, const Track& tr
   return shapes;
 }
 
-// Leaves off what a thing stands on where they have run together in most pictures. Returns whether they have.
+// Cuts off the stand where object and stand have merged in most pictures. Returns whether they have.
 bool cut_stands(std::vector<Shape>& shapes) {
   std::vector<std::optional<std::size_t>> cuts;
   std::size_t count = 0;
@@ -139,7 +139,7 @@ bool cut_stands(std::vector<Shape>& shapes) {
   return true;
 }
 
-// What two shapes share, laid over each other by their centres of gravity, over what either covers.
+// Intersection over union of two shapes aligned at their centres of gravity.
 double overlap(const Shape& a, const Shape& b) {
   const int down = static_cast<int>(std::lround(b.middle_row - a.middle_row));
   const double aside = b.middle_across - a.middle_across;
@@ -172,15 +172,15 @@ double taper_of(const std::vector<Shape>& shapes) {
   return median(std::move(tapers));
 }
 
-// The area of a shape as wide and straight over its convex hull's: a flame that leans or bends has no notches. The hull
-// of a symmetrical shape is as wide as the least concave function above its widths.
+// Area of a shape, straightened, over its convex hull's: a flame that leans or bends has no notches. The hull of a
+// symmetric shape has the least concave majorant of its widths.
 double solidity_of(const Profile& profile) {
   std::vector<std::size_t> hull;
   const auto width = [&](std::size_t k) { return static_cast<double>(profile.rows[k].width()); };
   double area = 0, hull_area = 0;
   for (std::size_t k = 0; k < profile.rows.size(); ++k) {
     if (k > 0) area += 0.5 * (width(k) + width(k - 1));
-    const auto below = [&](std::size_t a, std::size_t b) {  // b, between a and k, is no corner of the hull
+    const auto below = [&](std::size_t a, std::size_t b) {  // b, between a and k, is inside the hull
       const double run = static_cast<double>(k - a), part = static_cast<double>(b - a);
       return (width(b) - width(a)) * run <= (width(k) - width(a)) * part;
     };
@@ -201,7 +201,7 @@ double solidity_of(const std::vector<Shape>& shapes) {
 }
 
 double steadiness_of(const std::vector<Shape>& shapes) {
-  constexpr double kGridNoise = 0.3;  // points: what a still edge moves by
+  constexpr double kGridNoise = 0.3;  // grid points: motion of a still edge by noise
   std::vector<double> tip_across, tip_depth, base_across, base_depth;
   for (const Shape& shape : shapes) {
     tip_across.push_back(shape.tip_across);
@@ -214,7 +214,7 @@ double steadiness_of(const std::vector<Shape>& shapes) {
   return tip / (tip + base);
 }
 
-// Median luma of the shape: a rim is dimmer, and more of it is inside a lower level.
+// Median luma of the shape: a rim is dimmer, and a lower level includes more of it.
 double light_of(const PictureGrid& grid, const PictureGrid& luma, int level, const Shape& shape, BaseSide base) {
   const bool rows = base == BaseSide::kBottom || base == BaseSide::kTop;
   std::array<std::uint32_t, 256> counts{};
@@ -247,16 +247,16 @@ Region box_of(const Profile& profile, BaseSide base) {
   return {begin, all.low, length, all.width()};
 }
 
-// What a still picture tells.
+// Likelihood from features of still pictures.
 double likeness_of(const Candidate& c, const Evidence& evidence) {
   const double general = c.presence * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
   if (!evidence.flame) return general * std::sqrt(std::sqrt(c.area));
-  // A higher level leaves more room for what the flame lights to become brighter later.
+  // With a higher level, lit surroundings have more room to brighten before they exceed it.
   const double room = c.level / 255.0;
   return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper;
 }
 
-// What its movement adds.
+// Likelihood from features of movement.
 double liveliness_of(const Candidate& c, const Evidence& evidence) {
   const double moves = kStillWorth + (1 - kStillWorth) * std::min(1.0, c.change / kSurelyMoves);
   return moves * std::min(1.0, 2 * (1 - c.change)) * (evidence.flame ? c.steadiness * c.steadiness : 1);
@@ -339,7 +339,7 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
 
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence) {
-  // The area at another level of what shares most with the candidate: a region that is no longer there has lost all.
+  // Area, at another level, of the candidate that overlaps most; a region that disappears has lost all of its area.
   const auto area_in = [](const std::vector<Candidate>* others, const Candidate& c, double none) {
     if (others == nullptr) return c.area;
     double best = 0, area = none;

@@ -1,10 +1,10 @@
 #pragma once
-// What could be the thing: bright regions that are there in most of a clip's pictures, and the evidence on each.
+// Candidates for the object: bright regions present in most pictures of a clip, with evidence for each.
 //
-// A flame gives light: it is as bright as anything in the picture. Its edges move, and not as a whole: lit wax, glass
-// and a table stay in shape and only change brightness with it, and what a shaken camera moves keeps its shape. It
-// stands on a place and tapers away from it: its tip moves more than its base. Its rim is steep: another level gives
-// nearly the same region.
+// Evidence for a flame: it emits light, so it is among the brightest regions. Its edges deform, whereas lit wax, glass
+// and tables keep their shape and only change in brightness, and a moving camera preserves shapes. It stands on a place
+// and tapers upwards, so its tip moves more than its base. Its rim is steep, so another level gives nearly the same
+// region.
 
 #include <optional>
 #include <span>
@@ -15,9 +15,9 @@
 
 namespace wisp {
 
-/// One channel of several pictures over one region, every `step`-th pixel of it.
+/// One channel of several pictures over one region, sampled at every `step`-th pixel.
 struct PictureGrid {
-  Region area;  ///< pixels of the picture
+  Region area;  ///< region in pixels of the picture
   int step = 1;
   int width = 0;
   int height = 0;
@@ -28,59 +28,59 @@ struct PictureGrid {
   Region to_pixels(const Region& box) const;
 };
 
-/// A grid over `area` at most `most` points wide and high, without pictures.
+/// An empty grid over `area`, at most `most` points wide and high.
 PictureGrid grid_over(const Region& area, int most);
 
-/// Samples a picture's `channel`, inverted for dark things.
+/// Samples a picture's `channel`, inverted if the object is dark.
 void add_picture(PictureGrid& grid, const Picture& picture, PixelChannel channel, bool dark);
 
-/// All of several pictures.
+/// Samples several pictures on one grid.
 PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel, const Region& area, int most,
                         bool dark);
 
-/// What is looked for.
+/// Kind of object that is searched for.
 struct Evidence {
-  bool flame = true;  ///< gives light, tapers and stands; else only moves
+  bool flame = true;  ///< emits light, tapers and stands; false: only moves
   BaseSide base = BaseSide::kBottom;
-  std::span<const double> brightest;  ///< luma of the brightest there is in each picture; empty: does not matter
+  std::span<const double> brightest;  ///< luma of the brightest region in each picture; empty: ignored
 };
 
-/// A bright region seen in most pictures.
+/// A bright region present in most pictures.
 struct Candidate {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;
-  std::vector<Region> seen;  ///< its box in each picture where it is, pixels, without what it stands on
-  Region home;               ///< around all of them
-  bool stands = false;       ///< it has run together with what it stands on
-  double presence = 0;       ///< share of the pictures
+  std::vector<Region> seen;  ///< box in each picture with the region, pixels, without its stand
+  Region home;               ///< union of all of them
+  bool stands = false;       ///< whether it has merged with its stand
+  double presence = 0;       ///< share of the pictures with the region
   double area = 0;           ///< median, pixels
-  double light = 1;          ///< its luma over the brightest there is
-  double change = 0;         ///< what two of its shapes do not share, laid over each other: 0 never moves
-  double taper = 0;          ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
-  double solidity = 0;       ///< its area over its convex hull's
-  double steadiness = 0;     ///< how much less its base moves than its tip: 0 only the base moves, 1 only the tip
-  double contrast = 255;     ///< its brightness less that of what is around it, levels, once its level has settled
-  double softness = 0;       ///< share of its area that comes or goes with a level's change
-  double likeness = 0;       ///< what a still picture tells of all these, in one: more is likelier
-  double score = 0;          ///< … and how it moves
+  double light = 1;          ///< its luma divided by the brightest region's
+  double change = 0;         ///< 1 − overlap of two of its aligned shapes: 0 never deforms
+  double taper = 0;          ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
+  double solidity = 0;       ///< its area divided by its convex hull's
+  double steadiness = 0;     ///< reduction of motion from tip to base: 0 only the base moves, 1 only the tip
+  double contrast = 255;     ///< brightness minus that of its surroundings, levels, once its level is final
+  double softness = 0;       ///< share of its area that changes with the level
+  double likeness = 0;       ///< combined evidence from still pictures: larger is likelier
+  double score = 0;          ///< … and from movement
 };
 
-/// All candidates in one channel at one level.
+/// Finds all candidates in one channel at one level.
 std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGrid& luma, int level,
                                        const Evidence& evidence);
 
-/// Sets `softness` from the candidates of the levels below and above (that below may be null), the likeness and the
-/// score.
+/// Sets `softness` from the candidates of the next lower level (may be null) and the next higher level, then likeness
+/// and score.
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence);
 
-/// The median left, upper, right and lower sides of some boxes: what a thing now and then runs together with counts
-/// not.
+/// Median left, upper, right and lower sides of some boxes, robust against occasional merging with other regions.
 ///
+/// Precondition: there is a box.
 /// Precondition: there is one.
 Region usual_place(std::span<const Region> seen);
 
-/// The area that two rectangles share over the area of both.
+/// Intersection over union of two rectangles.
 double shared_share(const Region& a, const Region& b);
 
 }  // namespace wisp

@@ -9,12 +9,12 @@
 namespace wisp {
 namespace {
 
-constexpr double kReach = 2.5;                    // heights of the flame to both sides of it
-constexpr double kBelow = 0.2, kDeep = 0.5;       // … and below it, from the strip's top to its end: the rim glows
+constexpr double kReach = 2.5;                    // flame heights searched on both sides
+constexpr double kBelow = 0.2, kDeep = 0.5;       // … and below: begin and end of the strip; the rim glows
 constexpr double kMinWax = 16, kMinEdge = 14;     // levels of 255
-constexpr double kNarrowest = 0.15, kWidest = 4;  // heights: what is wider is a table
+constexpr double kNarrowest = 0.15, kWidest = 4;  // flame heights; a wider one is a table
 
-// Mean levels of a strip's columns over all pictures, 0 to 255.
+// Mean level of each column of a strip over all pictures, 0 to 255.
 std::vector<double> profile(std::span<const Picture> pictures, PixelChannel channel, const Region& strip) {
   std::vector<double> sums(static_cast<std::size_t>(strip.width), 0.0);
   std::vector<std::uint8_t> pixels(sums.size() * static_cast<std::size_t>(strip.height));

@@ -12,7 +12,7 @@ struct Gradient {
   double y = 0;
 };
 
-// Sobel's operator, the picture continued beyond its border by its border.
+// Sobel operator; beyond its border the picture is continued by its border pixels.
 Gradient sobel(const ImageView& image, int x, int y) {
   const int left = std::max(x - 1, 0), right = std::min(x + 1, image.width - 1);
   const std::uint8_t* above = image.row(std::max(y - 1, 0));
@@ -35,7 +35,7 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (low - top);
 }
 
-// A bright pixel on the picture's border: the outline runs along the border itself.
+// Edge at a bright pixel on the picture's border: the outline runs along the border itself.
 EdgePoint border_edge(const ImageView& image, PixelPosition pixel) {
   EdgePoint edge{static_cast<double>(pixel.x), static_cast<double>(pixel.y), 0, 0};
   if (pixel.x == 0) edge.normal_x = -1;
@@ -52,7 +52,7 @@ bool on_border(const ImageView& image, PixelPosition pixel) {
 
 constexpr std::size_t kMinBoundary = 12;
 
-// A direction across (to the right when the base is below) and one down (towards the base).
+// Axes relative to the base: across (to the right for a base below) and down (towards the base).
 struct Axes {
   double right_x = 1;
   double right_y = 0;
@@ -83,7 +83,7 @@ struct Stretch {
   }
 };
 
-// The middle of what lies between two depths.
+// Centre of the boundary between two depths.
 double middle_across(std::span<const PixelPosition> boundary, const Axes& axes, double from, double to) {
   Stretch across;
   for (const PixelPosition& p : boundary) {
@@ -93,9 +93,9 @@ double middle_across(std::span<const PixelPosition> boundary, const Axes& axes, 
   return 0.5 * (across.low + across.high);
 }
 
-// How far the lower part's middle line goes to the right for each pixel up.
+// Slope of the lower part's centre line: pixels to the right per pixel up.
 double lean(std::span<const PixelPosition> boundary, const Axes& axes) {
-  constexpr double kSteepest = 1.7;  // 60 degrees: a middle line flatter than that is not one
+  constexpr double kSteepest = 1.7;  // 60 degrees: a flatter centre line is unreliable
   Stretch depth;
   for (const PixelPosition& p : boundary) depth.take(axes.down(p.x, p.y));
   const double band = std::max(0.1 * (depth.high - depth.low), 1.0);
@@ -105,15 +105,15 @@ double lean(std::span<const PixelPosition> boundary, const Axes& axes) {
   return std::clamp(drift / (2 * band), -kSteepest, kSteepest);
 }
 
-// The direction in which a corner of the base is farthest out.
+// Direction in which a corner of the base is the extreme point.
 struct Outwards {
   double x = 0;
   double y = 0;
   double reach(double px, double py) const { return x * px + y * py; }
 };
 
-// Down and to the left (side −1) or right (side 1) by 45 degrees; turned with a thing that leans over that corner, or
-// its side would be farther out than its corner.
+// Down and to the left (side −1) or right (side 1) at 45 degrees, rotated for an object that leans over that corner, as
+// its side would otherwise be more extreme than its corner.
 Outwards corner_direction(const Axes& axes, int side, double leaning) {
   const double over = side < 0 ? std::min(leaning, 0.0) : std::max(leaning, 0.0);
   const double size = std::sqrt(1 + over * over);
@@ -133,7 +133,7 @@ std::size_t farthest(std::span<const PixelPosition> boundary, const Outwards& ou
   return best;
 }
 
-// A stretch of a closed boundary: `count` pixels from `first` on, clockwise.
+// An arc of a closed boundary: `count` pixels from `first` on, clockwise.
 struct Arc {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -152,7 +152,7 @@ void locate_points(const BoundaryWindow& window, std::span<const PixelPosition> 
   }
 }
 
-// Area to the right of a way through the points, closed by a straight line; y down and clockwise: positive.
+// Area to the right of a path through the points, closed by a straight line; positive for clockwise with y down.
 double enclosed(std::span<const EdgePoint> points) {
   double twice = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -162,8 +162,8 @@ double enclosed(std::span<const EdgePoint> points) {
   return 0.5 * twice;
 }
 
-// A corner to a fraction of a pixel: the mean of the edge points near the end, weighted by how nearly they are the
-// farthest in its direction. Points beyond the mean are left out, so that the curve ends there.
+// Sub-pixel position of a corner: the mean of the edge points near the end, weighted by how extreme they are in its
+// direction. Points beyond the mean are dropped, so that the curve ends there.
 void settle_corner(std::vector<EdgePoint>& points, bool last, const Outwards& out, double height) {
   const double blur = std::max(0.01 * height, 1.0);
   const auto at = [&](std::size_t k) -> EdgePoint& { return points[last ? points.size() - 1 - k : k]; };
@@ -190,8 +190,8 @@ void settle_corner(std::vector<EdgePoint>& points, bool last, const Outwards& ou
   }
 }
 
-// The tip's place in arc length: the mean of places weighted by how nearly farthest from the base they are, which does
-// not leap from corner to corner of a blunt tip.
+// Position of the tip in arc length: the mean of positions weighted by their distance from the base, which does not
+// jump between the corners of a blunt tip.
 double tip_place(const EdgeCloud& cloud) {
   const double blur = std::max(0.02 * cloud.height, 0.5);
   double weights = 0, places = 0;
@@ -206,7 +206,7 @@ double tip_place(const EdgeCloud& cloud) {
   return places / weights;
 }
 
-// Height, arc lengths and the landmarks' shares of them. Returns whether the tip lies between the corners.
+// Computes height, arc lengths and the landmarks' shares of them. Returns whether the tip lies between the corners.
 bool measure_way(EdgeCloud& cloud) {
   const std::size_t count = cloud.points.size();
   cloud.way.assign(count, 0.0);
@@ -223,7 +223,7 @@ bool measure_way(EdgeCloud& cloud) {
   return cloud.shares[0] < cloud.shares[1] && cloud.shares[1] < cloud.shares[2];
 }
 
-// Puts half of the underside's points before the left corner and half behind the right one. Returns how many before.
+// Puts half of the underside's points before the left corner and half after the right one. Returns the number before.
 std::size_t follow_underside(EdgeCloud& cloud, std::vector<EdgePoint>& underside) {
   const std::ptrdiff_t middle = static_cast<std::ptrdiff_t>(underside.size() / 2);
   cloud.points.insert(cloud.points.end(), underside.begin(), underside.begin() + middle + 1);
@@ -235,7 +235,7 @@ std::size_t follow_underside(EdgeCloud& cloud, std::vector<EdgePoint>& underside
 
 EdgePoint locate_edge(const ImageView& image, int level, PixelPosition pixel) {
   assert(image.at(pixel.x, pixel.y) > level);
-  // A diagonal neighbour that is dark lies √2 away, and the gradient's direction is not quite the profile's.
+  // A dark diagonal neighbour is √2 away, and the gradient's direction differs slightly from the profile's.
   constexpr double kStep = 0.75;
   constexpr int kSteps = 3;
   const double target = level + 0.5;
@@ -291,7 +291,7 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
   const Outwards to_left = corner_direction(axes, -1, leaning), to_right = corner_direction(axes, 1, leaning);
   const std::size_t size = boundary.size();
   const std::size_t left = farthest(boundary, to_left), right = farthest(boundary, to_right);
-  // On a pointed foot both corners are one: the way over the tip is the whole boundary.
+  // On a pointed foot both corners coincide: the path over the tip is the whole boundary.
   const Arc over{left, left == right ? size : (right + size - left) % size + 1};
   const Arc under{right, (left + size - right) % size + 1};
   if (over.count < kMinBoundary / 2) return false;

@@ -1,17 +1,17 @@
 #pragma once
-// Edge points: Sobel gradients along a region's boundary, located to a fraction of a pixel (section 3.1 of the paper;
-// the direction from the picture itself, the place where brightness along it crosses the level, which a thresholded
-// picture gives only to half a pixel). And the edge points of one outline in their order: from the base's left over the
-// tip to the base's right, each with its place along the way.
+// Edge points along a region's boundary with sub-pixel accuracy (section 3.1 of the paper): the direction is the
+// picture's Sobel gradient; the position is where brightness crosses the level along it, which a thresholded picture
+// gives only to half a pixel. The edge points of an outline are ordered from the base's left over the tip to the base's
+// right, each with its position along the path.
 //
-// The base is where the outline is open. Its two corners are the boundary's outermost points towards lower left and
-// lower right, seen along the axis of the thing's lower part: on a flat base its corners, on a round one two points
-// beside the lowest, on a forked one the two feet. (The lowest pixel of a flame jumps about; these do not.) The curve
-// runs from corner to corner, or, where the underside is worth following (a flame forked by its wick), on along the
-// underside until both ends meet in its middle.
+// The outline is open at the base. Its two corners are the boundary's extreme points towards lower left and lower
+// right, relative to the axis of the object's lower part: the corners of a flat base, two points beside the lowest of a
+// round one, the two feet of a forked one. (The lowest pixel of a flame jumps; these do not.) The curve runs from
+// corner to corner or, where following the underside pays (a flame forked by its wick), along the underside until both
+// ends meet in its middle.
 //
-// The place s of an edge point is its share of the arc length, counted apart between landmarks (the base's corners, the
-// tip), so that these have the same s in every frame and what slides along a growing flame is as little as can be.
+// The parameter s of an edge point is its share of the arc length, normalised separately between landmarks (base
+// corners and tip). Landmarks so have equal s in every frame, which minimises sliding along a growing flame.
 
 #include <array>
 #include <span>
@@ -24,9 +24,9 @@ namespace wisp {
 
 /// A point on the outline.
 struct EdgePoint {
-  double x = 0;  ///< pixels, pixel centres at whole numbers
+  double x = 0;  ///< pixels; pixel centres have integer coordinates
   double y = 0;
-  double normal_x = 0;  ///< unit, pointing out of the bright region
+  double normal_x = 0;  ///< unit vector, pointing out of the bright region
   double normal_y = 0;
 };
 
@@ -35,61 +35,60 @@ struct EdgePoint {
 /// Precondition: pixel lies inside the image and is brighter than `level`.
 EdgePoint locate_edge(const ImageView& image, int level, PixelPosition pixel);
 
-/// Steps of a pace that is fitted.
+/// Number of intervals of a fitted pace.
 inline constexpr int kPaceSteps = 64;
 
-/// How a boundary becomes a cloud.
+/// Options for converting a boundary to a cloud.
 struct EdgeCloudOptions {
   BaseSide base = BaseSide::kBottom;
   bool underside = false;  ///< follow the underside too
-  int max_points = 320;    ///< edge points at most; a longer boundary is taken in even strides: 40 to a control point
-                           ///< of 8 are far more than needed, and cost follows them
-  /// Where along the cloud the landmarks lie: left corner, tip, right corner; ascending. The corners are 0 and 1 where
-  /// the underside is not followed.
+  int max_points = 320;    ///< maximum number of edge points; longer boundaries are subsampled evenly. 40 per control
+                           ///< point (for 8) are ample, and cost is proportional
+  /// Positions of the landmarks in the cloud: left corner, tip, right corner; ascending. The corners are at 0 and 1
+  /// where the underside is not followed.
   std::array<double, 3> landmarks{0, 0.5, 1};
-  /// The curve's parameter at evenly spread places of the cloud: ascending from 0 to 1, at least two values. A curve of
-  /// few control points that turns a sharp corner must slow down there.
+  /// The curve's parameter at equally spaced positions of the cloud: ascending from 0 to 1, at least two values. A
+  /// curve of few control points must slow down at sharp corners.
   std::vector<double> pace{0, 1};
 };
 
-/// The pace of a curve that is run through evenly.
+/// The pace of a curve with uniform speed.
 std::vector<double> even_pace();
 
-/// The parameter that a pace gives for a place of the cloud, 0 to 1.
+/// Curve parameter at a position of the cloud, 0 to 1.
 double at_pace(std::span<const double> pace, double place);
 
-/// An outline's edge points.
+/// Edge points of one outline.
 struct EdgeCloud {
   std::vector<EdgePoint> points;  ///< base's left, over the tip, to base's right; first and last are the base's ends
-  std::vector<double> s;          ///< the curve's parameter where each point belongs, 0 to 1, ascending
-  std::array<double, 3> shares{0, 0.5, 1};  ///< of the whole arc length up to each landmark
+  std::vector<double> s;          ///< curve parameter assigned to each point, 0 to 1, ascending
+  std::array<double, 3> shares{0, 0.5, 1};  ///< share of the arc length at each landmark
   double height = 0;                        ///< from the base's middle to the tip, pixels
-  double base_x = 0;                        ///< the middle between the base's corners
+  double base_x = 0;                        ///< midpoint of the base's corners
   double base_y = 0;
-  double area = 0;               ///< inside the edge points, closed by a straight line, square pixels
+  double area = 0;               ///< enclosed by the edge points and a straight line at the base, square pixels
   std::vector<double> way;       ///< arc length up to each point, pixels
-  std::size_t left_corner = 0;   ///< point at the base's left corner
-  std::size_t right_corner = 0;  ///< … and at its right one
-  double left_out = 0;           ///< area between that line and the underside; 0 where that is followed
+  std::size_t left_corner = 0;   ///< index of the point at the base's left corner
+  std::size_t right_corner = 0;  ///< … and at its right corner
+  double left_out = 0;           ///< area between that line and the underside; 0 if it is followed
 };
 
-/// The part of a picture that a boundary was followed in.
+/// The part of a picture in which a boundary was followed.
 struct BoundaryWindow {
   ImageView image;  ///< the window's pixels
   Region place;     ///< where the window lies in the picture
-  Region area;      ///< all of the picture that may be looked at: beyond its border nothing can be seen
-  int level = 0;    ///< brighter than this is inside
+  Region area;      ///< searchable part of the picture: nothing is visible beyond its border
+  int level = 0;    ///< brightness threshold of the region
 };
 
-/// Makes the cloud of a boundary, clockwise as follow_boundary gives it and in the window's pixels, into `cloud`, in
-/// the picture's pixels; the cloud's memory is used again. Returns whether it could: a boundary of a few pixels has no
-/// sides.
+/// Converts a boundary, clockwise as from follow_boundary and in the window's pixels, to a cloud in the picture's
+/// pixels, reusing the cloud's memory. Returns false where the boundary is too small to have sides.
 ///
 /// Precondition: every boundary pixel lies inside the window and is brighter than the level.
 bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
                      const EdgeCloudOptions& options, EdgeCloud& cloud);
 
-/// Sets `s` anew for other landmarks or another pace; the cloud must have been made with the same `underside`.
+/// Recomputes `s` for other landmarks or another pace; the cloud must have been made with the same `underside`.
 void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options);
 
 }  // namespace wisp

@@ -12,13 +12,13 @@ namespace wisp {
 namespace {
 
 constexpr int kMaxPoints = 96;              // points wide and high, at most
-constexpr std::size_t kBlock = 4;           // points wide and high, of which the mean is compared
-constexpr int kDark = 24;                   // levels: coding errors and a camera's noise lie below
-constexpr double kMaxIsNew = 0.4;           // of the light above them: cuts 0.6 to 1, a snuffed candle 0.2
-constexpr double kMinTotalLight = 3 * 255;  // of all points: less is a spark
+constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
+constexpr int kDark = 24;                   // grey levels: above coding errors and camera noise
+constexpr double kMaxIsNew = 0.4;           // share of the light that is new: cuts 0.6 to 1, a snuffed candle 0.2
+constexpr double kMinTotalLight = 3 * 255;  // sum over all points: less is a spark
 constexpr int kFlat = 250;                  // of 255 levels
 
-// Correlation of two pictures' blocks; 1 where either shows next to nothing, as a dark room before a candle is lit.
+// Correlation of two pictures' blocks; 1 where either is nearly uniform, as a dark room before a candle is lit.
 double likeness(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kMinSpread = 6;  // levels
   const double spread_a = deviation(a), spread_b = deviation(b);
@@ -31,7 +31,7 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr int kMaxStep = 8;
-  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // levels: less is noise
+  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // share explained; minimum difference in levels, above noise
   const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {
@@ -78,7 +78,7 @@ void FilmLook::look(const Picture& picture) {
   down_ = std::move(down);
 }
 
-// At a cut two pictures are far less alike than others of the film are, one and the next.
+// A cut shows as a pair of consecutive pictures with far less correlation than is usual in the film.
 FilmFacts FilmLook::facts() const {
   constexpr double kMinCut = 0.5, kBeyondOthers = 3;
   FilmFacts out{.pictures = flat_.size()};

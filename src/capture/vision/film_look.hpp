@@ -1,8 +1,8 @@
 #pragma once
-// What a film is like, whatever is in it: cuts, a moving camera, light. All on a coarse grid of luma.
+// Properties of a film independent of its subject: cuts, camera motion, light. All from a coarse grid of luma.
 //
-// Where a flame goes out its scene darkens, and little becomes brighter: a lamp that stood beside it stays, and what
-// puts it out is small. Where a film is cut to another scene, its light is where none was before.
+// Where a flame goes out its scene darkens and little becomes brighter: lamps beside it stay, and the object that
+// extinguishes it is small. After a cut, light appears where none was before.
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace wisp {
 
-/// How far b is a moved along, as a share of its length, in whole steps; 0 where no move explains most of what differs.
+/// Shift from a to b as a share of the length, in whole steps; 0 where no shift explains most of the difference.
 double step_between(const std::vector<double>& a, const std::vector<double>& b);
 
 class FilmLook {
@@ -21,31 +21,31 @@ class FilmLook {
   /// Takes in the next picture of the film; all have one size.
   void look(const Picture& picture);
 
-  FilmFacts facts() const;  ///< of the pictures so far
+  FilmFacts facts() const;  ///< facts of the pictures so far
 
-  /// Takes in a picture that shows the thing.
+  /// Takes in a picture in which the object was found.
   void remember(const Picture& picture);
 
-  /// Whether no picture that shows the thing was taken in.
+  /// Whether no such picture was taken in.
   bool empty() const { return brightest_.empty(); }
 
-  /// Whether most of the light in a picture is where there was none in those that show the thing.
+  /// Whether most of the light in a picture is where pictures of the object had none.
   bool another(const Picture& picture);
 
  private:
   void sample(const Picture& picture);
 
   std::vector<std::uint8_t> now_;        // luma of a coarse grid
-  std::vector<std::uint8_t> brightest_;  // … of what shows the thing, at its brightest so far
+  std::vector<std::uint8_t> brightest_;  // … of pictures of the object, maximum so far
   std::size_t columns_ = 0;
   std::vector<double> blocks_, across_, down_;  // means of the last picture's blocks, columns and rows
-  std::vector<double> changes_;                 // how unlike a picture is to the one before: 1 less their correlation
+  std::vector<double> changes_;                 // dissimilarity of each picture to the one before: 1 − correlation
   double brightest_point_ = 0;
-  std::vector<double> flat_;  // share of each picture that is as bright as a camera shows anything
-  double moved_ = 0;          // sum of steps, shares of the picture
+  std::vector<double> flat_;  // share of saturated points in each picture
+  double moved_ = 0;          // sum of shifts, as shares of the picture
 };
 
-/// Why no flame can be told in a film, whatever is in it: too short, too dark, moved, too bright.
+/// Reason why no flame can be identified in a film, whatever its subject: too short, dark, unsteady or bright.
 std::optional<std::string> film_reason(const FilmFacts& film);
 
 }  // namespace wisp

@@ -11,11 +11,11 @@ namespace wisp {
 namespace {
 
 constexpr int kBins = 128;
-constexpr double kWorthwhile = 0.98;  // placed knots must miss less than this share of what uniform ones miss,
-constexpr double kMinGain = 0.002;    // … and less by this share of the area: a fifth of a percent cannot be seen
+constexpr double kWorthwhile = 0.98;  // placed knots must have less than this share of the uniform knots' misfit,
+constexpr double kMinGain = 0.002;    // … and a misfit lower by this share of the area, as less is invisible
 using Density = std::array<double, kBins>;
 
-// Mean turning of the outlines' direction in each bin of s; sums to 1.
+// Mean change of the outlines' direction in each bin of s, normalised to a sum of 1.
 Density bending(std::span<const EdgeCloud> clouds) {
   Density out{};
   for (const EdgeCloud& cloud : clouds) {
@@ -34,7 +34,7 @@ Density bending(std::span<const EdgeCloud> clouds) {
   return out;
 }
 
-// Knots with equal amounts of the density (bending^power, mixed with an even share) between them.
+// Knots that divide the density (bending^power, mixed with a uniform share) into equal amounts.
 std::vector<double> spread(const Density& bend, int points, double even, double power) {
   Density density;
   double sum = 0;
@@ -62,8 +62,8 @@ double way_between(const EdgeCloud& cloud, std::size_t k) {
 
 constexpr int kPaceRounds = 3;
 
-// A curve that follows an outline closely by crossing itself, in a loop at a sharp tip or where legs part at the base,
-// is worse than any that does not: played with noise it would cross itself all the more.
+// Penalty for a curve that follows an outline by a loop at a sharp tip or at the base: in play with noise it would
+// intersect itself even more.
 constexpr double kFolded = 1;
 
 bool folds(const SplineTable& table, std::span<const double> controls) {
@@ -79,7 +79,7 @@ double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   return area / cloud.area;
 }
 
-// Where on their curves the edge points ended, against where they were put, gathered over the clouds.
+// Collects the parameters at which edge points ended on their curves, against those assigned, over the clouds.
 class PaceMeasure {
  public:
   void add(std::span<const double> even, std::span<const double> reached) {
@@ -99,7 +99,7 @@ class PaceMeasure {
     for (int k = 1; k < kPaceSteps; ++k) {
       if (weight_[k] > 0) out[k] = sum_[k] / weight_[k];
     }
-    // Never backwards, and never standing still: an edge point more has to move the parameter.
+    // Strictly increasing: each further edge point has to advance the parameter.
     for (int k = 1; k <= kPaceSteps; ++k) out[k] = std::max(out[k], out[k - 1] + 0.1 / kPaceSteps);
     const double whole = out.back();
     for (double& value : out) value /= whole;

@@ -21,23 +21,23 @@ namespace {
 constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;  // to a control point: more do not make it steadier, as their errors go together
+constexpr int kEdgePointsEach = 12;  // per control point: more add no stability, as their errors correlate
 constexpr int kShownPoints = 64;
-constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
-constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
+constexpr std::size_t kSurveyed = 20;  // number of held frames in the survey
+constexpr std::size_t kSamples = 6;    // … and of those used to try outlines
 
-// What is no flame yet: flames move by 0.05 and more within a second, lit walls and lamps by 0.015 at most. Filmed from
-// a hand, the rim of a round lamp falls on other pixels from picture to picture: 0.05 where it is 24 pixels wide.
+// Minimum change of shape of a flame: flames reach 0.05 and more within a second, lit walls and lamps 0.015 at most.
+// With a hand-held camera, a round lamp's rim falls on different pixels: 0.05 for one that is 24 pixels wide.
 constexpr double kMinChange = 0.02;
 constexpr double kMinRoundChange = 0.1;
 constexpr double kMinNarrowing = 0.25;
 constexpr double kMinLight = 0.85;
 constexpr double kMinContrast = 20;
 constexpr double kMaxWidth = 0.8;
-constexpr double kSamePlace = 0.5;  // of both places, shared by what is the same thing
+constexpr double kSamePlace = 0.5;  // intersection over union of the places of one object
 
-// Following the underside takes control points away from the sides and makes them move more: it has to pay, and always,
-// as the clip's first second may be calm where later the flame leaves one foot and then the other.
+// Following the underside takes control points from the sides and makes them move more. It must pay in all samples, as
+// the clip's first second may be calm where later the flame leaves one foot and then the other.
 constexpr double kWorthFollowing = 0.6;
 
 bool worth_following(const CurveShape& around, const CurveShape& above) {
@@ -45,21 +45,21 @@ bool worth_following(const CurveShape& around, const CurveShape& above) {
                     [](double with, double without) { return with < kWorthFollowing * without; });
 }
 
-// Whether a thing is usually wider than a flame.
+// Whether the object is usually wider than a flame.
 bool is_round(const Survey& survey) {
   std::vector<double> widths;
   for (const Region& box : survey.seen) widths.push_back(static_cast<double>(box.width) / box.height);
   return median(std::move(widths)) > kMaxWidth;
 }
 
-// A flame that has not been lit yet is waited for. What stands still, is lit by something else, or is hardly brighter
-// than what is around it, as a dark room's noise, is none: the verdict would refuse it.
+// Whether the object burns; if not, the capture waits for a flame to be lit. Objects that stand still, are lit by
+// something else, or hardly exceed their surroundings (noise of a dark room) would be refused by the verdict.
 bool burns(const Survey& survey) {
   return survey.change >= (is_round(survey) ? kMinRoundChange : kMinChange) && survey.taper >= kMinNarrowing &&
          survey.light >= kMinLight && survey.contrast >= kMinContrast;
 }
 
-// At most `count` of the pictures, evenly spread.
+// At most `count` of the pictures, equally spaced.
 std::vector<Picture> evenly_from(std::span<const Picture> pictures, std::size_t count) {
   std::vector<Picture> out;
   const std::size_t stride = (pictures.size() + count - 1) / count;
@@ -69,7 +69,7 @@ std::vector<Picture> evenly_from(std::span<const Picture> pictures, std::size_t 
 
 }  // namespace
 
-// What a capture knows between frames.
+// State of a capture between frames.
 class OutlineCapture::Stage {
  public:
   explicit Stage(OutlineCaptureOptions options) : options_(std::move(options)) {}
@@ -88,8 +88,8 @@ class OutlineCapture::Stage {
   void wait_on(const Result<Survey>& survey);
   std::string too_few(const Survey& survey) const;
   struct Samples {
-    std::vector<EdgeCloud> above;   // from corner to corner over the tip
-    std::vector<EdgeCloud> around;  // with the underside
+    std::vector<EdgeCloud> above;   // paths from corner to corner over the tip
+    std::vector<EdgeCloud> around;  // paths including the underside
   };
   Samples take_samples(std::span<const Picture> pictures) const;
   std::vector<double> decide_shape(Samples& samples);
@@ -103,18 +103,18 @@ class OutlineCapture::Stage {
   int width_ = 0;
   int height_ = 0;
   std::size_t fed_ = 0;
-  std::vector<std::optional<OwnedPicture>> held_;  // nothing: a lost frame
+  std::vector<std::optional<OwnedPicture>> held_;  // empty: a lost frame
   std::size_t held_bytes_ = 0;
-  bool waited_ = false;  // for a flame that was not there at first
+  bool waited_ = false;  // whether it waited for a flame absent at first
   struct Waited {
     Region place;
     std::size_t rows = 0;
   };
-  std::vector<Waited> stood_still_;  // what was there meanwhile
+  std::vector<Waited> stood_still_;  // objects that were there meanwhile
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<CandleLook> candle_;
-  std::optional<Picture> format_;  // the first picture's layout, without its planes
+  std::optional<Picture> format_;  // layout of the first picture, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
   FilmLook film_;
@@ -168,13 +168,13 @@ void OutlineCapture::Stage::lost() {
   held_.emplace_back(std::nullopt);
 }
 
-// A frame without an outline.
+// Records a frame without an outline.
 void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
   findings_.frames.push_back({kind, 0, 0, 0});
   findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
 }
 
-// Lets half of the held frames go: there is no flame in them yet. Glimpses of the whole clip have been of no use.
+// Discards half of the held frames, as they contain no flame yet. Glimpses of the whole clip did not help.
 void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
   if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
@@ -197,7 +197,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
   const bool flame = options_.flame > 0 && !options_.dark;
-  // Frames in which the flame is lit half-way through show it in too few pictures: the next ones are waited for.
+  // A flame lit halfway through the held frames appears in too few of them, so the next ones are awaited.
   const bool throughout = survey && (!waited_ || 3 * survey->seen.size() >= 2 * seen.size());
   if (flame && !at_end && !(throughout && burns(*survey))) {
     wait_on(survey);
@@ -225,13 +225,13 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   return {};
 }
 
-// That none was found, or what about the film is why.
+// Error that no flame was found, with the film's property that explains it.
 Error OutlineCapture::Stage::no_flame(const std::string& why) const {
   if (options_.flame == 0 || options_.dark) return complaint(why);
   return complaint(film_reason(film_.facts()).value_or("there is no flame in the film: " + why));
 }
 
-// That there are fewer than `options_.flame`, and where they were counted.
+// Explains that fewer than `options_.flame` flames were found, and where they were counted.
 std::string OutlineCapture::Stage::too_few(const Survey& survey) const {
   return "found " + std::to_string(survey.flames) + (survey.flames == 1 ? " flame" : " flames") + " in frames " +
          std::to_string(findings_.size() + 1) + " to " + std::to_string(findings_.size() + held_.size()) +
@@ -239,7 +239,7 @@ std::string OutlineCapture::Stage::too_few(const Survey& survey) const {
          "; ask for a smaller number, or give the frames in which there are more";
 }
 
-// The edge points of a few of the pictures and of the glimpses, without and with the underside.
+// Edge points of a few pictures and glimpses, without and with the underside.
 OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(std::span<const Picture> pictures) const {
   EdgeCloudOptions above = cloud_options_, around = cloud_options_;
   around.underside = true;
@@ -259,8 +259,7 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(std::span<con
   return samples;
 }
 
-// Decides whether the underside is followed, where along the curve the landmarks lie, and where the knots. Returns the
-// knots.
+// Decides whether the underside is followed, the positions of the landmarks, and the knots. Returns the knots.
 std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
   CurveShape best;
   for (const bool underside : {false, true}) {
@@ -304,7 +303,7 @@ void OutlineCapture::Stage::look(const Picture& picture) {
   findings_.frames.push_back(finding);
 }
 
-// A level of the survey as brightness.
+// Converts a level of the survey to brightness.
 double OutlineCapture::Stage::bright(int stored) const {
   return brightness(*format_, survey_->channel, options_.dark ? 255 - stored : stored);
 }

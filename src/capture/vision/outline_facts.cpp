@@ -10,12 +10,12 @@
 namespace wisp {
 namespace {
 
-constexpr double kMoveShare = 0.35;  // of the height: a base that moves farther in a frame is another one
-constexpr double kJumpRatio = 2.2;   // … and a height that changes so many times
-constexpr double kOutSeconds = 0.3;  // without a flame until the end: it went out; gaps in films last 0.13 at most
+constexpr double kMoveShare = 0.35;  // heights: a base that moves farther between frames belongs to another object
+constexpr double kJumpRatio = 2.2;   // … as does a height that changes by this factor
+constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; gaps in films last 0.13 at most
 constexpr int kCurvePoints = 64;
 
-// One row's outline.
+// The outline of one row.
 struct OutlineRow {
   std::size_t row = 0;
   std::vector<CurvePoint> curve;
@@ -39,12 +39,12 @@ OutlineRow shape_of(const Recording& recording, const SplineTable& table, std::s
   return shape;
 }
 
-// Twice the area of the triangle a, b, c; above 0 where they turn left.
+// Twice the signed area of the triangle a, b, c; positive for a left turn.
 double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// How wide a shape is across its axis at a share of its height above the base.
+// Width of a shape across its axis, at a share of its height above the base.
 double width_at(const OutlineRow& shape, double share) {
   const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
   double low = 1e30, high = -1e30;
@@ -61,7 +61,7 @@ double width_at(const OutlineRow& shape, double share) {
   return std::max(0.0, high - low);
 }
 
-// How wide a shape is across its axis where it is widest, in heights.
+// Maximum width of a shape across its axis, in heights.
 double full_width(const OutlineRow& shape) {
   double low = 1e30, high = -1e30;
   for (const CurvePoint& p : shape.curve) {
@@ -72,7 +72,7 @@ double full_width(const OutlineRow& shape) {
   return high - low;
 }
 
-// How far it leans to either side, degrees: 0 where its tip lies above its base, 90 beside it, 180 below.
+// Lean in degrees: 0 with the tip above the base, 90 beside it, 180 below it.
 double lean_of(const OutlineRow& shape) {
   return std::atan2(std::abs(shape.tip.x - shape.base.x), shape.base.y - shape.tip.y) * 180 / std::numbers::pi;
 }
@@ -82,8 +82,7 @@ double taper_of(const OutlineRow& shape) {
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
 }
 
-// How much a curve's points move on its base, pixels squared: all of it, and what changes at random from frame to
-// frame.
+// Motion of a curve's points relative to its base, in pixels squared: total, and the random part from frame to frame.
 struct Motion {
   std::array<double, kCurvePoints> variance{};
   std::array<double, kCurvePoints> noise{};
@@ -101,7 +100,7 @@ Motion motion_of(const std::vector<OutlineRow>& shapes) {
       double squares = 0;
       for (std::size_t i = 1; i + 1 < values.size(); ++i) {
         const double bend = values[i - 1] - 2 * values[i] + values[i + 1];
-        squares += bend * bend / 6;  // of noise alone its variance
+        squares += bend * bend / 6;  // for noise alone, its variance
       }
       out.noise[k] += squares / static_cast<double>(std::max<std::size_t>(shapes.size(), 3) - 2);
     }
@@ -134,8 +133,8 @@ double jumps_of(const std::vector<OutlineRow>& shapes, double height) {
   return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
 }
 
-// Shares of rows in which the curve reaches a border, but for the border on which both of its ends lie: there the
-// picture cuts off what holds it, as a flag's mast.
+// Share of rows in which the curve touches each border, except the border with both of its ends: there the picture cuts
+// off the object's support, such as a flag's mast.
 std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width, int height) {
   constexpr double kNear = 1.5;  // pixels
   std::array<double, 4> out{};
@@ -153,7 +152,7 @@ std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width
   return out;
 }
 
-// The row after the last outline, where nothing comes for long enough and the film does not fade out.
+// Row after the last outline, where the absence is long enough and the film does not fade out.
 std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
   const std::size_t dark = report.frames - 1 - last;
   if (report.facts.fades_out || static_cast<double>(dark) < kOutSeconds * report.rate_hz) return std::nullopt;

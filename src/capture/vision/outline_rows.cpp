@@ -11,22 +11,21 @@
 namespace wisp {
 namespace {
 
-constexpr double kFadeShare = 0.73;  // a thing dimmer than this share of its usual brightness is fading
-// In the last 0.1 s before it is lost, a flame that a film fades out over 1 to 2 s is dimmer than 0.89 of its usual
-// brightness; a snuffed one has 0.94 to 0.98.
+constexpr double kFadeShare = 0.73;  // share of its usual brightness below which an object is fading
+// Brightness in the last 0.1 s before an absence, relative to usual: below 0.89 where the film fades out over 1 to 2 s,
+// 0.94 to 0.98 where a flame is snuffed.
 constexpr double kDimShare = 0.92;
 constexpr double kDimSeconds = 0.1;
-constexpr double kDuplicateShare =
-    0.35;                               // a frame that changes less than this share of its neighbours repeats the last
-constexpr double kDuplicateMost = 0.5;  // … and by less than half a grey level: a picture taken anew has its own noise
-constexpr std::size_t kNeighbours = 4;  // on each side
-constexpr std::size_t kGlint = 6;       // frames at most
+constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below which a frame is a duplicate
+constexpr double kDuplicateMost = 0.5;    // … and at most this many grey levels, as new frames have new noise
+constexpr std::size_t kNeighbours = 4;    // on each side
+constexpr std::size_t kGlint = 6;         // maximum length in frames
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
 
-// A camera's frames that a screen or a converter showed twice. What counts is the change against that of the frames
-// around: near its turning points a thing really stands still for a moment, but then its neighbours are slow too.
+// Detects frames repeated by a screen or a converter by their change relative to that of the frames around. Near its
+// turning points an object really stands still, but there its neighbours are slow too.
 bool duplicate(const FrameFindings& findings, std::size_t row) {
   const float change = findings.frames[row].change;
   if (row == 0 || change >= kDuplicateMost) return false;
@@ -54,8 +53,8 @@ double usual_brightness_of(const FrameFindings& findings) {
   return median(std::move(brightness));
 }
 
-// How many rows show each frame of a slower film or of slow motion, at most eight, and the first row of such a group:
-// then the picture changes most at a group's first row, and inside it only its grain is new.
+// Number of rows that show each frame of a slower film or of slow motion, at most eight, and the first row of such a
+// group. The picture changes most at a group's first row; within a group only noise changes.
 struct Stands {
   std::size_t times = 1;
   std::size_t first = 0;
@@ -63,7 +62,7 @@ struct Stands {
 
 Stands find_stands(const FrameFindings& findings) {
   constexpr double kMinGroups = 20, kOfGroups = 0.6,
-                   kErrors = 4;  // by chance one in `times` is such, four errors more never
+                   kErrors = 4;  // chance level is one in `times`; four errors more never occur by chance
   for (Stands found{.times = 8}; found.times > 1; --found.times) {
     for (found.first = 0; found.first < found.times; ++found.first) {
       double groups = 0, such = 0;
@@ -92,7 +91,7 @@ std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness, 
   return fate;
 }
 
-// What flashes up briefly between longer stretches of nothing is a glint, not the thing.
+// Removes brief appearances between longer absences: they are glints, not the object.
 void leave_out_glints(std::vector<Fate>& fate) {
   struct Span {
     bool nothing = false;
@@ -114,7 +113,7 @@ void leave_out_glints(std::vector<Fate>& fate) {
   }
 }
 
-// The dark end of a fade has no bright region at all: it is part of the fade.
+// Extends a fade to its dark end, where no bright region is found.
 void extend_fades(std::vector<Fate>& fate) {
   for (std::size_t k = 1; k < fate.size(); ++k) {
     if (fate[k] == Fate::kNothing && fate[k - 1] == Fate::kFade) fate[k] = Fate::kFade;
@@ -124,14 +123,14 @@ void extend_fades(std::vector<Fate>& fate) {
   }
 }
 
-// How many frames in a row may be filled: a screen shows a picture up to four times, slow motion each as often, and
-// what happened in lost frames is not known.
+// Maximum number of consecutive frames to fill: a screen repeats a picture up to four times, slow motion by its factor;
+// motion during lost frames is unknown.
 std::size_t max_filled(Fate fate, const Stands& stands) {
   if (fate == Fate::kDuplicate) return std::max<std::size_t>(3, stands.times - 1);
   return fate == Fate::kLost ? 1 : 0;
 }
 
-// Fills short gaps between outlines that are a frame's own, in a straight line from one to the other.
+// Fills short gaps between outlines of distinct frames by linear interpolation.
 void fill_gaps(std::vector<Fate>& fate, const Stands& stands, std::vector<double>& controls, std::size_t width) {
   for (std::size_t begin = 1; begin + 1 < fate.size(); ++begin) {
     const std::size_t most = max_filled(fate[begin], stands);
@@ -178,7 +177,7 @@ void count(const std::vector<Fate>& fate, const FrameFindings& findings, Capture
   report.residual = report.tracked == 0 ? 0 : residuals / static_cast<double>(report.tracked);
 }
 
-// Another scene before the first outline, or after the last one: in most of its frames something else stands elsewhere.
+// Finds another scene before the first or after the last outline: most of its frames show an object elsewhere.
 void find_other_scenes(const std::vector<Fate>& fate, const FrameFindings& findings, OutlineFacts& facts) {
   const auto first = std::find_if(fate.begin(), fate.end(), present),
              last = std::find_if(fate.rbegin(), fate.rend(), present).base();
@@ -192,7 +191,7 @@ void find_other_scenes(const std::vector<Fate>& fate, const FrameFindings& findi
   facts.other_after = other(last, fate.end());
 }
 
-// Whether the thing was dim for long enough before it was gone: then the film fades. What goes out is gone at once.
+// Whether the object was dim for long enough before it disappeared, as in a fade. A flame goes out abruptly.
 bool fades_out(const std::vector<Fate>& fate, const FrameFindings& findings, double usual_brightness, double rate_hz) {
   std::size_t end = static_cast<std::size_t>(std::find_if(fate.rbegin(), fate.rend(), present).base() - fate.begin());
   while (end < fate.size() && findings.frames[end].kind == FrameFinding::Kind::kTracked) ++end;
@@ -222,7 +221,7 @@ void write_channels(const std::vector<Fate>& fate, const std::vector<double>& co
   }
 }
 
-// Missing rows belong to the episode before them; the next outline starts a new one.
+// Writes episodes. Missing rows belong to the episode before them; the next outline starts a new one.
 void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
   RowFlag filled{"filled", {}};
   std::int64_t episode = 0;

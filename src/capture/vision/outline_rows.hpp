@@ -1,5 +1,5 @@
 #pragma once
-// What is known of each frame once it has been looked at, and how that becomes the rows of a recording.
+// Findings of each frame, and their assembly to the rows of a recording.
 
 #include <cstdint>
 #include <vector>
@@ -8,26 +8,26 @@
 
 namespace wisp {
 
-/// What one frame gave.
+/// Findings in one frame.
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;
   float change = 0;        ///< mean absolute difference from the frame before, in the thing's neighbourhood
-  float brightness = 0;    ///< of the thing
-  float residual = 0;      ///< root mean square, pixels
-  bool elsewhere = false;  ///< kNothing: something as bright and about as large stands elsewhere
+  float brightness = 0;    ///< brightness of the object
+  float residual = 0;      ///< RMS, pixels
+  bool elsewhere = false;  ///< kNothing: whether an object of similar brightness and size is elsewhere
 };
 
 /// Findings and control points of all frames so far.
 struct FrameFindings {
   std::vector<FrameFinding> frames;
-  std::vector<double> controls;  ///< 2N a frame, whatever its kind
+  std::vector<double> controls;  ///< 2N values per frame, whatever its kind
 
   std::size_t size() const { return frames.size(); }
 };
 
-/// Decides, with all frames known, which are duplicates and fades, fills single gaps, cuts episodes, and writes the
-/// recording's channels, flag and episodes and the report's counts.
+/// With all frames known, identifies duplicates and fades, fills single gaps, cuts episodes, and writes the recording's
+/// channels, flag and episodes and the report's counts.
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report);
 
 }  // namespace wisp

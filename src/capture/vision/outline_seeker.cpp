@@ -9,24 +9,24 @@
 namespace wisp {
 namespace {
 
-constexpr int kMinMargin = 8;          // pixels around the place where the thing was
-constexpr double kMarginPace = 1.5;    // … and this many times how far it moved in the last frames
-constexpr double kPaceMemory = 0.8;    // what is remembered of that from frame to frame
-constexpr double kMinAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
+constexpr int kMinMargin = 8;          // pixels around the object's last place
+constexpr double kMarginPace = 1.5;    // … plus this multiple of its recent motion
+constexpr double kPaceMemory = 0.8;    // decay of that motion per frame
+constexpr double kMinAreaShare = 0.1;  // share of its usual area: less is a spark or an ember
 constexpr int kMinArea = 24;           // pixels
 
-constexpr double kJumpShare = 0.03;  // of its length: reaching suddenly deeper than that, it may have run together
-constexpr int kMinJump = 3;          // … with what it stands on; pixels
+constexpr double kJumpShare = 0.03;  // share of its length: a sudden extension suggests merging …
+constexpr int kMinJump = 3;          // … with its stand; minimum in pixels
 
-constexpr double kSlack = 0.12;      // of the thing's length: how far above its former end its stand may begin
-constexpr double kFarDeeper = 0.25;  // of its length: what reaches so far below its place is stand, shoulder or not
+constexpr double kSlack = 0.12;      // share of its length above its former end at which its stand may begin
+constexpr double kFarDeeper = 0.25;  // share of its length: an extension this far below is stand in any case
 
-constexpr double kAsBright = 0.9;  // what is found anew is at least so bright for what was there before
-constexpr double kAsLarge = 4;     // … at most so many times larger or smaller
-constexpr double kAsNear = 0.35;   // … and stands at most this share of its length away
-constexpr double kStays = 0.2;     // of the smaller box, what is followed shares with where it was a frame ago
+constexpr double kAsBright = 0.9;  // minimum relative brightness of a rediscovered object
+constexpr double kAsLarge = 4;     // … and maximum ratio of areas
+constexpr double kAsNear = 0.35;   // … and maximum distance, as a share of its length
+constexpr double kStays = 0.2;     // minimum overlap with the last frame's box, as a share of the smaller one
 
-// The middle of a box's end towards the base.
+// Midpoint of a box's end towards the base.
 PixelPosition foot(const Region& box, BaseSide side) {
   const int edge = base_edge(box, side);
   if (side == BaseSide::kBottom || side == BaseSide::kTop) return {box.x + box.width / 2, edge};
@@ -62,7 +62,7 @@ OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& 
   return {place, {plane_.data(), place.width, place.height, place.width}};
 }
 
-// Whether what was found stands nearer to this flame's place than to another's. A camera moves all of them alike.
+// Whether the region is nearer to this flame's place than to another's. Camera motion shifts all alike.
 bool OutlineSeeker::ours(const Region& box) const {
   const PixelPosition home = foot(usual_, base_), now = following_ ? foot(found_.box, base_) : home,
                       at = foot(box, base_);
@@ -72,15 +72,15 @@ bool OutlineSeeker::ours(const Region& box) const {
   });
 }
 
-// Whether what was found is as bright as the thing and about as large: smoke is not, nor is what put it out.
+// Whether brightness and area match the object, which excludes smoke and snuffers.
 bool OutlineSeeker::alike() const {
   const double area = static_cast<double>(found_.area);
   const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;
   return bright && area < kAsLarge * usual_area_ && area > usual_area_ / kAsLarge;
 }
 
-// Whether what was found may be what was there before. What was there a frame ago is still partly where it was; what is
-// found anew stands where that stood.
+// Whether the region may be the object: after a seen frame it must overlap its last box, after an absence it must be
+// near its last place.
 bool OutlineSeeker::plausible(const Region& before) const {
   const Region& box = found_.box;
   if (following_) return intersection(box, before).area() > kStays * std::min(box.area(), before.area());
@@ -89,7 +89,7 @@ bool OutlineSeeker::plausible(const Region& before) const {
   return std::min(distance(at, last_foot_), distance(at, foot(usual_, base_))) <= kAsNear * length && alike();
 }
 
-// Nearest to what was there before: the overlap of boxes times the area.
+// Chooses the region that best matches the last one, by overlap of boxes times area.
 bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& place) {
   const Region expected = following_ ? found_.box : home_;
   double best = 0;
@@ -113,7 +113,7 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
   return best > 0;
 }
 
-// Looks inside `place`, and farther on the sides where the thing reaches out of it.
+// Searches inside `place`, extended on sides where the object reaches beyond it.
 bool OutlineSeeker::find_in(const Picture& picture, Region place) {
   int farther = margin();
   while (true) {
@@ -138,7 +138,7 @@ void OutlineSeeker::follow() {
   follow_boundary(window_.image, level_, {found_.seed_x - place.x, found_.seed_y - place.y}, boundary_);
 }
 
-// Cuts off what the thing stands on where both have run together. Returns whether there is still something left.
+// Cuts off the stand where it has merged with the object. Returns whether an object remains.
 bool OutlineSeeker::part_from_stand() {
   const Region box = found_.box, place = window_.place;
   const int end = wisp::base_edge(box, base_);
@@ -172,7 +172,7 @@ bool OutlineSeeker::part_from_stand() {
   return true;
 }
 
-// Mean difference from the frame before where the thing is and was; every second row is enough.
+// Mean difference from the frame before over the object's old and new place, in every second row.
 void OutlineSeeker::measure_change() {
   const Region place = intersection(grown(found_.box, kMinMargin), window_.place);
   const Region both = intersection(place, before_place_);
@@ -212,8 +212,8 @@ void OutlineSeeker::measure_brightness(const Picture& picture) {
   brightness_ = wisp::brightness(picture, channel_, mean);
 }
 
-// How far the thing may move from frame to frame. Where it moves farther, it touches the window's border and is looked
-// for again in more.
+// Margin for the object's motion between frames. If it moves farther, it touches the window's border and a larger
+// window is searched.
 int OutlineSeeker::margin() const { return kMinMargin + static_cast<int>(kMarginPace * pace_); }
 
 bool OutlineSeeker::seek(const Picture& picture) {
@@ -228,7 +228,7 @@ bool OutlineSeeker::seek(const Picture& picture) {
     following_ = false;
     return false;
   }
-  if (!dark_) measure_brightness(picture);  // a dark thing does not fade: its ground does
+  if (!dark_) measure_brightness(picture);  // a dark object does not fade, only its background does
   if (!plausible(before.box)) {
     elsewhere_ = !following_ && alike();
     following_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the thing in each frame, near where it was in the one before, and gives its edge points.
+// Locates the object in each frame near its last place, and provides its edge points.
 
 #include <cstdint>
 #include <vector>
@@ -14,25 +14,25 @@ namespace wisp {
 
 class OutlineSeeker {
  public:
-  /// `area` is where the thing may be at all, `base` the side on which it is held.
+  /// `area` limits the search; `base` is the side on which the object is held.
   OutlineSeeker(const Survey& survey, const Region& area, BaseSide base, bool dark);
 
-  /// Looks for the thing in the next frame. Returns whether it is there.
+  /// Searches the next frame. Returns whether the object was found.
   bool seek(const Picture& picture);
 
-  /// The edge points of the thing as it was found last, while that picture lives. Returns whether there are enough.
+  /// Edge points of the object as last found, while that picture exists. Returns whether there are enough.
   bool edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const;
 
-  /// Mean absolute difference between this frame and the one before, in the thing's neighbourhood.
+  /// Mean absolute difference between this frame and the one before, in the object's neighbourhood.
   double change() const { return change_; }
-  /// Mean brightness of the thing's pixels, 0 to 255.
+  /// Mean brightness of the object's pixels, 0 to 255.
   double brightness() const { return brightness_; }
-  /// Where nothing was found in its place: whether something as bright and about as large stands elsewhere.
+  /// After a failed search: whether a region of similar brightness and size is elsewhere.
   bool elsewhere() const { return elsewhere_; }
   const BrightRegion& found() const { return found_; }
 
  private:
-  /// The part of the picture that is looked at, as one plane, and where it lies.
+  /// The searched part of the picture as one plane, and its position.
   struct Window {
     Region place;
     ImageView image;
@@ -57,15 +57,15 @@ class OutlineSeeker {
   bool dark_;
   Region area_;
   Region home_;
-  std::vector<Region> others_;  // other flames, where they were when this one was at usual_
-  Region usual_;                // where the thing usually was in the survey
-  bool stands_;                 // it has mostly run together with what it stands on
+  std::vector<Region> others_;  // other flames, at the time when this one was at usual_
+  Region usual_;                // usual place of the object in the survey
+  bool stands_;                 // whether it has mostly merged with its stand
   bool following_ = false;
   double usual_area_;
-  int base_edge_;  // where the thing ended when it last stood alone
+  int base_edge_;  // base coordinate when the object last stood alone
   BrightRegion found_;
-  PixelPosition last_foot_;  // the middle of its end towards the base, when it was last there
-  int pace_ = 0;             // how far the box's sides moved in the last frames, pixels a frame
+  PixelPosition last_foot_;  // midpoint of its end towards the base, when last seen
+  int pace_ = 0;             // recent motion of the box's sides, pixels a frame
   Window window_;
   std::vector<std::uint8_t> plane_;
   Region before_place_;

@@ -9,8 +9,8 @@
 namespace wisp {
 namespace {
 
-// Replaces the lower triangle of the n × n matrix by its factor L with L Lᵀ = matrix. Returns false where the matrix
-// is not positive definite.
+// Replaces the lower triangle of the n × n matrix by its Cholesky factor L, L Lᵀ = matrix. Returns false where the
+// matrix is not positive definite.
 bool cholesky(std::span<double> matrix, int n) {
   for (int i = 0; i < n; ++i) {
     double* row = matrix.data() + static_cast<std::ptrdiff_t>(i) * n;
@@ -44,7 +44,7 @@ void cholesky_solve(std::span<const double> factor, int n, std::span<double> b) 
   }
 }
 
-// The whole inverse of L Lᵀ into `inverse` (n × n).
+// Writes the inverse of L Lᵀ to `inverse` (n × n).
 void cholesky_inverse(std::span<const double> factor, int n, std::span<double> inverse) {
   for (int column = 0; column < n; ++column) {
     // Row `column` serves as the right-hand side: the inverse is symmetric.
@@ -55,12 +55,12 @@ void cholesky_inverse(std::span<const double> factor, int n, std::span<double> i
   }
 }
 
-constexpr double kMinNormalSd = 0.25;  // pixels: what is left of noise when an edge is located well
+constexpr double kMinNormalSd = 0.25;  // pixels: noise of a well-located edge
 
-// Nothing nearer than this share of the height is an outlier: few control points cannot follow a sharp tip.
+// Share of the height within which no point is an outlier: few control points cannot follow a sharp tip.
 constexpr double kNoOutlier = 0.1;
 
-// A prior that says next to nothing, for the first frame: sd of ten heights.
+// Standard deviation of the uninformative prior for the first frame, in heights.
 constexpr double kVagueSd = 10;
 
 }  // namespace
@@ -74,7 +74,7 @@ OutlineTracker::OutlineTracker(std::span<const double> knots, const TrackerOptio
   vector_.assign(n, 0.0);
 }
 
-// The prior's mean is the previous posterior's, carried along with the base; its covariance is widened.
+// Prior: mean of the previous posterior, shifted with the base; its covariance is widened.
 void OutlineTracker::predict(const EdgeCloud& cloud) {
   const int n = static_cast<int>(vector_.size());
   if (!has_past_) {
@@ -108,7 +108,7 @@ void OutlineTracker::widen(double height) {
   const std::size_t n = vector_.size();
   const double across = options_.normal_widening * height, along = options_.tangent_widening * height;
   for (int k = 0; k < points; ++k) {
-    // A control point acts where its basis function is largest: near the mean of its three inner knots.
+    // A control point acts where its basis function peaks, near the mean of its three inner knots.
     const auto knots = table_.knots();
     const double s = (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
     const CurvePoint slope = table_.slope(estimate_.mean, s);
@@ -123,7 +123,7 @@ void OutlineTracker::widen(double height) {
   }
 }
 
-// n · curve(s) = value, with that precision (1 / variance): four control points carry the curve at s.
+// Adds a measurement n · curve(s) = value with the given precision (1 / variance); it involves four control points.
 void OutlineTracker::add(const BasisWeights& weights, const Gathered& gathered) {
   SpanSums& sums = sums_[static_cast<std::size_t>(weights.first)];
   const auto& [w0, w1, w2, w3] = weights.weight;
@@ -140,7 +140,7 @@ void OutlineTracker::add(const BasisWeights& weights, const Gathered& gathered) 
   }
 }
 
-// Adds what the spans gathered to the information (its lower triangle) and the vector.
+// Adds the spans' sums to the information matrix (its lower triangle) and vector.
 void OutlineTracker::spread_sums() {
   const std::size_t n = vector_.size();
   for (std::size_t first = 0; first < sums_.size(); ++first) {
@@ -160,12 +160,11 @@ void OutlineTracker::spread_sums() {
   }
 }
 
-// Before anything is known of the curve in this frame, an edge point's own gradient is the normal; after that, the
-// curve's.
+// The normal is the edge point's gradient in the first pass of a frame, and that of the curve afterwards.
 void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   information_ = prior_information_;
   vector_ = prior_vector_;
-  sums_.assign(static_cast<std::size_t>(table_.points()) - 3, {});  // one a span
+  sums_.assign(static_cast<std::size_t>(table_.points()) - 3, {});  // one per span
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     if (out_[k]) continue;
     const EdgePoint& edge = cloud.points[k];
@@ -188,7 +187,7 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   spread_sums();
 }
 
-// The curve's ends are points, not places on a line: both directions count, and as much as a whole side's edge points.
+// The curve's ends are points: both directions are measured, with the weight of a whole side's edge points.
 void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
   const double precision = normal_precision_ * 4;
   for (const bool last : {false, true}) {
@@ -210,8 +209,8 @@ void OutlineTracker::solve() {
   cholesky_solve(factor_, n, estimate_.mean);
 }
 
-// One Newton step a pass towards the curve's nearest point; kept near the edge point's place in the cloud, or points
-// would gather where the curve happens to pass close by.
+// One Newton step per pass towards the nearest point of the curve. The result stays near the edge point's position in
+// the cloud, as points would otherwise gather where the curve happens to pass close by.
 void OutlineTracker::project(const EdgeCloud& cloud) {
   table_.pieces(estimate_.mean, pieces_);
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
@@ -241,8 +240,8 @@ double OutlineTracker::misfit() const {
   return sum;
 }
 
-// Projects and solves anew until the residuals stop falling; where they rise, goes back and holds edge points more
-// firmly where they are along the curve (Levenberg's damping: along the normal alone, steps overshoot at sharp turns).
+// Projects and solves until the residuals stop falling. Where they rise, steps back and increases the weight of edge
+// points' positions along the curve (Levenberg's damping: along the normal alone, steps overshoot at sharp turns).
 void OutlineTracker::settle(const EdgeCloud& cloud) {
   constexpr double kStillFalling = 0.98;
   project(cloud);
@@ -274,10 +273,10 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
   }
 }
 
-// Leaves out edge points that lie far from the curve when most do not. Returns whether there were any.
+// Excludes edge points far from the curve, where most are near. Returns whether there were any.
 bool OutlineTracker::gate(const EdgeCloud& cloud) {
   const std::size_t count = cloud.points.size();
-  std::vector<double>& sorted = vector_;  // solved already, and rebuilt by the next measure()
+  std::vector<double>& sorted = vector_;  // reuses vector_, which is rebuilt by the next measure()
   sorted.assign(residuals_.begin(), residuals_.end());
   std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
   const double typical = std::max(sorted[count / 2], kMinNormalSd);

@@ -1,15 +1,15 @@
 #pragma once
-// The outline as a random curve: a Gaussian over the control points of a B-spline, brought up to date by edge points.
+// The outline as a random curve: a Gaussian over the control points of a B-spline, updated by edge points.
 //
 // Source: section 3.2 of the paper: the spline is a random curve with a distribution over its control points, the data
 // cloud is processed point by point, the posterior is approximated by a Gaussian, and the estimate is its median (which
 // is its mean). Blake & Isard, Active Contours (Springer 1998), chapters 6 to 10, for measurements along the normal and
 // the prior that is the previous frame's posterior, widened.
 //
-// The recursion is kept in its information form (inverse covariance): adding one edge point then touches only the four
-// control points that carry the curve there, where the covariance form would touch all of them; both are the same
-// posterior. Departure: beside its tight measurement along the normal, an edge point says weakly where along the curve
-// it should lie, or control points would slide round the outline from frame to frame.
+// The recursion uses the information form (inverse covariance): an edge point then changes only the entries of four
+// control points, whereas the covariance form would change all; both give the same posterior. Departure: besides its
+// precise measurement along the normal, an edge point weakly measures its position along the curve; otherwise control
+// points would slide round the outline from frame to frame.
 
 #include <cstdint>
 #include <span>
@@ -20,25 +20,25 @@
 
 namespace wisp {
 
-/// How much is believed. Lengths are shares of the outline's height, so that a flame filmed larger is tracked alike.
+/// Noise model. Lengths are shares of the outline's height, so that tracking does not depend on image scale.
 struct TrackerOptions {
-  double normal_sd = 0.002;         ///< of one edge point along the normal, 0.0005 to 0.02; never under a quarter pixel
-  double tangent_sd = 0.02;         ///< of one edge point along the curve, 0.005 to 0.5: some twenty times looser
-  double normal_widening = 0.1;     ///< added sd a frame across the curve, 0.01 to 1: a flame crosses its own width
-  double tangent_widening = 0.005;  ///< added sd a frame along the curve, 0.001 to 1
-  double hold = 0.05;  ///< how firmly, against the normal, an edge point is first held along the curve, 0 to 1
-  double gate = 6;     ///< an edge point farther off than this many typical residuals is left out, 3 to 20
-  double slip = 0.1;   ///< how far in s an edge point may be moved along the curve to where it fits, 0 to 0.2
-  int passes = 16;     ///< times that edge points are projected anew onto the curve, 1 to 10
+  double normal_sd = 0.002;         ///< of an edge point along the normal, 0.0005 to 0.02; at least a quarter pixel
+  double tangent_sd = 0.02;         ///< of an edge point along the curve, 0.005 to 0.5: about 20 times normal_sd
+  double normal_widening = 0.1;     ///< sd added per frame across the curve, 0.01 to 1: a flame may move by its width
+  double tangent_widening = 0.005;  ///< sd added per frame along the curve, 0.001 to 1
+  double hold = 0.05;  ///< initial weight of an edge point's position along the curve, relative to the normal, 0 to 1
+  double gate = 6;     ///< outlier threshold in typical residuals, 3 to 20
+  double slip = 0.1;   ///< maximum shift in s of an edge point along the curve, 0 to 0.2
+  int passes = 16;     ///< maximum number of projections of edge points onto the curve, ≥ 1
 };
 
-/// The Gaussian after one frame.
+/// The Gaussian posterior after one frame.
 struct OutlineEstimate {
   std::vector<double> mean;        ///< x and y of each control point, alternating: 2N values
   std::vector<double> covariance;  ///< 2N × 2N
   double residual = 0;             ///< root mean square distance of the edge points used from the curve, pixels
-  int used = 0;                    ///< edge points that counted
-  int gated = 0;                   ///< edge points left out
+  int used = 0;                    ///< number of edge points used
+  int gated = 0;                   ///< number of outliers excluded
 };
 
 /// Tracks one outline from frame to frame.
@@ -50,7 +50,7 @@ class OutlineTracker {
   int points() const { return table_.points(); }
   const SplineTable& table() const { return table_; }
 
-  /// Takes in one frame's edge points. Returns the posterior, good until the next call.
+  /// Takes in one frame's edge points. Returns the posterior, valid until the next call.
   const OutlineEstimate& update(const EdgeCloud& cloud);
 
   /// Distance of each edge point of the last frame from the posterior's curve, pixels.
@@ -59,13 +59,13 @@ class OutlineTracker {
   /// Parameter of the curve's point nearest to each edge point of the last frame.
   std::span<const double> places() const { return places_; }
 
-  /// Forgets the past: the next frame starts an episode with no prior.
+  /// Resets the tracker: the next frame starts an episode without prior.
   void forget() { has_past_ = false; }
 
  private:
   void predict(const EdgeCloud& cloud);
   void widen(double height);
-  /// Scalar measurements at one place of the curve, gathered: Σ precision·n·nᵀ and Σ precision·value·n.
+  /// Sums of scalar measurements at one place of the curve: Σ precision·n·nᵀ and Σ precision·value·n.
   struct Gathered {
     double xx = 0;
     double xy = 0;
@@ -81,7 +81,7 @@ class OutlineTracker {
       y += py * value;
     }
   };
-  /// The same of a span's four control points: their 10 pairs, and themselves.
+  /// Sums for a span's four control points: their 10 pairs, and each by itself.
   struct SpanSums {
     std::array<double, 10> xx{}, xy{}, yy{};
     std::array<double, 4> x{}, y{};
@@ -114,12 +114,12 @@ class OutlineTracker {
   std::vector<double> information_;
   std::vector<double> vector_;
   std::vector<double> factor_;
-  std::vector<SpanSums> sums_;               // by a span's first control point
-  std::vector<BasisWeights> cloud_weights_;  // at the edge points' places in the cloud
-  CurvePieces pieces_;                       // of the mean
+  std::vector<SpanSums> sums_;               // indexed by a span's first control point
+  std::vector<BasisWeights> cloud_weights_;  // at the edge points' assigned positions
+  CurvePieces pieces_;                       // polynomials of the mean curve
   std::vector<double> places_;
-  std::vector<CurvePoint> slopes_;  // of the curve there
-  std::vector<std::uint8_t> out_;   // gated
+  std::vector<CurvePoint> slopes_;  // derivative of the curve at places_
+  std::vector<std::uint8_t> out_;   // whether each point is gated out
   std::vector<double> residuals_;
 };
 

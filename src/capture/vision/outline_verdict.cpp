@@ -15,8 +15,8 @@ using R = const CaptureReport&;
 
 enum class Of : std::uint8_t { kMotion, kFlame, kFilm };
 
-// A fact, what it is of (motion: also of any thing that is no flame), and what to say where it is the reason. {} and
-// {%} stand for its value.
+// A fact, the kind of model that uses it (motion: also for objects other than flames), and the sentence where it is the
+// reason. {} and {%} stand for its value.
 struct FactRow {
   const char* name;
   Of of;
@@ -31,8 +31,8 @@ constexpr const char* kShape =
 constexpr const char* kGlare =
     "it is clipped flat, {clipped} of it as bright as the camera shows anything, and its shape is not a flame's; lower "
     "the exposure";
-constexpr double kIrregular = 0.15;    // of the frames are lost: that is the cause of what else is wrong
-constexpr double kClippedShape = 0.5;  // a shape of which more is clipped is overexposed, whatever it is
+constexpr double kIrregular = 0.15;    // share of lost frames above which they are the cause of other faults
+constexpr double kClippedShape = 0.5;  // share of clipped area above which a shape counts as overexposed
 
 constexpr std::array<FactRow, 19> kFacts{{
     {"movement", Of::kMotion, kStill},
@@ -63,7 +63,7 @@ constexpr std::array<FactRow, 19> kFacts{{
 static_assert(kVerdictCurves.size() == kFacts.size());
 constexpr std::size_t kLost = 11;
 
-// Of the rows in which the flame burns and that have a frame of their own, those without an outline.
+// Share of rows without an outline, among rows in which the flame burns and that have their own frame.
 double missing_share(R r) {
   const double lost = r.facts.lost * static_cast<double>(r.frames);
   const double absent = static_cast<double>(r.facts.absent - r.facts.blown) - lost;
@@ -75,7 +75,7 @@ double still_share(R r) {
          static_cast<double>(std::max<std::size_t>(r.facts.seen_from + r.facts.rows, 1));
 }
 
-// In the order of kFacts.
+// Values in the order of kFacts.
 std::array<double, kFacts.size()> values_of(R r) {
   const OutlineFacts& f = r.facts;
   const double height = std::max(f.height, 1e-9);
@@ -90,7 +90,7 @@ std::array<double, kFacts.size()> values_of(R r) {
           f.light,
           f.contrast,
           f.width,
-          (r.residual - 0.3) * r.points / height,  // beyond pixels; few points cannot follow a flame as well
+          (r.residual - 0.3) * r.points / height,  // beyond 0.3 pixels; few control points follow a flame less closely
           f.lean,
           f.lost,
           f.repeated,
@@ -134,7 +134,7 @@ std::string sentence_of(std::size_t fact, R r) {
   return out;
 }
 
-// What a fact takes from the log odds: linear between the knots, constant beyond them.
+// Penalty of a fact on the log odds: linear between the knots, constant beyond them.
 double against(const std::array<double, kVerdictKnots>& knots, const std::array<double, kVerdictKnots>& penalties,
                double value) {
   if (!(value > knots.front())) return penalties.front();
@@ -145,8 +145,8 @@ double against(const std::array<double, kVerdictKnots>& knots, const std::array<
   return penalties.back();
 }
 
-// The heaviest fact whose cure makes the verdict yes; where one is not enough, the heaviest. What an overexposed thing
-// is cannot be told: its shape says nothing of a flame.
+// The heaviest fact without which the verdict would be yes; if there is none, the heaviest. For an overexposed object
+// the shape is no evidence for or against a flame.
 std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact::*weight, double odds, R r) {
   const auto heavier = [&](const WeighedFact& a, const WeighedFact& b) {
     return std::pair(odds + a.*weight > 0, a.*weight) < std::pair(odds + b.*weight > 0, b.*weight);
@@ -172,7 +172,7 @@ std::string verdict_sentence(CaptureReport& report) {
   if (report.usable) {
     return "an outline was found in " + percent(1 - missing_share(report)) + " of the frames and moves steadily";
   }
-  // Frames that stand twice, or that are lost, are no cause of a moving camera's.
+  // Repeated or lost frames do not explain a moving camera.
   const bool frames = report.facts.lost > kIrregular || report.facts.stands > 1;
   const auto film = frames || report.flames == 0 ? std::nullopt : film_reason(report.facts.film);
   if (film) return *film;
@@ -183,7 +183,7 @@ std::string verdict_sentence(CaptureReport& report) {
 
 }  // namespace
 
-// Where any thing was looked for, what speaks against a flame's motion speaks against its own.
+// Where any object was requested, the flame model's penalty on motion is used for it.
 std::vector<WeighedFact> weighed_facts(const CaptureReport& report) {
   std::vector<WeighedFact> out;
   const auto values = values_of(report);

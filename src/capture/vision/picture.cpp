@@ -6,8 +6,8 @@
 namespace wisp {
 namespace {
 
-// Luma to a colour in 9.6 fixed point, which fits 16-bit lanes: value = (scale (Y − black) + colour) / 64 with
-// colour = from_cb (Cb − 128) + from_cr (Cr − 128). Off by one grey level at most.
+// Conversion from luma to a colour in 9.6 fixed point, which fits 16-bit lanes: value = (scale (Y − black) + colour) /
+// 64 with colour = from_cb (Cb − 128) + from_cr (Cr − 128). Error: at most one grey level.
 struct Conversion {
   std::int16_t black = 0;
   std::int16_t scale = kOne;
@@ -22,7 +22,7 @@ std::int16_t fixed(double value) {
   return static_cast<std::int16_t>(value * Conversion::kOne + (value < 0 ? -0.5 : 0.5));
 }
 
-// ITU-R BT.601 and BT.709, section 3: Kr and Kb; Kg is the rest.
+// Kr and Kb of ITU-R BT.601 and BT.709, section 3; Kg = 1 − Kr − Kb.
 Conversion conversion(const Picture& picture, PixelChannel channel) {
   const double kr = picture.bt709 ? 0.2126 : 0.299, kb = picture.bt709 ? 0.0722 : 0.114, kg = 1 - kr - kb;
   const double luma = picture.full_range ? 1.0 : 255.0 / 219.0;
@@ -67,7 +67,7 @@ void luma_row_of_rgb(const Picture& picture, int x, int y, int width, std::uint8
   const auto& [red, green, blue] = picture.planes;
   const std::uint8_t *r = plane_row(red, x, y), *g = plane_row(green, x, y), *b = plane_row(blue, x, y);
   for (int i = 0; i < width; ++i) {
-    // BT.601 weights in 2^-14; they sum to one, so that grey stays what it is.
+    // BT.601 weights in 2^-14; their sum is 1, so grey is preserved.
     const int sum = 4899 * r[static_cast<std::ptrdiff_t>(i) * red.step] +
                     9617 * g[static_cast<std::ptrdiff_t>(i) * green.step] +
                     1868 * b[static_cast<std::ptrdiff_t>(i) * blue.step];
@@ -75,7 +75,7 @@ void luma_row_of_rgb(const Picture& picture, int x, int y, int width, std::uint8
   }
 }
 
-// What the colour planes add to each pixel of a row, 64ths of a grey level.
+// Contribution of the colour planes to each pixel of a row, in 64ths of a grey level.
 void colour_row(const Picture& picture, const Conversion& to, const Region& region, int y, std::int16_t* out) {
   const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
   const int first = region.x >> shift, last = (region.right() - 1) >> shift;
@@ -91,7 +91,7 @@ void colour_row(const Picture& picture, const Conversion& to, const Region& regi
   }
 }
 
-// The same where two pixels share a colour and the row begins with a pair: the shape of nearly every video.
+// colour_row() where two pixels share a colour and the row begins with a pair, as in nearly every video.
 void colour_row_in_pairs(const Conversion to, const std::uint8_t* cb, const std::uint8_t* cr, int pairs,
                          std::int16_t* out) {
   for (int c = 0; c < pairs; ++c) {
@@ -102,8 +102,8 @@ void colour_row_in_pairs(const Conversion to, const std::uint8_t* cb, const std:
   }
 }
 
-// Both parts are halved before they are added: |scale × 255| / 2 is below 9,600 and |colour| / 2 below 8,300, so that
-// every step fits 16 bits and the loop runs eight pixels wide on the plainest processor.
+// Both parts are halved before the addition: |scale × 255| / 2 is below 9,600 and |colour| / 2 below 8,300, so all sums
+// fit 16 bits and the loop processes eight pixels at a time on any processor.
 void add_luma(const Conversion to, const std::uint8_t* luma, const std::int16_t* colour, int width, std::uint8_t* out) {
   for (int i = 0; i < width; ++i) {
     const auto scaled = static_cast<std::int16_t>(to.scale * static_cast<std::int16_t>(luma[i] - to.black));
@@ -115,7 +115,7 @@ void add_luma(const Conversion to, const std::uint8_t* luma, const std::int16_t*
 }
 
 void colour_row_of_yuv(const Picture& picture, const Conversion& to, const Region& region, int y, std::uint8_t* out) {
-  constexpr int kPart = 512;  // pixels at a time, so that what the colours add stays near the processor
+  constexpr int kPart = 512;  // pixels per block, so that the colour contributions stay in the cache
   std::array<std::int16_t, kPart + 2> colour;
   std::array<std::uint8_t, kPart> luma;
   const PicturePlane &lumas = picture.planes[0], &cb = picture.planes[1], &cr = picture.planes[2];
@@ -147,7 +147,7 @@ std::uint8_t colour_of_yuv(const Conversion to, int luma, int cb, int cr) {
   return static_cast<std::uint8_t>(std::clamp(((scaled >> 1) + (colour >> 1)) >> (Conversion::kBits - 1), 0, 255));
 }
 
-// Every `step`-th pixel of a row. Returns where the next one is written.
+// Samples every `step`-th pixel of a row. Returns the end of the output.
 std::uint8_t* sample_row_of_yuv(const Picture& picture, const Conversion to, const Region& region, int y, int step,
                                 std::uint8_t* out) {
   const PicturePlane &lumas = picture.planes[0], &cb = picture.planes[1], &cr = picture.planes[2];
@@ -172,7 +172,7 @@ void extract_row(const Picture& picture, PixelChannel channel, const Conversion&
 
 constexpr int kRowsAhead = 6;
 
-// Inlined by force: GCC takes a function that only prefetches for one without effect, and drops its calls.
+// Always inlined: GCC treats a function that only prefetches as without effect, and drops its calls.
 [[gnu::always_inline]] inline void prefetch_row([[maybe_unused]] const PicturePlane& plane, [[maybe_unused]] int x,
                                                 [[maybe_unused]] int y, [[maybe_unused]] int width) {
 #ifdef __GNUC__
@@ -182,7 +182,7 @@ constexpr int kRowsAhead = 6;
 #endif
 }
 
-// A window's rows lie far apart: no processor guesses where the next one begins.
+// A window's rows are far apart in memory, which hardware prefetchers do not predict.
 [[gnu::always_inline]] inline void prefetch(const Picture& picture, PixelChannel channel, const Region& region, int y) {
   prefetch_row(picture.planes[0], region.x, y, region.width);
   if (picture.layout != PictureLayout::kYuv || channel == PixelChannel::kLuma) return;
@@ -264,7 +264,7 @@ OwnedPicture::OwnedPicture(const Picture& picture) : picture_(picture) {
                chroma ? -(-picture.height >> picture.chroma_shift_y) : picture.height};
     bytes += static_cast<std::size_t>(size[k][0]) * size[k][1];
   }
-  pixels_.reserve(bytes);  // rows are appended: nothing is set to 0 first, nor moved
+  pixels_.reserve(bytes);  // rows are appended: no zero-initialisation, no reallocation
   for (int k = 0; k < planes; ++k) {
     const auto [width, height] = size[k];
     picture_.planes[k] = {pixels_.data() + pixels_.size(), width, 1};

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kAllDark = 0;
 constexpr std::uint64_t kAllBright = 0x0101010101010101ULL;
 
-// Whether `Words` times eight bytes all are those of `eight`.
+// Whether `Words` consecutive 8-byte words all equal `eight`.
 template <std::size_t Words>
 bool all_same(const std::uint8_t* bright, std::uint64_t eight) {
   std::array<std::uint64_t, Words> words;
@@ -21,7 +21,7 @@ bool all_same(const std::uint8_t* bright, std::uint64_t eight) {
   return different == 0;
 }
 
-// The first index at or after `x` whose byte is not `same`; many bytes at a time while they agree.
+// First index at or after `x` whose byte differs from `same`; compares many bytes at a time.
 int end_of_stretch(const std::uint8_t* bright, int x, int width, std::uint8_t same) {
   const std::uint64_t eight = same ? kAllBright : kAllDark;
   while (x + 64 <= width && all_same<8>(bright + x, eight)) x += 64;
@@ -45,7 +45,7 @@ int RegionFinder::join(int a, int b) {
   b = root(b);
   if (a == b) return a;
   if (b < a) std::swap(a, b);
-  parent_[b] = a;  // the older region stays: its seed is the higher one
+  parent_[b] = a;  // the older region is the root: its seed is higher
   Sum& into = sums_[a];
   const Sum& from = sums_[b];
   into.region.box = enclosing(into.region.box, from.region.box);
@@ -57,8 +57,7 @@ int RegionFinder::join(int a, int b) {
 
 void RegionFinder::find_runs(const std::uint8_t* row, int width, int level, std::vector<Run>& runs) {
   const std::uint8_t limit = static_cast<std::uint8_t>(level);
-  std::uint8_t* bright =
-      bright_.data();  // a local name, or every store might move the vector for all the compiler knows
+  std::uint8_t* bright = bright_.data();  // a local pointer: otherwise the compiler must reload it after every store
   for (int x = 0; x < width; ++x) bright[x] = row[x] > limit;
   runs.clear();
   for (int x = end_of_stretch(bright, 0, width, 0); x < width;) {
@@ -132,7 +131,7 @@ void follow_boundary(const ImageView& image, int level, PixelPosition seed, std:
   assert(bright(seed.x, seed.y));
   boundary.clear();
   PixelPosition at = seed;
-  int from = 5;  // the pixel to the north-west of the seed is dark, as is all above and to the left of it
+  int from = 5;  // the neighbour north-west of the seed is dark, as are all above and to the left
   int first_step = -1;
   while (true) {
     int step = -1;
@@ -145,7 +144,7 @@ void follow_boundary(const ImageView& image, int level, PixelPosition seed, std:
     boundary.push_back(at);
     if (step < 0) return;  // a single pixel
     at = {at.x + kDx[step], at.y + kDy[step]};
-    from = (step + 5) & 7;  // the last dark pixel looked at, seen from the new place, lies one turn back
+    from = (step + 5) & 7;  // the last dark pixel examined, relative to the new position
     if ((step & 1) == 0) from = (step + 6) & 7;
   }
 }

@@ -1,8 +1,8 @@
 #pragma once
 // Connected bright regions of a picture, and the line around one of them.
 //
-// A region is a maximal set of pixels brighter than a level that touch by side or corner. What it encloses belongs to
-// it: only the outer boundary is followed, so holes (a wick, a dark core) are filled by that.
+// A region is a maximal set of pixels brighter than a level, connected by sides or corners. Only its outer boundary is
+// followed, so enclosed holes (a wick, a dark core) belong to the region.
 
 #include <cmath>
 #include <cstdint>
@@ -15,26 +15,26 @@ namespace wisp {
 
 /// One bright region.
 struct BrightRegion {
-  Region box;             ///< around it
-  std::int64_t area = 0;  ///< bright pixels, holes not counted
-  double centre_x = 0;    ///< of gravity
+  Region box;             ///< bounding box
+  std::int64_t area = 0;  ///< number of bright pixels, without holes
+  double centre_x = 0;    ///< centre of gravity
   double centre_y = 0;
-  int seed_x = 0;  ///< the leftmost pixel of its first row: where its boundary starts
+  int seed_x = 0;  ///< leftmost pixel of its first row, where its boundary starts
   int seed_y = 0;
 };
 
-/// A pixel.
+/// Position of a pixel.
 struct PixelPosition {
   int x = 0;
   int y = 0;
   friend bool operator==(const PixelPosition&, const PixelPosition&) = default;
 };
 
-/// Finds bright regions; keeps its memory from one picture to the next.
+/// Finds bright regions; reuses its memory between pictures.
 class RegionFinder {
  public:
-  /// All regions of pixels above `level`, largest first; those under `min_area` pixels are left out.
-  /// The span is good until the next call.
+  /// All regions of pixels above `level`, largest first, without those under `min_area` pixels.
+  /// The span is valid until the next call.
   std::span<const BrightRegion> find(const ImageView& image, int level, std::int64_t min_area);
 
  private:
@@ -69,8 +69,8 @@ class RegionFinder {
 /// Precondition: seed is the leftmost pixel of the region's first row.
 void follow_boundary(const ImageView& image, int level, PixelPosition seed, std::vector<PixelPosition>& boundary);
 
-/// Length of a vector in the picture. std::hypot guards against overflow, which pixels cannot reach, and costs ten
-/// times as much.
+/// Length of a vector in the picture. std::hypot, which guards against overflow that pixels cannot reach, takes ten
+/// times as long.
 inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 }  // namespace wisp

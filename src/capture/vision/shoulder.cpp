@@ -5,10 +5,10 @@
 namespace wisp {
 namespace {
 
-constexpr double kWiderBelow = 1.6;    // a shoulder is this many times as wide as what is above it
-constexpr int kMinStep = 3;            // … and this many pixels wider
-constexpr double kWithin = 0.05;       // of the length above: within so many rows it widens
-constexpr double kSlenderness = 0.7;   // what stands is at least this long for its width: a blunt tip widens too
+constexpr double kWiderBelow = 1.6;    // minimum ratio of a shoulder's width to the width above it
+constexpr int kMinStep = 3;            // … and minimum difference in pixels
+constexpr double kWithin = 0.05;       // share of the length above within which it widens
+constexpr double kSlenderness = 0.7;   // minimum length / width of the part above, since a blunt tip widens too
 constexpr std::size_t kMinLength = 4;  // rows
 
 bool along_rows(BaseSide side) { return side == BaseSide::kBottom || side == BaseSide::kTop; }
@@ -70,7 +70,7 @@ void measure_profile(std::span<const PixelPosition> boundary, BaseSide side, Pro
 
 std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t from) {
   const auto& rows = profile.rows;
-  // How many times wider it soon gets below row k; 0 where that is no shoulder.
+  // Factor by which it widens shortly below row k; 0 where that is no shoulder.
   const auto step = [&](std::size_t k) {
     const std::size_t within = std::max<std::size_t>(2, static_cast<std::size_t>(kWithin * static_cast<double>(k)));
     int below = 0;
@@ -90,7 +90,7 @@ std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t fro
     sharpest = step(k);
     best = k;
   }
-  // It begins where it first widens.
+  // The shoulder begins at the first row that widens.
   while (best && *best > from && step(*best - 1) > 0) --*best;
   return best;
 }

@@ -6,7 +6,7 @@
 namespace wisp {
 namespace {
 
-// On which side of the line from a to b a point lies: positive, negative, or 0 on the line.
+// Side of the line from a to b on which a point lies: positive, negative, or 0 on the line.
 double side(const CurvePoint& a, const CurvePoint& b, const CurvePoint& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }

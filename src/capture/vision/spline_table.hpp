@@ -1,5 +1,5 @@
 #pragma once
-// A B-spline's basis as one cubic polynomial a span, for curves that are evaluated many thousand times.
+// B-spline basis as one cubic polynomial per span, for curves that are evaluated many thousand times.
 
 #include <array>
 #include <span>
@@ -15,10 +15,10 @@ struct CurvePoint {
   double y = 0;
 };
 
-/// Equal cells of [0, 1], in each of which a table knows the span that it begins in.
+/// Number of equal cells of [0, 1]; a table stores the span in which each begins.
 inline constexpr int kSplineCells = 64;
 
-/// One curve as a cubic polynomial a span: the fastest to evaluate, once it is made.
+/// One curve as a cubic polynomial per span: expensive to build, fastest to evaluate.
 class CurvePieces {
  public:
   struct Place {
@@ -43,13 +43,13 @@ class CurvePieces {
   friend class SplineTable;
   struct Piece {
     double begin = 0;
-    std::array<CurvePoint, 4> power;  // of (s − begin)
+    std::array<CurvePoint, 4> power;  // coefficients of powers of (s − begin)
   };
   std::vector<Piece> pieces_;
-  std::span<const int> guess_;  // the table's
+  std::span<const int> guess_;  // guess_ of the table
 };
 
-/// The basis functions over one knot vector.
+/// The B-spline basis of one knot vector.
 class SplineTable {
  public:
   /// Precondition: valid_knots(knots).
@@ -58,19 +58,19 @@ class SplineTable {
   int points() const { return points_; }
   std::span<const double> knots() const { return knots_; }
 
-  /// The four weights at s and the first control point that they belong to; s is clamped to [0, 1].
+  /// The four non-zero weights at s, and the index of their first control point; s is clamped to [0, 1].
   BasisWeights weights(double s) const;
 
-  /// Their derivatives with respect to s.
+  /// Derivatives of the weights with respect to s.
   BasisWeights derivatives(double s) const;
 
-  /// The curve at s. `controls` holds x and y of each control point, alternating.
+  /// Point of the curve at s. `controls` holds x and y of each control point, alternating.
   CurvePoint at(std::span<const double> controls, double s) const;
 
-  /// Its derivative.
+  /// Derivative of the curve at s.
   CurvePoint slope(std::span<const double> controls, double s) const;
 
-  /// Makes the curve's pieces, which are good as long as the table is.
+  /// Builds the curve's pieces, which refer to the table and must not outlive it.
   void pieces(std::span<const double> controls, CurvePieces& out) const;
 
  private:
@@ -84,15 +84,15 @@ class SplineTable {
   std::vector<double> knots_;
   int points_ = 0;
   std::vector<Span> spans_;
-  std::vector<int> guess_;  // the span in which each of equal cells of [0, 1] begins
+  std::vector<int> guess_;  // index of the span in which each cell of [0, 1] begins
 };
 
-/// The outline as a polyline of `count` points evenly spread over s, closed by the reader.
+/// The curve as an open polyline of `count` points with equally spaced s.
 ///
 /// Precondition: count >= 2.
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count);
 
-/// Whether two pieces of an open polyline that are not neighbours cross, as no outline's do.
+/// Whether an open polyline intersects itself (adjacent sides do not count). No outline does.
 bool crosses_itself(std::span<const CurvePoint> polyline);
 
 }  // namespace wisp

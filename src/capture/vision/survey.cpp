@@ -12,24 +12,24 @@
 namespace wisp {
 namespace {
 
-constexpr int kGrid = 320;             // points of the coarse grid, wide and high: enough to tell regions apart
-constexpr int kFineGrid = 160;         // … and of the one around a flame
-constexpr int kLevelStep = 18;         // levels that are tried, 255ths
-constexpr int kHighestLevel = 225;     // above it, where a camera clips, a level cuts through the flame
-constexpr double kLitShare = 0.7;      // a picture counts when its brightest is this share of the upper quartile's
-constexpr double kOtherScene = 64;     // … and differs from the usual picture by less than this, mean over its points
-constexpr double kOneBrightness = 16;  // levels above the darkest tenth, of 255: less is noise of one brightness
-constexpr double kAsLikely = 0.35;     // another flame is at least this share as likely as the first
-constexpr double kAsBrightAsBest = 0.9;  // … and as bright
-constexpr double kMoves = 0.05;          // … and changes by this share, as flames do, or by half as much as the first
-constexpr double kAsGood = 0.5;          // at another level it is still the same thing when it is this share as likely
+constexpr int kGrid = 320;               // width and height of the coarse grid, points: enough to separate regions
+constexpr int kFineGrid = 160;           // … and of the finer grid around a flame
+constexpr int kLevelStep = 18;           // step between the levels tried, of 255
+constexpr int kHighestLevel = 225;       // above it cameras clip, and a level cuts through the flame
+constexpr double kLitShare = 0.7;        // a picture counts if its maximum reaches this share of the upper quartile's
+constexpr double kOtherScene = 64;       // … and its mean difference from the usual picture is less than this
+constexpr double kOneBrightness = 16;    // of 255, above the darkest tenth: a smaller contrast is noise
+constexpr double kAsLikely = 0.35;       // minimum likelihood of another flame relative to the first
+constexpr double kAsBrightAsBest = 0.9;  // … its minimum brightness relative to the first
+constexpr double kMoves = 0.05;          // … and its minimum change of shape, or half of the first one's
+constexpr double kAsGood = 0.5;          // minimum relative likelihood of the same object at another level
 constexpr double kHalfWay = 0.58;
-constexpr double kNearlyAsLikely = 0.75;  // one that shows more of the same flame is at least this share as likely
-constexpr double kNearlyAsBright = 0.95;  // … and as bright
-constexpr double kSameHome = 0.6;         // … and shares this much of its place
-constexpr double kBrightest = 3e-4;       // share of the picture that is as bright as anything
+constexpr double kNearlyAsLikely = 0.75;  // minimum relative likelihood of a view that shows more of the flame
+constexpr double kNearlyAsBright = 0.95;  // … its minimum relative brightness
+constexpr double kSameHome = 0.6;         // … and its minimum overlap with the flame's place
+constexpr double kBrightest = 3e-4;       // share of the picture's points that count as brightest
 
-// Pictures over one area, one grid a channel: sampled once, looked at again and again.
+// Pictures over one area, one grid per channel, sampled once for repeated use.
 struct Grids {
   std::array<std::optional<PictureGrid>, 4> channels;
   const PictureGrid* of(PixelChannel channel) const {
@@ -51,7 +51,7 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
     if (!wanted(channel, pictures.front(), options) && channel != PixelChannel::kLuma) continue;
     grids.channels[static_cast<std::size_t>(channel)] = grid_over(area, most);
   }
-  // All channels of a picture before the next one: caches hold one picture, not all.
+  // Processes all channels of a picture before the next picture, as the cache holds only one.
   for (const Picture& picture : pictures) {
     for (const PixelChannel channel : kChannels) {
       auto& grid = grids.channels[static_cast<std::size_t>(channel)];
@@ -61,7 +61,7 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
   return grids;
 }
 
-// Luma that only the brightest points reach.
+// The luma that only the brightest points exceed.
 double brightest_of(const ImageView& luma) {
   Histogram histogram{};
   add_to_histogram(histogram, luma, 1);
@@ -73,7 +73,7 @@ double brightest_of(const ImageView& luma) {
   return level;
 }
 
-// How far each picture is from the usual one, mean over its points: titles and other shots are far.
+// Mean absolute difference of each picture from the usual one; large for titles and other shots.
 std::vector<double> distances_from_usual(const PictureGrid& luma) {
   std::vector<double> distances(luma.pictures.size());
   std::vector<std::uint8_t> values(luma.pictures.size());
@@ -86,13 +86,13 @@ std::vector<double> distances_from_usual(const PictureGrid& luma) {
   return distances;
 }
 
-// The pictures that count, and how bright they get. Those of a fade, of a title, or after the flame went out do not.
+// Pictures that count, and their maximum brightness. Fades, titles and pictures after the flame went out are excluded.
 struct LitPictures {
   std::vector<Picture> pictures;
   std::vector<double> brightest;
 };
 
-// Leaves the others out of the grids too.
+// Selects the pictures that count, and removes the others from the grids.
 LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
   const PictureGrid& luma = *grids.of(PixelChannel::kLuma);
   std::vector<double> brightest;
@@ -119,11 +119,11 @@ LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
   return lit;
 }
 
-// Candidates of one channel at all levels.
+// Finds candidates of one channel at all levels.
 std::vector<Candidate> scan_levels(const PictureGrid& grid, const PictureGrid& luma, PixelChannel channel,
                                    const Picture& format, const Evidence& evidence) {
   std::vector<std::vector<Candidate>> levels;
-  // One level more than may be chosen: what is left at it tells how steep the rim is below.
+  // One level more than can be chosen: the area left there shows how steep the rim is below.
   for (int level = 2 * kLevelStep; brightness(format, channel, level) < kHighestLevel + kLevelStep;
        level += kLevelStep) {
     levels.push_back(find_candidates(grid, luma, level, evidence));
@@ -138,7 +138,7 @@ std::vector<Candidate> scan_levels(const PictureGrid& grid, const PictureGrid& l
   return found;
 }
 
-// Candidates of all channels and levels, the likeliest first.
+// Finds candidates of all channels and levels, likeliest first.
 std::vector<Candidate> scan(const Grids& grids, const Picture& format, const SurveyOptions& options,
                             const Evidence& evidence) {
   std::vector<Candidate> found;
@@ -156,15 +156,15 @@ bool same_place(const Candidate& a, const Candidate& b) {
   return !intersection(usual_place(a.seen), usual_place(b.seen)).empty();
 }
 
-// The likeliest candidate, and others in its channel and at its level that are nearly as likely: flames of one picture
-// are alike, where what they light is as bright only at other levels, and lamps stand still. Largest first.
+// The likeliest candidate, and others in its channel and level that are nearly as likely: flames in one picture are
+// alike, lit surroundings are as bright only at other levels, and lamps do not move. Largest first.
 std::vector<Candidate> places(const std::vector<Candidate>& candidates, const SurveyOptions& options) {
   std::vector<Candidate> out;
   const Candidate& best = candidates.front();
   for (const Candidate& c : candidates) {
     if (c.channel != best.channel || c.level != best.level) continue;
     if (c.score < kAsLikely * best.score || c.light < kAsBrightAsBest * best.light) continue;
-    if (c.change < std::min(kMoves, 0.5 * best.change)) continue;  // a lamp, filmed from a hand
+    if (c.change < std::min(kMoves, 0.5 * best.change)) continue;  // a lamp seen by a hand-held camera
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& other) { return same_place(c, other); })) {
       out.push_back(c);
     }
@@ -174,7 +174,7 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   return out;
 }
 
-// How bright a thing is and what is just around it, which counts by its brighter quarter: it may become brighter still.
+// Brightness of an object and of its surroundings, whose brighter quarter counts, as it may brighten further.
 struct Brightness {
   double inside = 0;
   double outside = 0;
@@ -194,13 +194,13 @@ std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const 
   return Brightness{median(std::move(inside)), *quarter};
 }
 
-// A little more than half-way from what is around a thing to the thing itself: there its area depends little on how a
-// rim is blurred, and its glow, which reaches less than half-way, is left out.
+// Level slightly more than halfway from the surroundings to the object. There its area depends little on the rim's
+// blur, and its glow, which stays below halfway, is excluded.
 int half_way(const Brightness& bright) {
   return static_cast<int>(bright.outside + kHalfWay * (bright.inside - bright.outside));
 }
 
-// The same thing at the level nearest to half-way at which it still is that: candidates are the likeliest first.
+// The same object at the level nearest to `wanted` at which it is still found; candidates are in order of likelihood.
 Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& candidates, int wanted) {
   Candidate best = thing;
   for (const Candidate& c : candidates) {
@@ -212,8 +212,8 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
   return best;
 }
 
-// Whether it is as good a view of a thing. Not by how they move: a part moves more than the whole, and where a flame
-// stands nearly still it is chance.
+// Whether a candidate is an equally good view of the object. Motion is ignored: a part moves more than the whole, and
+// for a nearly still flame it is chance.
 bool as_good(const Candidate& c, const Candidate& thing) {
   return c.stands == thing.stands && c.likeness >= kNearlyAsLikely * thing.likeness &&
          c.light >= kNearlyAsBright * thing.light && c.softness <= thing.softness && c.seen.size() >= thing.seen.size();
@@ -227,7 +227,7 @@ Candidate settled(const Candidate& thing, const std::vector<Candidate>& candidat
   return out;
 }
 
-// The likeliest good view of a thing in each channel, about where `home` is.
+// The likeliest good view of an object in each channel, near `home`.
 std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& home,
                                          const std::vector<Candidate>& candidates) {
   std::array<const Candidate*, 4> views{};
@@ -239,9 +239,9 @@ std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& h
   return views;
 }
 
-// A thing at its level in the channel that shows most of it: where one shows only a flame's bright core, or its feet
-// parted by the wick, another shows the whole, and clips of one camera are looked at alike. A glow or wax would be
-// larger too, but with a softer rim. From a larger view once more, since a core shares little of the whole's place.
+// The object at its level in the channel that shows most of it. Where one channel shows only a flame's bright core, or
+// feet divided by the wick, another shows the whole; clips of one camera are so treated alike. A glow or wax would be
+// larger too, but with a softer rim. Repeated from a larger view, as a core overlaps little with the whole.
 Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
                 const Region& area, bool dark) {
   Candidate best = settled(thing, candidates, pictures, area, dark);
@@ -258,7 +258,7 @@ Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates
   return best;
 }
 
-// The same thing on a finer grid, where there is one, and at the level that suits it best.
+// The same object on a finer grid, if one is possible, at its best level.
 Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std::span<const Picture> pictures,
                  const Region& area, const SurveyOptions& options, const Evidence& evidence) {
   const Region around = intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
@@ -269,12 +269,12 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
-// Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no
-// more of it. That need not be white: tone curves end below.
+// Share of an object that is saturated: in every channel as bright as that channel's maximum within the object. Tone
+// curves may saturate below white.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
-  constexpr int kCoding = 5;  // levels: coding errors of a flat area
+  constexpr int kCoding = 5;  // levels: coding errors in a uniform area
   const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, dark);
-  std::vector<std::uint8_t> flat;  // of the points of the thing
+  std::vector<std::uint8_t> flat;  // flags of the object's points
   for (const PixelChannel channel : kChannels) {
     const bool grey = !has_channel(pictures.front(), PixelChannel::kRed);
     if (grey != (channel == PixelChannel::kLuma)) continue;
@@ -312,7 +312,7 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   return out;
 }
 
-// Whether anything is brighter than the darkest tenth of a picture.
+// Whether any part of a picture is brighter than its darkest tenth by more than noise.
 bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions& options) {
   return std::any_of(kChannels.begin(), kChannels.end(), [&](PixelChannel channel) {
     if (!wanted(channel, format, options)) return false;
@@ -334,7 +334,7 @@ Error nothing_found(bool dark) {
 
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
   assert(step >= 1);
-  // Neighbours are mostly alike, and a count has to be finished before it can be raised again: four take turns.
+  // Neighbours are mostly equal, and a count must be stored before its next increment: four histograms take turns.
   std::array<std::array<std::uint32_t, 256>, 4> counts{};
   for (int y = step / 2; y < image.height; y += step) {
     const std::uint8_t* row = image.row(y);
@@ -375,7 +375,7 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
 
 namespace {
 
-// Of a thing that is mostly wider than high, the end that moves less is where it is held.
+// For an object that is mostly wider than high: the end that moves less, where it is held.
 BaseSide steady_end(const Survey& survey) {
   constexpr double kLying = 1.5;
   std::vector<double> left, right;

@@ -1,11 +1,11 @@
 #pragma once
-// The first look at a clip: what the thing is, and in which channel and at which level it is followed.
+// Survey of a clip: identifies the object, and the channel and level at which it is tracked.
 //
-// Wax, the wick's holder and reflections are bright too. Over a few pictures, bright regions of many levels in every
-// channel are weighed by what a flame does (candidates.hpp), first in the whole picture on a coarse grid, then around
-// each flame on a finer one: region, channel and level are chosen together.
+// Wax, the wick's holder and reflections are bright too. So bright regions at many levels of every channel are rated
+// over a few pictures by the properties of a flame (candidates.hpp), first in the whole picture on a coarse grid, then
+// around each flame on a finer one. Region, channel and level are chosen together.
 //
-// Section 3.1 of the paper asks for one level that separates the histogram's two clusters, flame and background.
+// Section 3.1 of the paper instead uses one level between the histogram's two clusters, flame and background.
 
 #include <optional>
 #include <span>
@@ -23,41 +23,41 @@ namespace wisp {
 /// Precondition: step >= 1.
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step);
 
-/// What to look for.
+/// Options of survey_scene().
 struct SurveyOptions {
-  std::optional<PixelChannel> channel;  ///< nothing: all there are
-  bool dark = false;                    ///< the thing is dark on a light ground
-  Region region;                        ///< where to look, pixels; empty: the whole picture
-  int flame = 1;                        ///< which of several flames, 1 the largest; 0: what moves, flame or not
+  std::optional<PixelChannel> channel;  ///< channel to use; empty: all are tried
+  bool dark = false;                    ///< whether the object is dark on a light background
+  Region region;                        ///< searched region, pixels; empty: the whole picture
+  int flame = 1;                        ///< index of the flame by size, from 1; 0: any moving object
 };
 
-/// What was found.
+/// Result of a survey.
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
-  int level = 0;               ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
+  int level = 0;               ///< pixels whose value (inverted for dark objects) is above this belong to the object
   Histogram histogram{};       ///< of the channel as stored (inverted for dark things), over the pictures that count
-  Region home;                 ///< around all places where the thing was seen
-  std::vector<Region> seen;    ///< around the thing in each picture in which it was there
-  bool stands = false;         ///< at that level it has mostly run together with what it stands on
+  Region home;                 ///< union of all places where the object was seen
+  std::vector<Region> seen;    ///< box of the object in each picture with it
+  bool stands = false;         ///< whether it has mostly merged with its stand at that level
   double area = 0;             ///< median, pixels
-  double change = 0;           ///< share of its shape that changes from picture to picture: 0 nothing moves
-  double steadiness = 0;       ///< how much less its base moves than its tip: 1 only the tip
-  double taper = 0;            ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
-  double light = 1;            ///< its luma over the brightest there is
-  double contrast = 255;       ///< its brightness less that of what is around it, levels
-  double clipped = 0;          ///< share of it that is flat: as bright in every channel as it gets
-  int flames = 0;              ///< how many flames there are; 0 where any thing was looked for
-  std::vector<Region> others;  ///< the median boxes of the others
+  double change = 0;           ///< share of its shape that changes between pictures: 0 still
+  double steadiness = 0;       ///< reduction of motion from tip to base: 1 only the tip moves
+  double taper = 0;            ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
+  double light = 1;            ///< its luma divided by the brightest region's
+  double contrast = 255;       ///< its brightness minus that of its surroundings, levels
+  double clipped = 0;          ///< share of it that is saturated in every channel
+  int flames = 0;              ///< number of flames; 0 where any object was requested
+  std::vector<Region> others;  ///< median boxes of the other flames
 };
 
-/// Surveys pictures of one size. Where there are fewer flames than `options.flame`, the largest is described. Errors:
-/// nothing stands out anywhere (one brightness only).
+/// Surveys pictures of one size. Where there are fewer than `options.flame` flames, the largest is described. Errors:
+/// no contrast anywhere.
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
 
-/// The side on which the thing is held: below, unless the border on another side cuts it off in nearly all pictures and
-/// the lower one does not, or it lies on its side: then the end that moves less.
+/// Side on which the object is held: below, unless the border on another side (and not the lower one) cuts it off in
+/// nearly all pictures, or it lies on its side, where the end that moves less is taken.
 BaseSide base_side(const Survey& survey, const Region& area);
 
 }  // namespace wisp

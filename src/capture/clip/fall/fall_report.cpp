@@ -10,16 +10,16 @@ namespace wisp::fall {
 namespace {
 
 constexpr double kMaxUnsteady = 0.2;  // share of the picture
-constexpr double kMaxShake = 0.01;    // of the picture's height: twice what a still camera's positions are off by
-constexpr std::size_t kMinFalls = 3;  // fewer repeat themselves at once; whether segments suffice, learning says
+constexpr double kMaxShake = 0.01;    // share of the picture's height: twice the position error of a fixed camera
+constexpr std::size_t kMinFalls = 3;  // minimum number of falls; learning checks whether segments suffice
 constexpr std::size_t kGoodFalls = 20;
-constexpr double kMinWhole = 0.8;   // share of the falls: with fewer, the ones that stray are wanting among the learned
+constexpr double kMinWhole = 0.8;   // share of falls seen whole; below it, falls that stray are under-represented
 constexpr double kMaxFilled = 0.2;  // share of the rows
-constexpr double kLong = 1.8;       // aspect: long enough to tell how it lies …
-constexpr double kShort = 1.3;      // … and too short for it
-constexpr double kMaxShort = 0.25;  // share of the rows that may be
-constexpr double kJerk = 0.52;      // rad: nothing light changes its turning by so much from one frame to the next …
-constexpr double kMaxJerks = 0.05;  // … and the long axis of a leaf, which is also seen from its edge and its tip, does
+constexpr double kLong = 1.8;       // aspect above which attitude is measurable …
+constexpr double kShort = 1.3;      // … and below which it is not
+constexpr double kMaxShort = 0.25;  // maximum share of rows below kShort
+constexpr double kJerk = 0.52;      // rad per frame: no light object changes its turning rate so fast …
+constexpr double kMaxJerks = 0.05;  // … but the measured axis jumps where a leaf is seen edge-on or from its tip
 
 std::size_t jerks_of(const Fall& fall) {
   std::size_t jerks = 0;
@@ -38,7 +38,7 @@ std::string unsteady_sentence(const Wall& wall) {
 
 std::string falls_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " fall" : " falls"); }
 
-// How many falls were not seen whole, by the reason.
+// Number of falls that were not seen whole, by reason.
 std::array<std::size_t, 5> counted(const Falls& found) {
   std::array<std::size_t, 5> count{};
   for (const Fall& fall : found.falls) ++count[static_cast<std::size_t>(fall.cut)];
@@ -78,7 +78,7 @@ const char* cut_text(Cut cut) {
       return "no: lost from view";
     case Cut::kPasses:
     case Cut::kQuick:
-      break;  // are missed
+      break;  // belong to missed falls
   }
   return "";
 }

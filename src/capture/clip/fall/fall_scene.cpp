@@ -9,17 +9,17 @@
 namespace wisp::fall {
 namespace {
 
-constexpr std::size_t kSamples = 61;     // frames that the wall is taken from
-constexpr std::size_t kGainSpots = 997;  // pixels that exposure is measured on
-constexpr float kMinGround = 16;         // grey levels: darker, it tells no exposure
-constexpr float kMinDifference = 8;      // grey levels: coding leaves less behind
+constexpr std::size_t kSamples = 61;     // frames from which the wall is estimated
+constexpr std::size_t kGainSpots = 997;  // stride of the pixels used to measure exposure
+constexpr float kMinGround = 16;         // grey levels: minimum brightness of pixels used to measure exposure
+constexpr float kMinDifference = 8;      // grey levels: above coding noise
 constexpr float kSigmas = 5;
-constexpr double kUnsteady = 5;   // grey levels that a pixel that changes all the time is not within …
-constexpr double kMoments = 0.7;  // … for more than so much of it
+constexpr double kUnsteady = 5;   // grey levels: an unsteady pixel deviates by more …
+constexpr double kMoments = 0.7;  // … in more than this share of the frames
 constexpr float kMadToSigma = 1.4826F;
-constexpr int kMinPixels = 4;     // of something, beyond the tolerance
-constexpr double kTypical = 0.9;  // quantile of a thing's differences that is the thing's own: its edge differs less
-constexpr double kShadow = 0.35;  // of that: what differs less is its shadow, or its blur
+constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond the tolerance
+constexpr double kTypical = 0.9;  // quantile of an object's differences that represents it; its edge differs less
+constexpr double kShadow = 0.35;  // share of that below which a pixel is shadow or blur
 constexpr double kPixelVariance = 1.0 / 12;
 
 template <class T>
@@ -29,7 +29,7 @@ T quantile(std::vector<T>& values, double share) {
   return *at;
 }
 
-// How much brighter the wall is in a frame than in the film: cameras follow the light.
+// Brightness of the wall in a frame relative to the film: cameras adapt their exposure.
 float gain_of(const Frame& frame, const std::vector<float>& brightness) {
   std::vector<float> ratios;
   const std::size_t step = std::max<std::size_t>(1, frame.size() / kGainSpots);
@@ -49,7 +49,7 @@ std::vector<const Frame*> samples_of(std::span<const Frame> frames) {
   return out;
 }
 
-// Pixels beyond the tolerance, and those around them: a thing whose middle is as bright as the wall stays one.
+// Pixels beyond the tolerance and their neighbours, so that an object with a centre as bright as the wall stays whole.
 std::vector<std::uint8_t> mask_of(const std::vector<float>& difference, const Wall& wall) {
   std::vector<std::uint8_t> mask(difference.size(), 0);
   for (int y = 0; y < wall.height; ++y) {
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> mask_of(const std::vector<float>& difference, const Wa
   return mask;
 }
 
-// Takes the connected pixels around one out of the mask.
+// Removes the connected component at a pixel from the mask and returns its pixels.
 std::vector<int> component_at(int seed, std::vector<std::uint8_t>& mask, const Wall& wall) {
   std::vector<int> pixels{seed};
   mask[static_cast<std::size_t>(seed)] = 0;
@@ -91,7 +91,7 @@ bool touches_border(const std::vector<int>& pixels, const Wall& wall) {
   });
 }
 
-// Its moments, each pixel weighted by how much of it the thing covers.
+// Moments of an object, each pixel weighted by the share of it that the object covers.
 Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vector<float>& difference, int width) {
   double sum = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   for (const int p : pixels) {
@@ -114,12 +114,12 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
   xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);
-  thing.angle = -std::atan2(2 * xy, xx - yy) / 2;  // y is down
+  thing.angle = -std::atan2(2 * xy, xx - yy) / 2;  // y points down
   thing.aspect = std::sqrt(std::max(1.0, (middle + radius - kPixelVariance) / across));
   return thing;
 }
 
-// By how many small pixels a frame's wall stands off, by the means of columns and rows; 0 where it has no marks.
+// Shift of a frame's wall in reduced pixels, from means of columns and rows; 0 where the wall has no texture.
 double shift_of(const Frame& frame, const Wall& wall, float gain) {
   const auto width = static_cast<std::size_t>(wall.width);
   std::vector<double> across(width), down(static_cast<std::size_t>(wall.height)), across_then = across,

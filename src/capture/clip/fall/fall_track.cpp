@@ -8,19 +8,19 @@
 namespace wisp::fall {
 namespace {
 
-constexpr double kGapSeconds = 0.05;     // edge on, or as bright as the wall: it is back soon
+constexpr double kGapSeconds = 0.05;     // longest invisibility, edge-on or as bright as the wall
 constexpr std::size_t kMinGap = 2;       // frames
-constexpr double kFirstSpeed = 6;        // heights a second that something may come into view with
-constexpr double kChange = 2.5;          // heights a second that its speed may change by from one frame to the next …
-constexpr double kShare = 0.6;           // … and of the speed itself
-constexpr double kMinReach = 3;          // small pixels
-constexpr double kJoinSeconds = 0.2;     // what a cubic can bridge of a swing that takes half a second
-constexpr double kJoinReach = 0.1;       // heights: gravity moves nothing further from its straight way in that time
-constexpr double kOverlapSeconds = 0.2;  // one part is followed to its end, while the other one is already there
-constexpr std::size_t kSteady = 3;       // frames that a speed is taken over, where what was seen last is seen in part
-constexpr std::size_t kMinRows = 3;      // fewer are noise
+constexpr double kFirstSpeed = 6;        // maximum initial speed, picture heights a second
+constexpr double kChange = 2.5;          // maximum change of speed between frames, heights a second …
+constexpr double kShare = 0.6;           // … and as a share of the speed
+constexpr double kMinReach = 3;          // minimum search radius, reduced pixels
+constexpr double kJoinSeconds = 0.2;     // longest gap that a cubic bridges in a swing of half a second
+constexpr double kJoinReach = 0.1;       // heights: largest deviation by gravity from a straight path in that time
+constexpr double kOverlapSeconds = 0.2;  // time in which the end of one part and the beginning of another coexist
+constexpr std::size_t kSteady = 3;       // frames over which speed is averaged where the last view is partial
+constexpr std::size_t kMinRows = 3;      // minimum length of a track; shorter ones are noise
 
-// How far a thing lies from where a track would be in a frame, over how far it may.
+// Distance of an object from a track's predicted position in a frame, divided by the tolerated distance.
 double miss(const Track& track, const Thing& thing, std::size_t frame, const Scale& scale) {
   const auto gap = static_cast<double>(frame - track.frames.back());
   const double u = track.speed(&Thing::x, 1), v = track.speed(&Thing::y, 1);
@@ -63,8 +63,8 @@ std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
   return done;
 }
 
-// Whether one goes on where the other ends: how far apart both come, each on its straight way, half-way between. Below
-// 0: it does not.
+// Whether one track continues the other: the distance between both, extrapolated to the middle of the gap. Negative
+// where it does not.
 double seam(const Track& before, const Track& after, const Scale& scale) {
   const double gap = static_cast<double>(after.frames.front()) - static_cast<double>(before.frames.back());
   if (gap > kJoinSeconds * scale.rate_hz || gap < -kOverlapSeconds * scale.rate_hz) return -1;
@@ -77,7 +77,7 @@ double seam(const Track& before, const Track& after, const Scale& scale) {
   return far <= kJoinReach * scale.height ? far : -1;
 }
 
-// What both show, the later one from where it begins.
+// Joins two tracks; where they overlap, the later one is used from its beginning.
 void append(Track& before, const Track& after) {
   const auto end =
       std::lower_bound(before.frames.begin(), before.frames.end(), after.frames.front()) - before.frames.begin();

@@ -8,22 +8,22 @@ namespace wisp::fall {
 namespace {
 
 constexpr double kMinSeconds = 0.3;
-constexpr std::size_t kMinStretchRows = 8;  // of a stretch that a chain is learned from
-constexpr double kMinDescent = 0.25;        // heights of the picture
-constexpr double kPieceDescent = 0.1;       // heights: what sinks by so much and is no fall is a piece of one
-constexpr double kAtRest = 0.01;            // heights: nearer to where it began or ended, it hangs or lies
-constexpr std::size_t kRests = 3;           // frames
-constexpr double kApart = 0.03;             // heights: what keeps its distance as closely is a part, or a shadow
-constexpr double kRound = 1.3;              // aspect: less long, it has no direction
-constexpr double kNearEnd = 0.1;            // heights: so much of a fall may be wanting at its end
-constexpr double kNearSide = 2;             // small pixels
-constexpr std::size_t kAhead = 3;           // frames: what will have crossed the picture's side by then has left there
-constexpr double kSameSeconds = 0.5;        // pieces that follow each other as closely are of one fall
+constexpr std::size_t kMinStretchRows = 8;  // minimum rows of a stretch that a chain can be learned from
+constexpr double kMinDescent = 0.25;        // minimum descent of a fall, picture heights
+constexpr double kPieceDescent = 0.1;       // heights: minimum descent of a fragment of a fall
+constexpr double kAtRest = 0.01;            // heights: distance from start or end within which it hangs or lies
+constexpr std::size_t kRests = 3;           // frames at rest
+constexpr double kApart = 0.03;             // heights: a track whose distance varies less is a part or a shadow
+constexpr double kRound = 1.3;              // aspect below which the long axis is undefined
+constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
+constexpr double kNearSide = 2;             // reduced pixels
+constexpr std::size_t kAhead = 3;           // frames ahead in which crossing the picture's side counts as leaving
+constexpr double kSameSeconds = 0.5;        // longest gap between fragments of one fall
 
-// A track from where the thing begins to move until it lies, or leaves.
+// A track from the start of motion until the object lies or leaves the picture.
 struct Candidate {
   Track track;
-  bool rests = false;  // it is seen lying
+  bool rests = false;  // whether it is seen lying
 
   std::size_t begin() const { return track.frames.front(); }
   std::size_t end() const { return track.frames.back(); }
@@ -61,13 +61,13 @@ bool is_fall(const Candidate& fall, const Scale& scale) {
   return is_long(fall, scale) && fall.descent() >= kMinDescent * scale.height;
 }
 
-// Whether a thing that moves on as it does has crossed one of the picture's sides a few frames later.
+// Whether an object, extrapolated by kAhead frames, crosses one of the picture's sides.
 bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
   const double way = speed * kAhead;
   return thing.left + way < kNearSide || thing.right + way > scale.width - 1 - kNearSide;
 }
 
-// `ground`: where falls end.
+// Classifies how a fall was cut. `ground`: height at which falls end.
 Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale& scale) {
   const Track& track = fall.track;
   if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kAhead), scale)) return Cut::kSide;
@@ -75,13 +75,13 @@ Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale
   return crosses_side(track.things.back(), track.speed(&Thing::x, kAhead), scale) ? Cut::kSide : Cut::kLost;
 }
 
-// How far a thing reaches from its middle, and goes until the next frame.
+// Half extent of an object plus its motion until the next frame.
 double reach(const Track& track, std::size_t k) {
   const Thing &now = track.things[k], &next = track.things[std::min(k + 1, track.things.size() - 1)];
   return std::max((now.right - now.left) / 2, now.bottom - now.y) + std::hypot(next.x - now.x, next.y - now.y);
 }
 
-// Whether two touch, or may within a frame.
+// Whether two objects touch, or may touch within a frame.
 bool pass(const Candidate& one, const Candidate& other) {
   const Track &a = one.track, &b = other.track;
   for (std::size_t k = 0; k < a.frames.size(); ++k) {
@@ -94,7 +94,7 @@ bool pass(const Candidate& one, const Candidate& other) {
   return false;
 }
 
-// The height at which most end; the picture's border where there are none.
+// The height at which most falls end; the picture's border without falls.
 double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   std::vector<double> ends;
   for (const Candidate& fall : falls) {
@@ -107,7 +107,7 @@ double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   return *middle;
 }
 
-// Whether two tracks keep their distance for most of the shorter one: a thing and its shadow, or two parts of it.
+// Whether two tracks keep their distance for most of the shorter one: object and shadow, or two parts of an object.
 bool together(const Candidate& one, const Candidate& other_one, double height) {
   const Track &a = one.track, &b = other_one.track;
   std::vector<double> x, y;
@@ -151,13 +151,13 @@ void leave_out_shadows(std::vector<Candidate>& falls, double height) {
   in_order(falls);
 }
 
-// Of what sinks and is no fall: pieces of falls that were not found, each fall once. `rest` in the order of their
-// beginnings.
+// Cuts of sinking tracks that are no falls: fragments of undetected falls, each fall counted once. `rest` is in order
+// of first frames.
 std::vector<Cut> missed_of(const std::vector<Candidate>& rest, const std::vector<Candidate>& falls,
                            const std::vector<Cut>& cuts, double ground, std::size_t frames, const Scale& scale) {
   const auto same = static_cast<std::size_t>(kSameSeconds * scale.rate_hz);
   std::vector<Cut> missed;
-  std::size_t last = 0;  // frame in which the one before ends
+  std::size_t last = 0;  // last frame of the fragment before
   for (const Candidate& piece : rest) {
     if (piece.descent() < kPieceDescent * scale.height) continue;
     const bool quick = piece.descent() >= kMinDescent * scale.height;
@@ -175,7 +175,7 @@ std::vector<Cut> missed_of(const std::vector<Candidate>& rest, const std::vector
   return missed;
 }
 
-// A line is the same turned by half a turn; what is round for a moment points where it pointed before and after.
+// Unwraps the angle modulo half a turn; in rows with a round silhouette it is interpolated from those around.
 void unwrap(Track& track) {
   std::size_t known = track.things.size();
   for (std::size_t k = 0; k < track.things.size(); ++k) {
@@ -193,7 +193,7 @@ void unwrap(Track& track) {
   for (std::size_t k = known + 1; k < track.things.size(); ++k) track.things[k].angle = track.things[known].angle;
 }
 
-// Frames in which it was not seen lie on a cubic through those around.
+// Builds a fall from a track; frames without a detection are interpolated by a cubic.
 Fall fall_of(const Track& track, Cut cut) {
   Fall fall{track.frames.front(), {}, {}, cut};
   const std::size_t count = track.frames.size();

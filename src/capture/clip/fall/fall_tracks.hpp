@@ -1,5 +1,5 @@
 #pragma once
-// Things that are seen in frame after frame, alone and as falls.
+// Tracks of objects over frames, and the falls among them.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace wisp::fall {
 
-/// What it is measured against.
+/// Picture size and frame rate of the tracking.
 struct Scale {
   double rate_hz = 0;
-  double width = 0;   ///< of the picture, small pixels
+  double width = 0;   ///< picture width, reduced pixels
   double height = 0;  ///<
 };
 
@@ -21,40 +21,40 @@ struct Track {
   std::vector<std::size_t> frames{};
   std::vector<Thing> things{};
 
-  /// Small pixels a frame, over its last steps; 0 for a single one.
+  /// Mean speed over the last steps, reduced pixels a frame; 0 for a single row.
   double speed(double Thing::*axis, std::size_t steps) const;
-  /// The same over its first.
+  /// Mean speed over the first steps, likewise.
   double first_speed(double Thing::*axis, std::size_t steps) const;
 };
 
-/// Tracks by nearest prediction, with constant velocity. What is out of sight for a moment, or falls into two for one,
-/// goes on as one track.
+/// Tracks objects by nearest prediction at constant velocity. An object that is briefly invisible or splits briefly
+/// stays one track.
 std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale);
 
-/// Why a fall was not followed from its release to its end.
+/// Reason why a fall was not followed from its release to its end.
 enum class Cut {
   kNo,
-  kSide,    ///< it leaves the picture at a side, or comes in there
-  kLost,    ///< it is lost from view in the air
-  kPasses,  ///< it comes so near to another that either may have been taken for the other
-  kQuick,   ///< it is over in less than 0.3 s or 8 frames
+  kSide,    ///< it leaves or enters the picture at a side
+  kLost,    ///< it disappears in the air
+  kPasses,  ///< it comes so near to another object that the two may be confused
+  kQuick,   ///< it lasts less than 0.3 s or 8 frames
 };
 
-/// Something on its way down: a row for every frame from its release until it lies or leaves the picture.
+/// A falling object: one row per frame from its release until it lies or leaves the picture.
 struct Fall {
   std::size_t first = 0;             ///< frame of the first row
-  std::vector<Thing> rows;           ///< `angle` goes on without jumps, beyond ±π/2
-  std::vector<std::uint8_t> filled;  ///< 1: not seen, interpolated
+  std::vector<Thing> rows;           ///< `angle` is unwrapped, beyond ±π/2
+  std::vector<std::uint8_t> filled;  ///< per row, 1: not seen, interpolated
   Cut cut = Cut::kNo;
 };
 
 struct Falls {
-  std::vector<Fall> falls;  ///< in the order of their beginnings
-  std::vector<Cut> missed;  ///< of what sinks, but is followed for too short to be one of them, or passes another
+  std::vector<Fall> falls;  ///< in order of their first frames
+  std::vector<Cut> missed;  ///< sinking tracks that are too short to be falls, or pass another object
 };
 
-/// The falls among what was seen. Something falls if it is in view for at least 0.3 s and 8 frames and sinks by at
-/// least a quarter of the picture's height.
+/// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of
+/// the picture's height.
 Falls falls_in(std::span<const Seen> frames, const Scale& scale);
 
 }  // namespace wisp::fall

@@ -12,13 +12,13 @@
 namespace wisp {
 namespace {
 
-constexpr double kCalm = 0.05;                              // of wind 1: less is no blow
-constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // shorter pauses are of one blow; a flame follows its wind
+constexpr double kCalm = 0.05;                              // in wind units: threshold of a blow
+constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // shorter pauses are of one blow; the flame's lag
 
 struct Blow {
-  std::size_t begin = 0, end = 0;  // rows
-  double x = 1, z = 0;             // its direction, of length 1
-  double alike = 0, answer = 0;    // the share of the lean that is that way; the lean for each 1 of wind, pixels
+  std::size_t begin = 0, end = 0;  // rows [begin, end)
+  double x = 1, z = 0;             // direction, unit vector
+  double alike = 0, answer = 0;    // share of the lean in that direction; pixels of lean per unit of wind
   double strength = 0;             // mean wind, weighted by itself
   double azimuth() const { return std::atan2(-z, x); }
 };
@@ -33,7 +33,7 @@ std::vector<Blow> blows_of(const std::vector<double>& wind, double rate_hz) {
   return out;
 }
 
-// Displacements from the median of calm rows, or of all where it is hardly ever calm.
+// Displacements from the median of calm rows, or of all rows where few are calm.
 std::vector<double> displaced(std::vector<double> place, const std::vector<double>& wind) {
   std::vector<double> calm, any;
   for (std::size_t row = 0; row < place.size(); ++row) {
@@ -46,7 +46,7 @@ std::vector<double> displaced(std::vector<double> place, const std::vector<doubl
   return place;
 }
 
-// Towards the mean displacement, weighted by the wind that made it.
+// Sets the direction of a blow: the mean displacement, weighted by the wind.
 void direct(const std::vector<double>& wind, const std::vector<double>& x, const std::vector<double>& z,
             std::size_t lag, Blow& blow) {
   double sum_x = 0, sum_z = 0, all = 0, square = 0, cube = 0;
@@ -73,7 +73,7 @@ std::vector<double> heard_along(const Recording* film, double first_row, std::si
   return wind;
 }
 
-// Tells the recording, too, how far the flame is from being the same from all sides.
+// Report on the blows; also stores in the recording how far the flame deviates from rotational symmetry.
 ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
   ReportTable table{"blows",
                     "Blows",
@@ -99,7 +99,7 @@ ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
 ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings) {
   const std::size_t rows = rings.rows(), ring_parts = rings.channels.size(), points = ring_parts / 3;
   const std::vector<double> wind = heard_along(film, first_row, rows);
-  std::vector<std::vector<double>> parts;  // x, y, z, r, tx, tz of each ring; level ones less what they are at rest
+  std::vector<std::vector<double>> parts;  // x, y, z, r, tx, tz of each ring; horizontal ones relative to rest
   for (std::size_t k = 0; k < ring_parts; ++k) {
     const auto& samples = rings.channels[k].samples;
     parts.push_back(k % 6 == 1 || k % 6 == 3 ? samples : displaced(samples, wind));

@@ -16,14 +16,14 @@ namespace {
 
 using Row = std::vector<double>;
 
-// A view's rows as shape coordinates, y up, about the middle of the base at rest; empty where the outline is missing.
+// A view's rows in shape coordinates, y up, about the middle of the base at rest; empty without an outline.
 struct ViewRows {
-  double right_x = 1, right_z = 0;  // of the camera
-  double begins = 0, scale = 1;     // rows after the first view; pixels of the first a pixel
+  double right_x = 1, right_z = 0;  // the camera's direction to the right
+  double begins = 0, scale = 1;     // start in rows of the first view; pixels of the first view per pixel
   std::vector<Row> rows;
-  Row height;  // of the innermost points over the base; NaN where missing
+  Row height;  // height of the innermost points over the base; NaN where missing
 
-  // Between two rows, in the first view's time and scale.
+  // Interpolates between two rows, at a row of the first view and in its scale.
   Row at(double row) const {
     const double place = row - begins;
     const auto before = static_cast<std::size_t>(std::max(0.0, std::floor(place))), after = before + 1;
@@ -77,7 +77,7 @@ ViewRows view_rows(const FilmedView& view) {
   return out;
 }
 
-// When a view began in the first one's time. A body is as high from every side.
+// Time offset of a view to the first one, from the body's height, which is equal from every side.
 Joint joint_of(const FilmedView& first, const FilmedView& other, const Row& height, const Row& other_height) {
   const auto logarithms = [](Row loudness) {
     for (double& rms : loudness) rms = std::log(rms + 1e-4);
@@ -93,13 +93,13 @@ Joint joint_of(const FilmedView& first, const FilmedView& other, const Row& heig
   return out;
 }
 
-// All views in the first one's time and scale.
+// All views in the time and scale of the first one.
 struct Joined {
   std::vector<ViewRows> views;
-  std::vector<Joint> joints;              // one a view
-  std::size_t first = 0, rows = 0;        // of the first view
-  Row apart;                              // how far views are from their mean in the height, of each whole row
-  double height = 0, widest_degrees = 0;  // mean height in pixels; of the angles between views
+  std::vector<Joint> joints;              // one per view
+  std::size_t first = 0, rows = 0;        // rows of the first view
+  Row apart;                              // per complete row: deviation of the views' heights from their mean
+  double height = 0, widest_degrees = 0;  // mean height in pixels; largest angle between views
   Recording recording;
 
   double heights_differ() const { return height > 0 ? 100 * mean(apart) / height : std::nan(""); }
@@ -136,7 +136,7 @@ Result<void> join_times(std::span<const FilmedView> views, Joined& joined) {
   return {};
 }
 
-// A flame is as high from every side: the median of ratios.
+// Sets scales by the median ratio of heights, as a flame has equal height from every side.
 void join_scales(Joined& joined) {
   const std::size_t top = 2 * (joined.recording.channels.size() / 6) - 1;
   for (ViewRows& view : joined.views) {
@@ -160,7 +160,7 @@ Recording empty_rings(const Recording& first, std::size_t count, const Joined& j
   return out;
 }
 
-// The level vector whose parts to the right views see, by least squares.
+// The horizontal vector whose projections to the views' right directions match best, by least squares.
 std::pair<double, double> level_vector(const Joined& joined, const std::vector<Row>& seen, std::size_t coordinate) {
   double xx = 0, xz = 0, zz = 0, x = 0, z = 0;
   for (std::size_t v = 0; v < seen.size(); ++v) {

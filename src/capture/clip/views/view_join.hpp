@@ -1,8 +1,8 @@
 #pragma once
 // Films of one flame from several level directions, joined to its body: rings on an axis.
 //
-// A level camera sees of a horizontal place (x, z) its part to the right, x cos α − z sin α: of an outline's symmetric
-// parts the body's own, of its antisymmetric ones such parts of vectors, which views at two angles and more give.
+// A camera at azimuth α sees the projection x cos α − z sin α of a horizontal position (x, z). Symmetric parts of an
+// outline are those of the body; antisymmetric parts are projections of vectors, which two or more angles determine.
 
 #include <array>
 #include <optional>
@@ -15,53 +15,53 @@
 
 namespace wisp {
 
-/// Where two series fit best: by normalised cross-correlation over all offsets that leave enough in common.
+/// Best offset of two series, by normalised cross-correlation over all offsets with enough overlap.
 struct TimeOffset {
-  double rows = 0;         ///< the second series begins so much later than the first
-  double correlation = 0;  ///< there, −1 to 1
-  double next_best = 0;    ///< of the offsets at least a second away
-  /// Two films of one flame correlate by 0.9 and more, 0.3 above the next best; films of two flames by at most 0.3.
+  double rows = 0;         ///< delay of the second series behind the first
+  double correlation = 0;  ///< correlation at that offset, −1 to 1
+  double next_best = 0;    ///< best correlation at offsets at least a second away
+  /// Films of one flame correlate by at least 0.9, 0.3 above the next best; films of two flames by at most 0.3.
   bool certain() const { return correlation >= 0.6 && correlation - next_best >= 0.15; }
 };
 
-/// The offset of two series of one rate; NaN is what is not known. Nothing where no offset leaves two seconds in
-/// common, or nothing varies.
+/// Offset of two series of equal rate; NaN marks missing values. Empty where no offset leaves an overlap of two
+/// seconds, or a series is constant.
 std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz);
 
-/// One film, captured with the first one's curve.
+/// One film, captured with the curve shape of the first one.
 struct FilmedView {
-  double azimuth_degrees = 0;  ///< of the camera, anticlockwise from above
+  double azimuth_degrees = 0;  ///< camera azimuth, anticlockwise from above
   Recording recording{};
-  std::vector<double> loudness{};  ///< root mean square of the sound, one a row of the recording's rate; empty: none
-  double heard_from = 0;           ///< when the first of them begins, seconds after the film's first frame
+  std::vector<double> loudness{};  ///< RMS of the sound at the recording's rate; empty: no sound
+  double heard_from = 0;           ///< time of its first value, seconds after the film's first frame
 };
 
-/// Adds to rings the outline as a camera beside each blow sees it, so that it blows to the right, less the lean at
-/// rest, and the first input of `film` (null: none), whose row `first_row` is theirs first; as motion wind.x and
-/// wind.z, the blow's vector, towards where the flame leans in it. A new blow begins an episode. Returns what each blow
-/// was.
+/// Adds to rings the outline as seen by a camera beside each blow, so that the wind blows to the right, minus the lean
+/// at rest; and the first input of `film` (null: none), whose row `first_row` is the rings' first, as motion wind.x and
+/// wind.z: the blow's vector, in the direction in which the flame leans. Every blow begins an episode. Returns a report
+/// on the blows.
 ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings);
 
-/// What a blow did: where it blew to (radians), its mean wind weighted by itself, and the lean for each 1 of wind.
+/// Response to a blow: its direction (radians), mean wind weighted by itself, and lean per unit of wind.
 struct BlowAnswer {
   double azimuth = 0, strength = 0, lean = 0;
 };
 
 inline constexpr std::size_t kMinSymmetryBlows = 9;
 
-/// By how much the lean for each 1 of wind depends on the direction, in percent of its mean, beside a line in the
-/// strength: the root mean square over all directions of two harmonics, less what chance shows; and its 95 % interval,
-/// from leans that are shuffled among the blows. Nothing of fewer blows than kMinSymmetryBlows, or from one side.
+/// Dependence of the lean per unit of wind on direction, in percent of its mean, after a linear dependence on strength:
+/// the RMS over directions of two harmonics, minus its expectation by chance; and its 95 % interval from permuted
+/// leans. Empty for fewer blows than kMinSymmetryBlows, or blows from one side.
 std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> blows);
 
 /// Joins films, in pixels of the first: x to the right of a camera at 0°, y up from the base at rest, z towards that
-/// camera. Returns, for every frame that all have and every ring k from the base to the tip, as motion ringk.x, .y, .z,
-/// .r (its radius), .tx and .tz (by how much it rises to its rim towards +x and +z), and what see_from_beside() adds.
-/// Errors, naming the film: as check_azimuths(); an odd number of points, another number or rate than the first film's,
-/// not usable itself, no time in common with it.
+/// camera. Returns, for every frame present in all films and every ring k from the base to the tip, as motion ringk.x,
+/// .y, .z, .r (radius), .tx and .tz (rise of its rim towards +x and +z), and the channels of see_from_beside().
+/// Errors, naming the film: as check_azimuths(); an odd number of points, a number or rate other than the first film's,
+/// an unusable film, no time in common with the first.
 Result<Captured> join_views(std::span<const FilmedView> views);
 
-/// Errors: fewer than two films, not one angle each, a direction that another film has, or its opposite.
+/// Errors: fewer than two films, not one angle each, a direction equal or opposite to another film's.
 Result<void> check_azimuths(std::span<const double> azimuths, std::span<const std::string> names);
 
 }  // namespace wisp

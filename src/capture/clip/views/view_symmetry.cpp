@@ -10,11 +10,11 @@ namespace wisp {
 namespace {
 
 constexpr int kShuffles = 1000;
-// Largest power of both harmonics of the directions themselves: 4 where all blows have one direction, at least 1 where
-// they have two, 0 where directions are spread evenly.
+// Maximum power of the first two harmonics of the directions: 4 for a single direction, at least 1 for two directions,
+// 0 for evenly distributed ones.
 constexpr double kMaxDirectionPower = 0.95;
 
-// The mean square, over all directions, of two harmonics that blows of such numbers show.
+// Mean square over all directions of two harmonics fitted to these numbers, one per blow.
 double harmonics(std::span<const BlowAnswer> blows, std::span<const double> numbers) {
   double power = 0;
   for (const int times : {1, 2}) {
@@ -46,7 +46,7 @@ std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> bl
     by_chance.push_back(lost * harmonics(blows, rest));
   }
   const double reach = std::sqrt(quantile(by_chance, 0.95)), share = std::sqrt(seen);
-  // Of shuffled leans 4 / n of the harmonics' own power is seen as chance.
+  // In permuted leans 4 / n of the harmonics' own power appears as chance.
   return std::array{100 * std::sqrt(std::max(0.0, seen - mean(by_chance)) / (1 - 4 / count)),
                     100 * std::max(0.0, share - reach), 100 * (share + reach)};
 }

@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// Normalised correlation of first[k + lag] and second[k]; −1 where there are too few rows or nothing varies.
+// Normalised correlation of first[k + lag] and second[k]; −1 where there are too few rows or a series is constant.
 double correlation(std::span<const double> first, std::span<const double> second, std::ptrdiff_t lag, double least) {
   double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   const auto end = std::min(std::ssize(second), std::ssize(first) - lag);
@@ -23,7 +23,7 @@ double correlation(std::span<const double> first, std::span<const double> second
 }  // namespace
 
 std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz) {
-  // What little is in common fits by chance: so much of the shorter one must be.
+  // Minimum overlap, as a share of the shorter series: short overlaps correlate by chance.
   const auto shorter = static_cast<double>(std::min(first.size(), second.size()));
   const double least = std::max(2 * rate_hz, 0.3 * shorter);
   std::vector<double> found;
@@ -37,7 +37,7 @@ std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<c
     if (std::abs(static_cast<double>(k - at)) >= rate_hz)
       out.next_best = std::max(out.next_best, found[static_cast<std::size_t>(k)]);
   }
-  // Between samples, by a parabola through three; at both ends nothing is in common.
+  // Refines the maximum between samples by a parabola through three; the correlation at both ends is −1.
   const double before = best[-1], after = best[1], bend = before - 2 * *best + after;
   if (bend < 0 && before > -1 && after > -1) out.rows += std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
   return out;
