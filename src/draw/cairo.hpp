@@ -1,7 +1,7 @@
 #pragma once
-// Cairo, owned: contexts that draw straight into an Image's pixels.
+// Owning types for Cairo, and contexts that draw directly into an Image's pixels.
 //
-// What is private to this layer is in wisp::drawing, so that short names never meet another layer's of the same name.
+// Private names of this layer are in namespace wisp::drawing, so that they do not collide with those of other layers.
 
 #include <cairo.h>
 #include <memory>
@@ -24,24 +24,24 @@ using CairoPattern = std::unique_ptr<cairo_pattern_t, DestroyCairo>;
 /// A surface over the image's own pixels, which must outlive it and stay where they are.
 CairoSurface surface_of(Image& image);
 
-/// A context that draws into the image; what is drawn is in the pixels once the context is gone.
+/// A context that draws into the image; the pixels are complete once the context is destroyed.
 CairoContext context_of(Image& image);
 
 void set_colour(cairo_t* context, Colour colour);
 
 struct Font {
-  double size = 10;  ///< height of a line without its spacing
+  double size = 10;  ///< line height without spacing
   bool bold = false;
 };
 
 enum class Align { kLeft, kCentre, kRight };
 
-/// The text with every byte that is not UTF-8 replaced by '?': Cairo would draw nothing more after it.
+/// The text with every invalid UTF-8 byte replaced by '?': Cairo would stop drawing at it.
 std::string as_utf8(std::string_view text);
 
 double text_width(cairo_t* context, std::string_view text, Font font);
 
-/// Draws a line of text; (x, y) is the left, middle or right of its base line.
+/// Draws a line of text; (x, y) is the left end, middle or right end of its base line.
 void show_text(cairo_t* context, std::string_view text, double x, double y, Font font, Colour colour,
                Align align = Align::kLeft);
 

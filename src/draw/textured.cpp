@@ -7,18 +7,18 @@
 namespace wisp::drawing {
 namespace {
 
-constexpr int kSub = 16;  // places of a corner within a pixel
+constexpr int kSub = 16;  // sub-pixel positions of a corner per pixel
 constexpr float kFarthest = 16000;
 constexpr std::uint32_t kEven = 0x00FF00FFU;
 
-// Two channels at a time: a + (b − a) · share / 256.
+// Interpolates two channels at a time: a + (b − a) · share / 256.
 std::uint32_t between(std::uint32_t a, std::uint32_t b, std::uint32_t share) {
   const std::uint32_t low = (a & kEven) * (256 - share) + (b & kEven) * share;
   const std::uint32_t high = (a >> 8 & kEven) * (256 - share) + (b >> 8 & kEven) * share;
   return (low >> 8 & kEven) | (high & ~kEven);
 }
 
-// The texture at a place in 256ths of its pixels, from the middle of the first.
+// Bilinear sample of the texture at a position in 256ths of its pixels, from the first pixel's centre.
 std::uint32_t sampled(const Texture::Level& texture, int u, int v) {
   const int x = std::clamp(u >> 8, 0, texture.width - 1), y = std::clamp(v >> 8, 0, texture.height - 1);
   const int right = std::min(x + 1, texture.width - 1), below = std::min(y + 1, texture.height - 1);
@@ -28,7 +28,7 @@ std::uint32_t sampled(const Texture::Level& texture, int u, int v) {
   return between(between(top[x], top[right], across), between(bottom[x], bottom[right], across), down);
 }
 
-// Lays a premultiplied colour, its light and opacity in 256ths, over a pixel.
+// Blends a premultiplied colour over a pixel; light and opacity in 256ths.
 void lay(std::uint32_t& pixel, std::uint32_t colour, std::uint32_t light, std::uint32_t opacity) {
   const std::uint32_t solid = (colour >> 24) * opacity >> 8;
   const std::uint32_t left = 255 - solid;
@@ -40,12 +40,12 @@ void lay(std::uint32_t& pixel, std::uint32_t colour, std::uint32_t light, std::u
   pixel = std::min(255U, solid + behind) << 24 | channel(16) << 16 | channel(8) << 8 | channel(0);
 }
 
-// One side of a triangle: not negative inside. Its value grows by `right` from pixel to pixel and by `down` from row to
+// Edge function of one side of a triangle, non-negative inside. It increases by `right` per pixel and by `down` per
 // row.
 struct Side {
   Side(const std::array<int, 2>& p, const std::array<int, 2>& q, int x, int y) {
     const int dx = q[0] - p[0], dy = q[1] - p[1];
-    // Where the middle of a pixel is on the side itself, it belongs to the triangle whose left or upper side that is.
+    // A pixel centre exactly on the side belongs to the triangle of which it is a left or upper side.
     const bool owns = dy < 0 || (dy == 0 && dx > 0);
     value = static_cast<long long>(dx) * (y - p[1]) - static_cast<long long>(dy) * (x - p[0]) - (owns ? 0 : 1);
     right = -static_cast<long long>(dy) * kSub;
@@ -54,7 +54,7 @@ struct Side {
   long long value, right, down;
 };
 
-// A quantity that goes linearly over the triangle, at pixel middles.
+// A quantity that varies linearly over the triangle, at pixel centres.
 struct Slope {
   Slope(const TexturedCorner& a, const TexturedCorner& b, const TexturedCorner& c, float va, float vb, float vc) {
     const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles with a picture on them, in whole numbers: quick, without seams, the same everywhere.
+// Textured triangles in integer arithmetic: fast, without seams, and identical on every machine.
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace wisp::drawing {
 
-/// A picture in several sizes, each half the one before; premultiplied ARGB.
+/// A picture at several sizes, each half of the one before; premultiplied ARGB.
 struct Texture {
   struct Level {
     int width = 0;
@@ -18,20 +18,20 @@ struct Texture {
   std::vector<Level> levels;
 };
 
-/// Makes the smaller sizes of a picture.
+/// Builds the smaller sizes of a picture.
 ///
 /// Precondition: the picture has at least one pixel and width × height of them.
 Texture texture_of(Texture::Level picture);
 
-/// A corner: where it is in the image, what of the texture is there (shares of its size, 0 … 1), and how bright.
+/// A corner: its position in the image, its position in the texture (shares of the size, 0 … 1), and its brightness.
 struct TexturedCorner {
   float x = 0, y = 0;
   float u = 0, v = 0;
-  float light = 1;  ///< times the texture's codes, 0 … 4
+  float light = 1;  ///< factor of the texture's codes, 0 … 4
 };
 
-/// Lays a triangle over the image, `opacity` 0 … 1. Pixels whose middles are on an edge that two triangles share belong
-/// to one of them. Triangles of which a corner is more than 16 000 pixels away are left out.
+/// Draws a triangle over the image with `opacity` 0 … 1. Pixels whose centres are on an edge shared by two triangles
+/// belong to one of them. Triangles with a corner more than 16 000 pixels away are skipped.
 void draw_textured(Image& image, const TexturedCorner& a, const TexturedCorner& b, const TexturedCorner& c,
                    const Texture::Level& texture, float opacity);
 

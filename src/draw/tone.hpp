@@ -1,5 +1,5 @@
 #pragma once
-// Between the 8-bit sRGB of pictures and linear light.
+// Conversion between 8-bit sRGB and linear light.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ struct Light {
 
 inline float luminance(Light light) { return 0.2126F * light.red + 0.7152F * light.green + 0.0722F * light.blue; }
 
-/// sRGB's curve in both directions, as tables. Fetched once and then used for all pixels.
+/// The sRGB transfer function in both directions, as tables; obtained once for many pixels.
 class Tone {
  public:
   static const Tone& get();
@@ -32,7 +32,7 @@ class Tone {
   float linear(std::uint32_t channel) const { return linear_[channel]; }
   Light linear(Colour colour) const { return {linear_[colour.red], linear_[colour.green], linear_[colour.blue]}; }
 
-  /// The channel's code of a linear value, with its fraction, 0 … 255; within 0.004.
+  /// Code of a linear value with its fraction, 0 … 255; accurate to 0.004.
   float code(float linear_value) const {
     const float at = std::sqrt(std::clamp(linear_value, 0.0F, 1.0F)) * kSteps;
     const int k = static_cast<int>(at);
@@ -42,14 +42,14 @@ class Tone {
  private:
   Tone();
 
-  // Codes over the square root of the linear value, where the curve is nearly straight.
+  // Codes tabulated over the square root of the linear value, where the curve is nearly linear.
   static constexpr int kSteps = 1024;
   std::array<float, 256> linear_{};
   std::array<float, kSteps + 2> code_{};
 };
 
-/// A code with its fraction as a whole one: rounded up where the fraction is above 1 − `dither`, which is in [0, 1).
-/// What is a whole code but for the table's error stays that code.
+/// Rounds a code with dithering: up where the fraction exceeds 1 − `dither`, which is in [0, 1). Codes that are whole
+/// up to the table's error stay unchanged.
 inline std::uint32_t dithered(float code, float dither) {
   constexpr float kTableError = 0.004F;
   return static_cast<std::uint32_t>(std::min(255.0F, code + dither * (1 - 2 * kTableError) + kTableError));
@@ -64,17 +64,16 @@ inline float dither_at(int x, int y) {
   return static_cast<float>(spread >> 8) / 16777216.0F;
 }
 
-/// What is added to a code before it is cut off to a whole one: as dithered() rounds, so that both ways to a pixel
-/// agree.
+/// Offset added to a code before truncation; it rounds as dithered() does, so that both paths to a pixel agree.
 inline float rounding_at(int x, int y) { return 0.004F + 0.992F * dither_at(x, y); }
 
-/// The emission that add_light() shows as that colour on black.
+/// The emission that add_light() renders as that colour on black.
 Light emission_of(Colour colour);
 
-/// Lays a surface that sends that light over a premultiplied pixel, `opacity` 0 … 1.
+/// Blends a surface with that light over a premultiplied pixel, `opacity` 0 … 1.
 void blend(std::uint32_t& pixel, Light light, float opacity, float dither);
 
-/// 0 below `low`, 1 above `high`, smooth between.
+/// 0 below `low`, 1 above `high`, and a smooth transition between.
 inline float smooth_step(float low, float high, float value) {
   const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);

@@ -17,13 +17,13 @@ constexpr Colour kTime{158, 150, 140, 255};
 constexpr Colour kEmpty{26, 25, 27, 255};
 constexpr int kGap = 4;  // pixels between frames
 
-// Where everything goes, in whole pixels so that frames stay sharp.
+// Layout of the strip in whole pixels, which keeps frames sharp.
 struct Layout {
   int columns = 0;
   int cell_width = 0;
   int cell_height = 0;
   int margin = 0;
-  int caption = 0;  // heights of the lines of text, with the room around them
+  int caption = 0;  // height of a line of captions with its margins
   int times = 0;
   int width = 0;
   long height = 0;
@@ -80,7 +80,7 @@ void show_frame(cairo_t* context, const Image& frame, int x, int y, const Layout
   const int height = std::max(1, static_cast<int>(std::lround(frame.height() * scale)));
   Image small = resized(frame, width, height);
   const CairoSurface surface = surface_of(small);
-  const int left = (at.cell_width - width) / 2, top = (at.cell_height - height) / 2;  // whole: pixels stay sharp
+  const int left = (at.cell_width - width) / 2, top = (at.cell_height - height) / 2;  // whole numbers keep pixels sharp
   cairo_set_source_surface(context, surface.get(), x + left, y + top);
   cairo_paint(context);
 }

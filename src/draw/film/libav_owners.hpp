@@ -1,5 +1,5 @@
 #pragma once
-// Owners for what FFmpeg allocates where films and flipbooks are written.
+// Owning types for FFmpeg's allocations when films and flipbooks are written.
 
 extern "C" {
 #include <libavcodec/avcodec.h>

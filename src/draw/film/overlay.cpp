@@ -20,7 +20,7 @@ constexpr Colour kCasing{0, 0, 0, 170};
 constexpr Colour kPlate{8, 8, 10, 165};
 constexpr Colour kText{244, 240, 232, 255};
 
-// Cairo keeps coordinates in 24.8 fixed point; what is farther out cannot be seen anyway.
+// Limit of coordinates: Cairo stores them in 24.8 fixed point, and larger ones are outside the picture.
 constexpr float kFarthest = 1e5F;
 
 bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
@@ -46,7 +46,7 @@ void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   if (closed && whole) cairo_close_path(context);
 }
 
-// A line of a three-hundredth of the picture is seen from across the room and hides little.
+// Default width: 1/300 of the picture, visible from across a room without hiding much.
 double line_width(const Image& image, float asked) {
   if (asked > 0) return std::clamp(asked, 0.25F, 50.0F);
   return std::clamp(image.height() / 300.0, 1.2, 6.0);
@@ -80,7 +80,7 @@ void rounded_box(cairo_t* context, double x, double y, double width, double heig
   cairo_close_path(context);
 }
 
-// Text of 1/36 of the picture's height is read easily and hides little.
+// Default size: 1/36 of the picture's height, legible without hiding much.
 double text_size(const Image& image, float asked) {
   if (asked > 0) return asked;
   return std::clamp(image.height() / 36.0, 9.0, 40.0);
@@ -91,7 +91,7 @@ struct Plate {
   double y = 0;
 };
 
-// Draws the plate in its corner and returns where its content begins.
+// Draws the plate in its corner. Returns the position of its content.
 Plate draw_plate(cairo_t* context, const Image& image, Corner corner, double width, double height, double pad) {
   const bool right = corner == Corner::kTopRight || corner == Corner::kBottomRight;
   const bool bottom = corner == Corner::kBottomLeft || corner == Corner::kBottomRight;
@@ -126,7 +126,7 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
                                  line * static_cast<double>(entries.size()), size * 0.6);
   double middle = plate.y + line / 2;
   for (const LegendEntry& entry : entries) {
-    // On the middle of a row of pixels even a thin line has its full colour.
+    // Centred on a row of pixels, even a thin line has its full colour.
     const double row = std::floor(middle) + 0.5;
     cairo_new_path(context.get());
     cairo_move_to(context.get(), plate.x, row);

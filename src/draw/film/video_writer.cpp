@@ -41,7 +41,7 @@ std::string ffmpeg_reason(int code) {
   return text;
 }
 
-// One track: its encoder and its place in the file.
+// One track: its encoder and its stream in the file.
 struct Track {
   Owned<AVCodecContext> codec;
   AVStream* stream = nullptr;
@@ -49,7 +49,7 @@ struct Track {
   std::int64_t next = 0;  // time of the next frame, in the encoder's time base
 };
 
-// By the end of a file's name; the first where it is another.
+// Format by the file name's ending; the first one for unknown endings.
 struct Kind {
   const char* ending;
   const char* muxer;
@@ -104,8 +104,8 @@ struct VideoWriter::Encoder {
   Owned<AVPacket> packet;
   Track video;
   Track sound;
-  std::vector<float> waiting;         // sound that does not fill an encoder frame yet
-  std::vector<std::uint32_t> pixels;  // a frame padded to even sides, or with straight opacity
+  std::vector<float> waiting;         // samples that do not yet fill an encoder frame
+  std::vector<std::uint32_t> pixels;  // a frame padded to even sides, or with straight (unpremultiplied) opacity
   bool finished = false;
 
   Error error(const std::string& what, int code) const {
@@ -167,10 +167,10 @@ Result<void> VideoWriter::Encoder::open_video() {
   AVDictionary* settings = nullptr;
   av_dict_set_int(&settings, "crf", options.crf, 0);
   if (opacity()) {
-    av_dict_set(&settings, "auto-alt-ref", "0", 0);  // VP9 has no hidden frames with opacity
+    av_dict_set(&settings, "auto-alt-ref", "0", 0);  // VP9 with opacity does not support hidden frames
     context.bit_rate = 0;
   } else {
-    // "medium" at a rate factor of 17 looks the same as this at 15, for twice the work and three fifths of the file.
+    // "medium" at a rate factor of 17 looks the same for twice the work, at three fifths of the size.
     av_dict_set(&settings, "preset", "veryfast", 0);
     // Spends more bits on dark, smooth areas, where a halo would otherwise break into steps.
     av_dict_set(&settings, "x264-params", "aq-mode=3", 0);
@@ -223,7 +223,7 @@ Result<void> VideoWriter::Encoder::start_track(Track& track, const AVCodec* code
 Result<void> VideoWriter::Encoder::open_scaler() {
   const int width = padded_width();
   const int height = padded_height();
-  // Chroma is averaged where it is halved; rounding is done with care, since flames are mostly dark gradients.
+  // Chroma is averaged where it is subsampled; rounding is accurate, as flames are mostly dark gradients.
   constexpr int kQuality = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP;
   scaler.reset(
       sws_getContext(width, height, AV_PIX_FMT_BGRA, width, height, kind.pixels, kQuality, nullptr, nullptr, nullptr));

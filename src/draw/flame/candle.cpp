@@ -13,12 +13,12 @@ namespace {
 // Flatness of the candle's top, seen from slightly above.
 constexpr float kFlatness = 0.17F;
 
-// A candle laid out in pixels.
+// Position of a candle in pixels.
 struct Body {
-  float middle = 0;  // of the axis
+  float middle = 0;  // x of the axis
   float half = 0;    // half its width
-  float top = 0;     // of the centre of its upper circle
-  float bottom = 0;  // of the centre of its lower circle
+  float top = 0;     // y of the centre of its upper circle
+  float bottom = 0;  // y of the centre of its lower circle
   float unit = 0;
   float squash() const { return kFlatness * half; }
 };
@@ -33,12 +33,12 @@ Body body_of(const FlameScene& scene, const FlameStyle& style) {
   return body;
 }
 
-// A point of the candle in coordinates of the shading.
+// A point of the candle in shading coordinates.
 struct Spot {
   float across = 0;  // −1 … 1 from the left silhouette to the right
-  float facing = 0;  // how far the surface turns to the eye, 0 … 1
+  float facing = 0;  // cosine between surface normal and view direction, 0 … 1
   float depth = 0;   // model units below the rim
-  float round = 0;   // on the top: squared share of the way from the middle to the rim
+  float round = 0;   // on the top: squared distance from the centre, relative to the rim
   float front = 0;   // on the top: −1 far … 1 near
 };
 
@@ -88,7 +88,7 @@ Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, cons
 
 // Wax that ran down the side and set: a runnel with a heavy round end.
 struct Drip {
-  float across = 0;  // where, as Spot::across
+  float across = 0;  // position, as Spot::across
   float half = 0;    // half its width at the end, in shares of the candle's half width
   float length = 0;  // model units below the rim
 };
@@ -97,7 +97,7 @@ std::vector<Drip> drips_of(std::uint64_t seed, float width) {
   std::vector<Drip> drips;
   const int count = 2 + static_cast<int>(2 * random_at(seed, 2));
   for (int k = 0; k < count; ++k) {
-    // One in each section of the side, so that they do not overlap.
+    // One drip in each section of the side, so that they do not overlap.
     const float place = (static_cast<float>(k) + 0.2F + 0.6F * random_at(seed, 4 + 3 * k)) / static_cast<float>(count);
     const float half = 0.085F + 0.045F * random_at(seed, 5 + 3 * k);
     const float fall = random_at(seed, 6 + 3 * k);
@@ -106,10 +106,10 @@ std::vector<Drip> drips_of(std::uint64_t seed, float width) {
   return drips;
 }
 
-// How far inside the drip a spot is, in half widths: above 0 inside, below 0 outside.
+// Distance of a spot inside the drip's edge, in half widths; negative outside.
 float inside_drip(const Drip& drip, const Spot& spot, float half_width) {
   const float up = std::max(0.0F, drip.length - spot.depth) / half_width;
-  // Narrower above its end, wider again where it left the rim.
+  // Narrower above its end, wider again at the rim.
   const float neck = 0.62F + 0.38F * std::exp(-up / 0.30F) + 0.9F * std::exp(-spot.depth / (0.10F * half_width));
   const float side = std::abs(spot.across - drip.across) / (drip.half * neck);
   const float below = (spot.depth - (drip.length - drip.half * half_width)) / (drip.half * half_width);
@@ -126,7 +126,7 @@ class Shader {
         drips_(drips_of(seed, style.candle_width)),
         pixel_(1 / (0.1F * body.half)) {
     lean_ = std::clamp((own.place.x - body.middle) / (0.5F * body.unit), -1.0F, 1.0F);
-    // Farther neighbours add less than a code.
+    // Farther neighbours change the result by less than one code.
     for (const Lamp& lamp : others) {
       if (lamp.power > 0 && std::abs(lamp.place.x - body.middle) < 5 * body.unit) near_.push_back(lamp);
     }
@@ -141,7 +141,7 @@ class Shader {
     for (const Drip& drip : drips_) {
       const float inside = inside_drip(drip, spot, 0.5F * style_.candle_width);
       if (inside < -1) continue;
-      // The side is shaded beside a drip; on the drip the surface curves again from left to right.
+      // The side is shaded beside a drip; on the drip the surface is convex again from left to right.
       const float shade = 0.16F * smooth_step(-0.9F, 0, inside);
       light = (1 - shade) * light;
       const float on = std::clamp(0.5F + inside / pixel_, 0.0F, 1.0F);
@@ -189,12 +189,12 @@ class Shader {
   Lamp own_;
   Light wax_;
   std::vector<Drip> drips_;
-  float pixel_;  // in half widths of a drip
+  float pixel_;  // size of a pixel in half widths of a drip
   float lean_ = 0;
   std::vector<Lamp> near_;
 };
 
-// Signed distance in pixels, roughly: positive inside the ellipse around (x, y) = (0, 0).
+// Approximate signed distance in pixels, positive inside an ellipse centred at the origin.
 float inside_ellipse(float x, float y, float half, float squash) {
   const float u = x / half;
   const float v = y / squash;

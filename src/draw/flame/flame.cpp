@@ -1,4 +1,4 @@
-// Outlines that are no flames: filled shapes on a plain ground; and outlines of bodies, as a camera sees them.
+// Pictures of outlines other than flames: filled shapes on a plain background, and outlines of bodies of rings.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ void show_state(const LitState& state, FlameScene& scene) {
 }
 
 void SmokeDrift::blow(float wind, const LitState& state, std::chrono::nanoseconds step_time, FlameScene& scene) {
-  // A wind of 1 carries smoke by this, in flame heights a second; real smoke would leave the picture at once.
+  // Speed of smoke in a wind of 1, flame heights a second; real smoke would leave the picture at once.
   constexpr float kSmokeCarried = 1.5F;
   if (state.since_out == kNever) return;
   if (state.since_out <= step_time) sum_ = count_ = 0;
@@ -59,7 +59,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kHighest = 80;
 
-// A ring in the picture: its middle, and what a step along the picture and one towards the camera move its rim.
+// A ring in the picture: its centre, and the image vectors of its radii along the picture and towards the camera.
 struct SeenRing {
   double x, y;
   double radius;
@@ -80,7 +80,7 @@ SeenRing seen(const float* ring, const Camera& camera) {
           up * (s * ring[4] + c * ring[5]) - down * ring[3]};
 }
 
-// Which way the surface turns at an angle of a ring: it changes sign at the edge of what is seen.
+// Sign of the surface normal towards the camera at an angle of a ring; it changes at the silhouette.
 double facing(const SeenRing& below, const SeenRing& ring, const SeenRing& above, double angle) {
   const Point from = below.rim(angle), to = above.rim(angle);
   const double around_x = -ring.radius * std::sin(angle);
@@ -88,7 +88,7 @@ double facing(const SeenRing& below, const SeenRing& ring, const SeenRing& above
   return (to.x - from.x) * around_y - (to.y - from.y) * around_x;
 }
 
-// The edge nearest to one side of the ring; that side itself where the ring has none.
+// Angle of the silhouette nearest to one side of the ring; that side itself where there is none.
 double edge_of(const SeenRing& below, const SeenRing& ring, const SeenRing& above, double side) {
   constexpr int kSteps = 32;
   const double step = 90 * kDegree / kSteps;
@@ -107,9 +107,9 @@ double edge_of(const SeenRing& below, const SeenRing& ring, const SeenRing& abov
 constexpr Colour kGround{38, 41, 46, 255};
 constexpr Colour kShape{176, 184, 192, 255};
 constexpr Colour kEdge{236, 240, 244, 255};
-constexpr float kNarrower = 0.8F;  // of its width at two fifths of its height, near its tip
+constexpr float kNarrower = 0.8F;  // ratio of the width near its tip to that at two fifths of its height
 
-// The control polygon in the middle of its range, in the model's units.
+// The control polygon at the centre of its range, in the model's units.
 std::vector<Point> middle_polygon(const Model& model) {
   std::vector<Point> out;
   const auto middle = [](const Output& output) { return static_cast<float>(0.5 * (output.lowest + output.highest)); };
@@ -159,7 +159,7 @@ FlameStyle candle_style(const Model& model) {
       std::find_if(figures.begin(), figures.end(), [](const Figure& one) { return one.name == kCandleFigures[0]; });
   if (figures.end() - found < std::ssize(kCandleFigures)) return style;
   style.candle_width = static_cast<float>(found->value);
-  // By daylight: what white wax beside a flame lacks of green and blue is put back, and the brightest of them is white.
+  // Daylight: restores the green and blue that white wax lacks beside a flame, and scales the brightest point to white.
   constexpr std::array<double, 3> kLit{1.0, 0.86, 0.66};
   std::array<double, 3> wax{};
   for (std::size_t k = 0; k < 3; ++k) wax[k] = found[static_cast<std::ptrdiff_t>(k) + 1].value / kLit[k];

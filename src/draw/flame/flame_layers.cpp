@@ -28,13 +28,13 @@ FlameScene clamped(FlameScene scene) {
   return scene;
 }
 
-// Scale of the outline and light of a growing or shrinking flame.
+// Scale of outline and light of a growing or shrinking flame.
 struct Stage {
   float scale = 1;
   FlameMood mood;
 };
 
-// Mood of a flame that has grown to the share `grown`.
+// Brightness and colour of a flame that has grown to the share `grown`.
 FlameMood re_igniting(float grown) { return {0.5F + 0.5F * grown, 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)}; }
 
 Stage stage_of(const FlameScene& scene) {
@@ -51,7 +51,7 @@ Stage stage_of(const FlameScene& scene) {
   return stage;
 }
 
-// A very small flame burns blue.
+// Amount of soot: a very small flame burns blue.
 float sooting(const FlameShape& shape) { return smooth_step(0.06F, 0.40F, shape.height); }
 
 Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
@@ -145,7 +145,7 @@ Plane wick_shade(const Candle& candle) {
   return shade;
 }
 
-// The glowing end of the wick: hidden by the burning flame, fading for seconds after extinction.
+// Adds the glowing end of the wick: hidden by the burning flame, fading for seconds after extinction.
 void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
   if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;

@@ -1,5 +1,5 @@
 #pragma once
-// Linear, unbounded light that is added to a picture, one value a pixel and channel.
+// Linear, unbounded light that is added to a picture, one value per pixel and channel.
 //
 // The layers of a picture of candles: flame, wick, wax, smoke and glow. draw_flames() and LiveFlames compose them.
 //
@@ -25,10 +25,10 @@ inline constexpr Colour kBase{84, 168, 255};  ///< the blue of burning gas witho
 inline constexpr Colour kHalo{255, 140, 52};  ///< light scattered in the air and the lens around the flame
 
 // Lengths are in model units.
-inline constexpr float kCandleHeight = 0.95F;  ///< what does not fit is cut off by the picture
-inline constexpr float kWickGap = 0.12F;       ///< from the candle's top to the flame's base
-inline constexpr float kWickHeight = 0.24F;    ///< from the candle's top to the wick's end
-inline constexpr float kAmbient = 0.06F;       ///< light of the room on the candle: it stays visible without a flame
+inline constexpr float kCandleHeight = 0.95F;  ///< the part below the picture is cut off
+inline constexpr float kWickGap = 0.12F;       ///< distance from the candle's top to the flame's base
+inline constexpr float kWickHeight = 0.24F;    ///< distance from the candle's top to the wick's end
+inline constexpr float kAmbient = 0.06F;       ///< room light on the candle, which keeps it visible without a flame
 
 /// One channel of floats over a grid.
 struct Plane {
@@ -69,7 +69,7 @@ struct HaloRing {
 /// Adds the field's own luminance, blurred by each ring's Gaussian and tinted, to the field.
 void add_halo(LightField& field, std::span<const HaloRing> rings);
 
-/// The same from a given luminance; `field` may be coarser than a picture.
+/// Adds a halo computed from a given luminance; `field` may be coarser than the picture.
 ///
 /// Precondition: luminance and field have one size.
 void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field);
@@ -80,7 +80,7 @@ int finest_level(std::span<const HaloRing> rings);
 /// Halves the size in both directions, rounded up, about the middle. Outside is dark.
 Plane halved(const Plane& fine);
 
-/// Returns the share of the background that stays visible behind light of that strength, about e^(−light).
+/// Returns the share of the background visible through light of that strength, about e^(−light).
 float transmitted(float light);
 
 /// Adds the light to the picture by the exposure curve 1 − (1 − there)·e^(−light), approximately. Pixels without light
@@ -89,17 +89,17 @@ float transmitted(float light);
 /// Precondition: the field has the picture's size.
 void add_light(Image& image, const LightField& field);
 
-/// A flame laid over a picture. Positions are the picture's pixels; `thickness` and `coverage` hold only the box.
+/// A flame rasterised over a picture, in its pixels; `thickness` and `coverage` hold only the box.
 struct FlameShape {
   PixelBox box;        ///< the part of the picture that the flame touches; zero width: there is no flame
   Plane coverage;      ///< share of each pixel inside the outline, 0 … 1
   Plane thickness;     ///< half the chord of glowing gas behind each pixel, in model units
-  float thickest = 0;  ///< its largest value
+  float thickest = 0;  ///< maximum of thickness
   Point base;          ///< middle of the outline's base
   Point middle;        ///< centre of its light
-  float reach = 0;     ///< pixels from the base to the farthest point
-  float height = 0;    ///< the same in model units
-  float area = 0;      ///< in square model units
+  float reach = 0;     ///< distance in pixels from the base to the farthest point
+  float height = 0;    ///< reach in model units
+  float area = 0;      ///< area in square model units
 
   bool empty() const { return box.width == 0; }
 };
@@ -115,10 +115,10 @@ struct FlameMood {
   float soot = 1;  ///< 0: blue gas only (re-ignition, decay, tiny), 1: a full yellow flame
 };
 
-/// A short, bent, tapering cord between the candle and the flame, laid over a picture.
+/// The wick, a short, bent, tapering cord between candle and flame, rasterised over a picture.
 struct Wick {
-  PixelBox box;     ///< the part of the picture that it touches; zero width: none
-  Plane coverage;   ///< share of each pixel of the box inside it
+  PixelBox box;     ///< part of the picture that it touches; zero width: no wick
+  Plane coverage;   ///< share of each pixel of the box inside the wick
   Point root;       ///< where it leaves the wax, pixels
   Point end;        ///< its upper end, pixels
   float width = 0;  ///< pixels, at its root
@@ -133,7 +133,7 @@ float wick_at(const Wick& wick, int x, int y);
 
 /// A flame as a source of light for other candles, smoke and the room.
 struct Lamp {
-  Point place;      ///< pixel of its middle
+  Point place;      ///< pixel of its centre
   float power = 0;  ///< light relative to a calm flame's
 };
 
@@ -149,7 +149,7 @@ void draw_candle(Image& image, const FlameScene& scene, const FlameStyle& style,
 /// Precondition: the scene's fields are in their ranges.
 void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps);
 
-/// Everything that is known of one candle before drawing.
+/// Data of one candle, computed before drawing.
 struct Candle {
   FlameScene scene;
   FlameShape shape;
@@ -161,7 +161,7 @@ struct Candle {
 /// Returns the style with its fields clamped to their ranges.
 FlameStyle clamped(FlameStyle style);
 
-/// Lays a flame over a picture of that size.
+/// Rasterises a flame for a picture of that size.
 Candle prepared(const Flame& flame, int width, int height);
 
 /// Returns the pixels of the largest model unit among the candles, at least 1.
@@ -210,20 +210,20 @@ void spread(const LightField& grid, const Between& y, std::vector<float>& scratc
 /// Writes codes with their fraction as pixels, rounded by `dither`.
 void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
 
-/// A flame and its candle, which shades the table.
+/// A flame and its candle, which casts a shadow on the table.
 struct Stand {
   Lamp lamp;
-  Point foot;        ///< pixel of the middle of the candle's foot, on the table
+  Point foot;        ///< pixel of the centre of the candle's foot, on the table
   float unit = 1;    ///< pixels of the mean flame height
   float half = 0;    ///< half the candle's width, model units
-  float height = 0;  ///< of the candle, model units; 0: there is none
+  float height = 0;  ///< candle height, model units; 0: no candle
 };
 
 Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lamp);
 
 class Room {
  public:
-  /// Of a picture of that size.
+  /// A room for a picture of that size.
   Room(int width, int height);
 
   /// Returns the light from the room, in cells.

@@ -1,4 +1,4 @@
-// The shape of a flame in a picture: which pixels it covers, and how thick the glowing body is behind each.
+// Shape of a flame in a picture: the pixels it covers, and the thickness of the glowing body behind each.
 //
 // The flame is a body of revolution. Where its half width is w, the chord of light at distance d from the edge is
 // 2 √(d (2w − d)); and in a long strip φ = d (2w − d) / 2 solves ∇²φ = −1 with φ = 0 at the edge. So half the chord is
@@ -59,13 +59,13 @@ Bounds bounds_of(std::span<const Point> points) {
 
 // Junction of one side of the flame with its rounded base.
 struct Shoulder {
-  std::ptrdiff_t rest = 0;  // points of the outline's end that the base replaces
+  std::ptrdiff_t rest = 0;  // number of points at the outline's end that the base replaces
   Point at;
-  Point way;  // unit direction of the side there
+  Point way;  // unit vector along the side at the junction
 };
 
-// Follows the outline from one of its ends to where it first rises through `height`. Where that is not near the end (a
-// flame blown flat), the end itself is the shoulder.
+// Follows the outline from one of its ends to its first rise through `height`. Where that is far from the end (a flame
+// blown flat), the end itself is the shoulder.
 template <class Points>
 Shoulder shoulder_of(const Points& begin, std::ptrdiff_t size, float height) {
   Shoulder shoulder{0, begin[0], {0, -1}};
@@ -78,7 +78,7 @@ Shoulder shoulder_of(const Points& begin, std::ptrdiff_t size, float height) {
     above = k;
     break;
   }
-  // The direction over a tenth of the outline, which averages wobbles.
+  // The direction is averaged over a tenth of the outline to suppress wobbles.
   const Point from = begin[std::min(size - 1, above + std::max<std::ptrdiff_t>(1, size / 10))];
   const Point down{shoulder.at.x - from.x, shoulder.at.y - from.y};
   const float length = std::hypot(down.x, down.y);
@@ -96,9 +96,9 @@ void append_curve(std::vector<Point>& points, Point p, Point q, Point r, Point s
   }
 }
 
-// Closes the outline around the wick. What a camera sees of a base is chance: the threshold cuts it off straight, or
-// runs back up along the wick between two corners. So below the shoulders the flame is drawn as a drop whose lowest
-// point is `cap` units under the base's middle.
+// Closes the outline around the wick. The visible part of a base is accidental: the threshold cuts it off straight, or
+// follows the wick upwards between two corners. So below the shoulders the flame is drawn as a drop whose lowest point
+// is `cap` units under the base's middle.
 void close_base(std::vector<Point>& points, float cap) {
   float top = 0;
   for (const Point p : points) top = std::max(top, p.y);
@@ -113,7 +113,7 @@ void close_base(std::vector<Point>& points, float cap) {
   const Point lowest{0, -cap};
   const auto handle = [&](const Shoulder& side, float outwards) {
     const float reach = 0.5F * std::max(0.0F, side.at.y - lowest.y);
-    // Sides that flare much would hang over the wick, and none may turn back up.
+    // Limits the slope: strongly flaring sides would overhang the wick, and no side may turn upwards.
     const float across = outwards * std::min(0.6F, outwards * side.way.x);
     return Point{side.at.x + reach * across, side.at.y - reach * std::max(0.5F, -side.way.y)};
   };

@@ -14,7 +14,7 @@ using namespace drawing;
 
 namespace {
 
-// Beyond this many standard deviations a ring of the glow is invisible.
+// Radius in standard deviations beyond which a ring of the glow is invisible.
 constexpr float kRingReach = 3.5F;
 
 PixelBox grown(PixelBox box, int by, int width, int height) {
@@ -24,7 +24,7 @@ PixelBox grown(PixelBox box, int by, int width, int height) {
   return {left, top, right - left, bottom - top};
 }
 
-// Grows a box to whole cells, and by the spread of halving.
+// Extends a box to whole cells, and by the spread of halving.
 PixelBox on_grid(PixelBox box, int width, int height) {
   const int left = std::max(0, box.x / kCell - 2) * kCell, top = std::max(0, box.y / kCell - 2) * kCell;
   const int right = std::min(width, (cells(box.x + box.width) + 2) * kCell);
@@ -115,15 +115,15 @@ struct LiveFlames::State {
 
   FlameStyle style;
   Room room;
-  const LightField* room_light = nullptr;  // of the present picture
-  Image behind;                            // the room alone
+  const LightField* room_light = nullptr;  // in the current picture
+  Image behind;                            // picture of the room alone
   Plane dither;
   LightField own;   // flames and embers, in pixels; dark outside `lit`
-  LightField glow;  // what surrounds them, in cells
+  LightField glow;  // glow around them, in cells
   LightField codes;
   Row light_row, code_row;
   std::vector<float> scratch;
-  std::vector<std::uint8_t> bright;  // pixels of a row that may have own light
+  std::vector<std::uint8_t> bright;  // flags per pixel of a row: may have own light
   std::vector<PixelBox> lit;
 };
 
@@ -190,7 +190,7 @@ void LiveFlames::State::draw_room(std::span<const Candle> candles) {
   }
 }
 
-// Screen codes of room and glow without anything before them.
+// Computes screen codes of room and glow without objects before them.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {

@@ -10,13 +10,13 @@
 namespace wisp::drawing {
 namespace {
 
-// Shares of the picture's height: where the table ends at the wall, and where its plane vanishes.
+// Heights as shares of the picture's: the table's edge at the wall, and the horizon of its plane.
 constexpr float kTableEdge = 0.70F, kHorizon = 0.46F;
 
 // Distance of the wall behind the flames, in model units.
 constexpr float kBehind = 1.7F;
 
-// Flatness of a circle on the table in the picture.
+// Aspect ratio (height / width) in the picture of a circle on the table.
 constexpr float kTableFlatness = 0.24F;
 
 constexpr Light kPlaster{0.120F, 0.057F, 0.027F};
@@ -40,7 +40,7 @@ float noise_at(float x, float y, std::uint64_t seed) {
   return top + v * (bottom - top);
 }
 
-// The grain of the table's planks at a place, x across and z towards the eye, both in candle widths or so.
+// Wood grain of the table at a position, x across and z towards the eye, in units of about a candle's width.
 float grain_at(float x, float z) {
   const float plank = z * 2.6F + 40;
   const float seam = std::abs(plank - std::floor(plank) - 0.5F);
@@ -50,7 +50,7 @@ float grain_at(float x, float z) {
   return (0.62F + 0.62F * fine) * (0.86F + 0.28F * random_at(11, which)) * (1 - 0.55F * smooth_step(0.46F, 0.5F, seam));
 }
 
-// The moon through a window with nine panes, on the wall: 0 to 1.
+// Moonlight through a window with nine panes, on the wall: 0 to 1.
 float pane_at(float x, float y) {
   constexpr float kLeft = 0.70F, kTop = 0.10F, kWide = 0.15F, kHigh = 0.34F, kSlant = 0.16F;
   const float v = (y - kTop) / kHigh, u = (x - kLeft - kSlant * (v - 0.5F) * kHigh) / kWide;
@@ -92,7 +92,7 @@ void spread_channel(const Plane& grid, const Between& y, std::vector<float>& row
   for (int k = 0; k < grid.width; ++k) row[k + 1] = a[k] + y.share * (b[k] - a[k]);
   row[0] = row[1];
   row[grid.width + 1] = row[grid.width];
-  // Each group of pixels lies between the middles of two cells; the first and the last group hang over the edge.
+  // Each group of pixels lies between the centres of two cells; the first and last group extend beyond the edge.
   const int groups = (width + kCell / 2 + kCell - 1) / kCell;
   float* group = out;
   for (int k = 0; k < groups; ++k, group += kCell) {
@@ -235,8 +235,8 @@ const LightField& Room::lit(std::span<const Stand> stands) {
 
 namespace {
 
-// A Gaussian needs no more than this many grid cells a standard deviation to look smooth, so wide ones are blurred on
-// coarse grids: each level halves the one before.
+// Resolution in grid cells per standard deviation at which a Gaussian looks smooth. Wide Gaussians are blurred on
+// coarser grids, each of half the resolution.
 constexpr float kCellsPerSigma = 1.6F;
 constexpr int kMaxLevels = 12;
 
@@ -248,7 +248,7 @@ Plane luminance_of(const LightField& field) {
   return plane;
 }
 
-// Twice the size, bilinear: the inverse placement of halved(). Added to `fine`, scaled.
+// Adds `coarse`, enlarged bilinearly to twice its size and scaled, to `fine`: the inverse placement of halved().
 void add_doubled(const Plane& coarse, Plane& fine) {
   std::vector<float> blend(coarse.width + 2);
   for (int y = 0; y < fine.height; ++y) {
@@ -348,7 +348,7 @@ Plane halved(const Plane& fine) {
   return coarse;
 }
 
-// 1/(1 + x + x²/2 + x³/6 + x⁴/24): within 1 % of full scale of e^(−x), and quick.
+// Approximates e^(−x) by 1/(1 + x + x²/2 + x³/6 + x⁴/24), within 1 % of full scale.
 float transmitted(float light) {
   const float x = light;
   return 1 / (1 + x * (1 + x * (1.0F / 2 + x * (1.0F / 6 + x * (1.0F / 24)))));
@@ -369,7 +369,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
   levels.push_back(std::move(luminance));
   while (static_cast<int>(levels.size()) <= top) levels.push_back(halved(levels.back()));
 
-  // From the coarsest grid down, each level's rings are added to the sum of the coarser levels.
+  // From the coarsest grid down, adds each level's rings to the sum of the coarser levels.
   LightField sum(levels.back().width, levels.back().height);
   for (int level = top;; --level) {
     const Plane& plane = levels[level];
@@ -394,7 +394,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
 
 void add_light(Image& image, const LightField& field) {
   assert(image.width() == field.width() && image.height() == field.height());
-  // A thousandth of the darkest code, which is invisible.
+  // Invisible: a thousandth of the darkest code.
   constexpr float kDarkest = 3e-7F;
   const Tone& tone = Tone::get();
   for (int y = 0; y < image.height(); ++y) {

@@ -19,13 +19,13 @@ constexpr float kSmoulders = 4.5F;
 constexpr int kThreads = 9;
 constexpr float kThreadSeconds = 1.0F / 200;
 
-// One oscillation of the ribbon: the sideways displacement varies with the time at which smoke left the wick.
+// One oscillation of the ribbon: the sideways displacement depends on the time at which the smoke left the wick.
 struct Swing {
   float rate_hz;
   float across;  // model units, when fully grown
   float upward;
   float phase;
-  float twist;  // how much it differs over the ribbon's width, in turns
+  float twist;  // phase difference over the ribbon's width, in turns
 };
 
 std::array<Swing, 4> swings_of(std::uint64_t seed) {
@@ -37,7 +37,7 @@ std::array<Swing, 4> swings_of(std::uint64_t seed) {
            {3.60F, 0.004F, 0.002F, phase(3), 0.4F}}};
 }
 
-// Position of smoke of an age that left the wick `left` seconds after extinction: model units from the wick's end.
+// Position of smoke of age `age` that left the wick `left` seconds after extinction: model units from the wick's end.
 Point drift(float left, float age, float side, float wind, std::span<const Swing> swings) {
   // Hot smoke starts fast and is slowed by entrained air.
   const float rise = 0.75F * age + 0.30F * (1 - std::exp(-age / 0.35F));
@@ -53,7 +53,7 @@ Point drift(float left, float age, float side, float wind, std::span<const Swing
   return p;
 }
 
-// Density over the picture, on a grid of cells, and the part of the grid where there is any.
+// Smoke density on a grid of cells over the picture, and the bounds of its non-zero part.
 struct Plume {
   Plane density;
   int left = 0, top = 0, right = -1, bottom = -1;
@@ -85,7 +85,7 @@ void dab(Plume& plume, float x, float y, float radius, float amount) {
   }
 }
 
-// Density of all smoke in the air on a grid of `cell` pixels, of a wick that smoked for `smoking` seconds.
+// Density of all airborne smoke of a wick that smoked for `smoking` seconds, on a grid of `cell` pixels.
 Plume risen(const Image& image, const FlameScene& scene, Point wick_end, float cell, float smoking) {
   Plume plume;
   plume.density = Plane(static_cast<int>(std::ceil(static_cast<float>(image.width()) / cell)) + 1,

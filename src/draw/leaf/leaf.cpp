@@ -16,20 +16,20 @@ using namespace drawing;
 
 namespace {
 
-// The card's grid: enough to bend.
+// Resolution of the leaf's surface grid: sufficient for its curvature.
 constexpr int kAlong = 6, kAcross = 4;
 
 constexpr int kShadowCell = 4;        // pixels
-constexpr float kFaintest = 0.006F;   // what cannot be seen
-constexpr float kBladeArea = 0.62F;   // of the rectangle around the blade
-constexpr float kLampRadius = 0.10F;  // of the lamp over its distance: how soft shadows are
-constexpr float kDarkest = 0.62F;     // of the floor's light that a shadow takes away
+constexpr float kFaintest = 0.006F;   // weaker shadows are invisible
+constexpr float kBladeArea = 0.62F;   // area of the blade over its bounding rectangle's
+constexpr float kLampRadius = 0.10F;  // lamp radius over its distance, which determines the softness of shadows
+constexpr float kDarkest = 0.62F;     // maximum share of the floor's light removed by a shadow
 
 struct Colours {
   Colour upper, margin, under, vein;
 };
 
-// Weeks of an autumn. The first is the style's own.
+// Leaf styles of successive weeks of an autumn. The first is the given style.
 std::vector<LeafStyle> weeks_of(const LeafStyle& style) {
   constexpr std::array<Colours, 4> kOthers{{
       {{226, 150, 44}, {186, 84, 28}, {214, 178, 116}, {248, 214, 130}},
@@ -52,7 +52,7 @@ Vec3 towards_lamp(const LeafRoom& room) {
   return unit(usable ? way : Vec3{0, 0, 1});
 }
 
-// Whether a leaf is somewhere, and turned somehow.
+// Whether position and orientation of a leaf are valid numbers.
 bool is_drawable(const LeafPose& pose) {
   float sum = 0, square = 0;
   for (const float part : pose.position) sum += part;
@@ -82,7 +82,7 @@ Image empty_room(int width, int height, const LeafCamera& camera, const LeafRoom
       const float along = ray.z < -1e-6F ? -view.eye().z / ray.z : -1;
       if (along > 0) {
         const Vec3 there = view.eye() + along * ray;
-        // A floor that turns into the backdrop without an edge, and a pool of light around the middle.
+        // The floor blends into the backdrop without an edge, with a pool of light around the middle.
         const float far = std::hypot(there.x - target.x, there.y - target.y) / reach;
         const float away = smooth_step(0.5F, 2.2F, far);
         const float pool = 1 - 0.07F * smooth_step(0.2F, 1.8F, far);
@@ -94,8 +94,8 @@ Image empty_room(int width, int height, const LeafCamera& camera, const LeafRoom
   return image;
 }
 
-// The card's height over the leaf's plane, in half lengths, of a leaf that folds up along the midrib and hangs at its
-// ends.
+// Height of the card over the leaf's plane, in half lengths, for a leaf that folds up along the midrib and droops at
+// its ends.
 float bulge(float x, float y, float curl) {
   const float fold = 0.20F * std::sqrt(y * y + 0.01F);
   const float hang = x > -1 ? -0.12F * x * x : -0.12F - 0.30F * (x + 1) * (x + 1) + 0.24F * (x + 1);
@@ -103,8 +103,8 @@ float bulge(float x, float y, float curl) {
 }
 
 struct CardVertex {
-  Vec3 place;   // in the leaf's axes, for a leaf of the style's size
-  Vec3 normal;  // out of the upper side
+  Vec3 place;   // position in the leaf's axes, for a leaf of the style's size
+  Vec3 normal;  // unit normal of the upper side
   float u, v;
 };
 
@@ -125,11 +125,11 @@ std::vector<CardVertex> card_of(const LeafStyle& style) {
   return card;
 }
 
-// Light on a surface against that on one that lies open under the lamp, as a factor of codes.
+// Light on a surface relative to one facing the lamp, as a factor of sRGB codes.
 float shade(Vec3 normal, Vec3 lamp) {
   const float falls = dot(normal, lamp), sky = 0.5F + 0.5F * normal.z;
   const float light = 1.2F * std::max(falls, 0.0F) + 0.45F * sky + 0.27F * (1 - sky) + 0.36F * std::max(-falls, 0.0F);
-  // A power of 1/2.2, nearly: its larger part a square root. One that lies open has 1.65.
+  // Approximates a power of 1/2.2 by a square root and a linear factor. A surface facing the lamp has light 1.65.
   return std::sqrt(light) * (0.97F + 0.05F * light) / 1.34F;
 }
 
@@ -163,12 +163,12 @@ struct LeafFlock::State {
   float half_length, half_width;
   float at_target;
   Plane shadows;                              // darkness, in cells
-  std::vector<std::array<Texture, 2>> sides;  // by look
-  std::vector<Colour> margins;                // likewise: of trails
+  std::vector<std::array<Texture, 2>> sides;  // textures of both sides, per look
+  std::vector<Colour> margins;                // margin colour per look, for trails
   std::vector<const FlockLeaf*> order;
 };
 
-// Adds the shadow of a leaf: a Gaussian over the floor with the spread of the leaf's own shadow and of the lamp's size.
+// Adds a leaf's shadow: a Gaussian on the floor, widened by the leaf's own size and the lamp's.
 void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn) {
   const float height = std::max(place.z, 0.0F);
   const auto on_floor = [&](Vec3 p) { return p - p.z / lamp.z * lamp; };
@@ -177,12 +177,12 @@ void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn)
   if (!(middle.depth > kNear)) return;
   const float scale = view.scale_at(middle.depth) / kShadowCell;
   const float flat = std::max(0.05F, std::abs(unit(spot - view.eye()).z));
-  // Half axes of the leaf, seen from the lamp, on the floor, in cells of the grid.
+  // Half axes of the leaf projected from the lamp onto the floor, in grid cells.
   const Vec3 a = on_floor(leaf.size * half_length * turn({1, 0, 0}));
   const Vec3 b = on_floor(leaf.size * half_width * turn({0, 1, 0}));
   const float soft = 0.5F * kLampRadius * height / lamp.z;
 
-  // Variances of an ellipse are a quarter of its half axes' squares; the picture's rows foreshorten the floor.
+  // The variance along an axis is a quarter of its square; the rows of the picture foreshorten the floor.
   const float xx = scale * scale * ((a.x * a.x + b.x * b.x) / 4 + soft * soft) + 0.4F;
   const float yy = scale * scale * flat * flat * ((a.y * a.y + b.y * b.y) / 4 + soft * soft) + 0.4F;
   const float xy = -scale * scale * flat * (a.x * a.y + b.x * b.y) / 4;
@@ -207,7 +207,7 @@ void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn)
     for (int x = left; x <= right; ++x) {
       const float dx = static_cast<float>(x) - mx;
       const float square = (yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy) / area;
-      // (1 − s/6)³ falls like e^(−s/2), and ends.
+      // (1 − s/6)³ approximates e^(−s/2) with finite support.
       const float left_over = std::max(0.0F, 1 - square / 6);
       row[x] += dark * left_over * left_over * left_over;
     }
@@ -231,13 +231,13 @@ void LeafFlock::State::lay_shadows(Image& image) const {
       const float part = std::clamp(across - static_cast<float>(cell), 0.0F, 1.0F);
       const float density = row[cell] + part * (row[cell + 1] - row[cell]);
       if (density < kFaintest / 2) continue;
-      // Shadows that lie over each other grow darker, but never darker than one deep shadow. Codes go as the root.
+      // Overlapping shadows get darker, but never darker than one deep shadow. Codes vary as the square root of light.
       const float kept = std::sqrt(1 - kDarkest * density / (kDarkest + density));
       const float dither = dither_at(x, y);
       const auto channel = [&](int shift, float share_kept) {
         return static_cast<std::uint32_t>(static_cast<float>(pixels[x] >> shift & 255U) * share_kept + dither);
       };
-      // The sky still lights a shadow, so it is a little bluer than the floor.
+      // Shadows are still lit by the sky, so they are slightly bluer than the floor.
       const float cool = 1 - 0.94F * (1 - kept);
       pixels[x] = 0xFF000000U | channel(16, kept) << 16 | channel(8, 1 - 0.98F * (1 - kept)) << 8 | channel(0, cool);
     }
@@ -264,7 +264,7 @@ void LeafFlock::State::lay_leaf(Image& image, const FlockLeaf& leaf) {
   if (right < 0 || bottom < 0 || left > static_cast<float>(image.width()) || top > static_cast<float>(image.height()))
     return;
   const Texture& side = sides[leaf.look % sides.size()][upper ? 0 : 1];
-  // The size of the texture that comes nearest to one of its pixels for one of the image's.
+  // The texture level whose pixels are nearest in size to the image's.
   const float long_axis =
       view.scale_at(dot(place - view.eye(), view.gaze())) * size * half_length * (kLeafRight - kLeafLeft);
   const float finer = std::log2(std::max(1.0F, kLeafPixels / std::max(1.0F, long_axis)));
@@ -300,7 +300,7 @@ void LeafFlock::State::draw_trail(Image& image, const FlockLeaf& leaf) const {
 }
 
 LeafCamera leaf_camera_from_side(float height) {
-  // The floor's near edge comes into the picture's last eighth.
+  // The floor's near edge is in the lowest eighth of the picture.
   const float middle = 0.40F * height;
   return {{0, -3.2F * height, 0.86F * height}, {0, 0, middle}, height};
 }

@@ -20,7 +20,7 @@ LeafView::LeafView(const LeafCamera& camera, int width, int height) : eye_(vec3(
   const Vec3 way = vec3(camera.target) - eye_;
   const float distance = std::max(length(way), kNear);
   forward_ = 1 / distance * way;
-  // Straight down or up, y is what is above in the picture.
+  // Looking straight down or up, the y axis points up in the picture.
   const bool steep = std::abs(forward_.z) > 0.999F;
   right_ = unit(cross(forward_, steep ? Vec3{0, 1, 0} : Vec3{0, 0, 1}));
   up_ = cross(right_, forward_);
@@ -44,16 +44,16 @@ namespace {
 
 constexpr Light kLamp{1.25F, 1.18F, 1.06F};
 constexpr Light kSky{0.42F, 0.45F, 0.50F};
-constexpr float kDimmed = 0.6F;  // to the leaf's own colour, since lamp and sky together are brighter than white
-constexpr float kShine = 0.09F;  // of the lamp, on the upper side
+constexpr float kDimmed = 0.6F;  // factor of the leaf's colour, as lamp and sky together exceed white
+constexpr float kShine = 0.09F;  // specular share of the lamp's light on the upper side
 constexpr int kTeeth = 19;
-constexpr float kStalk = 0.24F;               // of the blade's length
-constexpr float kStalkWidth = 0.016F;         // likewise
-constexpr int kLeafRows = 120, kSamples = 4;  // of the picture; of a pixel, along each side
+constexpr float kStalk = 0.24F;               // length of the stalk, as a share of the blade's length
+constexpr float kStalkWidth = 0.016F;         // width of the stalk, as a share of the blade's length
+constexpr int kLeafRows = 120, kSamples = 4;  // rows of the picture; samples per pixel along each side
 
 Light mixed(Light a, Light b, float share) { return (1 - share) * a + share * b; }
 
-// How much of a place is vein, 0 … 1.
+// Share of vein at a position, 0 … 1.
 float vein_at(float u, float v) {
   const float across = std::abs(v);
   const float midrib = 1 - smooth_step(0.6F, 1.0F, across / (0.075F - 0.055F * u));
@@ -68,7 +68,7 @@ float vein_at(float u, float v) {
   return std::max(midrib, 0.62F * side);
 }
 
-// Blotches of a leaf that is past its summer, −1 … 1: a few waves that do not repeat within it.
+// Blotches of an autumn leaf, −1 … 1: a sum of a few waves that do not repeat within the leaf.
 float blotch(float u, float v) {
   return (std::sin(9.1F * u + 3.7F * v + 0.4F) + std::sin(-5.3F * u + 7.9F * v + 1.9F) +
           std::sin(14.2F * u - 4.4F * v + 4.1F)) /
@@ -78,22 +78,22 @@ float blotch(float u, float v) {
 // Half width over the blade, 0 … 1: rounded at the base, drawn out at the tip.
 float half_width(float u) {
   const float base = std::pow(u, 0.62F), tip = std::pow(1 - u, 0.95F);
-  constexpr float kWidest = 0.4527F;  // of the product, at u = 0.62 / 1.57
+  constexpr float kWidest = 0.4527F;  // maximum of the product, at u = 0.62 / 1.57
   return std::min(1.0F, base * tip / (kWidest * (0.75F + 0.25F * std::min(1.0F, (1 - u) * 5))));
 }
 
-// A place on a leaf: along the midrib, 0 base … 1 tip (below 0: the stalk), and across, −1 … 1.
+// A position on a leaf: along the midrib, 0 base … 1 tip (below 0: the stalk), and across, −1 … 1.
 struct LeafPlace {
   float u = 0, v = 0;
 };
 
-// What of the leaf is at x and y in halves of the blade's length and width; nothing beside it. `slim` is its width over
-// its length.
+// Position on the leaf at x and y, in halves of the blade's length and width; empty beside it. `slim` is its width /
+// length.
 std::optional<LeafPlace> place_at(float x, float y, float slim) {
   const float u = (x + 1) / 2;
   if (u >= 0) {
     const float v = y / half_width(std::min(u, 1.0F));
-    // Teeth point to the tip: each rises slowly and falls at once.
+    // Teeth point to the tip: each rises slowly and drops steeply.
     const float tooth = u * kTeeth - std::floor(u * kTeeth);
     if (u > 1 || !(std::abs(v) <= 1 - 0.045F * (1 - tooth))) return {};
     return LeafPlace{u, v};
@@ -103,7 +103,7 @@ std::optional<LeafPlace> place_at(float x, float y, float slim) {
   return LeafPlace{-s, v};
 }
 
-// The colours of a leaf as light.
+// Colours of a leaf in linear light.
 struct LeafColours {
   Light upper, margin, under, vein;
 
@@ -113,7 +113,7 @@ struct LeafColours {
     const float edge = smooth_step(0.25F, 1.05F, std::abs(v) + 0.35F * std::abs(u - 0.45F) + 0.14F * blotch(u, v));
     const float veined = vein_at(u, v);
     if (above) return mixed(mixed(upper, margin, edge), vein, 0.75F * veined);
-    // Below, veins stand out as ridges and the colour of the other side shows faintly.
+    // On the lower side veins are raised, and the other side's colour shows through faintly.
     return mixed(mixed(under, mixed(upper, margin, edge), 0.20F + 0.22F * edge), 0.55F * mixed(under, margin, 0.35F),
                  0.8F * veined);
   }

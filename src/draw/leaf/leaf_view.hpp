@@ -1,5 +1,5 @@
 #pragma once
-// How a leaf is drawn: vectors in the room, the camera, and the picture of a leaf's side.
+// Drawing of leaves: vectors, camera, and the texture of a leaf's side.
 
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline Vec3 unit(Vec3 a) { return 1 / length(a) * a; }
 inline Vec3 vec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
-/// Turns a vector of the leaf into the room.
+/// Rotates a vector from the leaf's axes to the room's.
 class Turn {
  public:
   explicit Turn(const std::array<float, 4>& attitude);
@@ -33,10 +33,10 @@ class Turn {
   Vec3 x_, y_, z_;
 };
 
-/// A place in the picture.
+/// A projected point in the picture.
 struct Projected {
   float x = 0, y = 0;  ///< pixels
-  float depth = 0;     ///< metres from the eye along its gaze; not in view where <= kNear
+  float depth = 0;     ///< metres from the eye along the view direction; invisible where <= kNear
 };
 inline constexpr float kNear = 0.01F;
 
@@ -46,9 +46,9 @@ class LeafView {
   LeafView(const LeafCamera& camera, int width, int height);
 
   Projected operator()(Vec3 place) const;
-  /// Pixels of one metre at a depth.
+  /// Pixels per metre at a depth.
   float scale_at(float depth) const { return focal_ / depth; }
-  /// Where the ray through a pixel goes, not of length 1.
+  /// Direction of the ray through a pixel, not normalised.
   Vec3 ray(float x, float y) const;
   Vec3 eye() const { return eye_; }
   Vec3 gaze() const { return forward_; }
@@ -59,12 +59,12 @@ class LeafView {
   float middle_x_ = 0, middle_y_ = 0;
 };
 
-/// A leaf's picture reaches from kLeafLeft to kLeafRight along the midrib, in halves of the blade's length from its
-/// middle, and as far as kLeafSide to both sides, in halves of its width: the stalk reaches beyond the base.
+/// Extent of a leaf's texture: from kLeafLeft to kLeafRight along the midrib, in halves of the blade's length from its
+/// centre, and ±kLeafSide across, in halves of its width. The stalk extends beyond the base.
 inline constexpr float kLeafLeft = -1.52F, kLeafRight = 1.06F, kLeafSide = 1.12F;
-inline constexpr int kLeafPixels = 192;  ///< along it, of the largest size
+inline constexpr int kLeafPixels = 192;  ///< texture length in pixels at the largest size
 
-/// One side of a flat leaf under a lamp straight above it. Row 0 is where the leaf's y is largest.
+/// Texture of one side of a flat leaf under a lamp directly above. Row 0 has the largest y.
 Texture painted_side(const LeafStyle& style, bool upper);
 
 }  // namespace wisp::drawing

@@ -21,7 +21,7 @@ constexpr Colour kPaper{255, 255, 255};
 constexpr double kSheetMargin = 8;
 constexpr double kSheetTitle = 26;
 
-// A sheet's options brought into their ranges, and its size.
+// Options of a sheet, clamped to their ranges, and its size.
 struct SheetLayout {
   int columns = 1;
   int rows = 1;
@@ -63,7 +63,7 @@ void draw_plot(cairo_t* context, const Plot& plot, double width, double height, 
   draw_keys(context, plot, axes);
 }
 
-// Left end of the data of a column's plots, which is common to them.
+// Left edge of the data area, common to all plots of a column.
 double left_of_column(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at, std::size_t column) {
   double left = 0;
   for (std::size_t k = column; k < sheet.plots.size(); k += at.columns) {
@@ -97,7 +97,7 @@ cairo_status_t append(void* closure, const unsigned char* data, unsigned int len
   return CAIRO_STATUS_SUCCESS;
 }
 
-// Cairo numbers what it writes through the life of the program; numbered from 1 in each file, the same plot is the
+// Cairo numbers SVG elements across the life of the program. Renumbering from 1 in each file makes the same plot the
 // same bytes.
 std::string with_own_numbers(const std::string& svg, std::string_view name) {
   std::string text;

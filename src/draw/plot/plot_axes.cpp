@@ -45,7 +45,7 @@ void take_series(const PlotSeries& series, const Plot& plot, Extent& x, Extent& 
   if (series.shape == SeriesShape::kBars) y.take(0, plot.y.logarithmic);
 }
 
-// The data's range with some air: none where an edge is meant to be one (time, zero).
+// The data's range with margins, except at edges that are meaningful (time, zero).
 Range with_air(const Extent& extent, bool logarithmic, double air, bool to_zero) {
   if (extent.empty()) return logarithmic ? Range{1, 10} : Range{0, 1};
   if (logarithmic) {
@@ -58,7 +58,7 @@ Range with_air(const Extent& extent, bool logarithmic, double air, bool to_zero)
     const double half = range.low == 0 ? 1 : 0.5 * std::abs(range.low);
     return {range.low - half, range.high + half};
   }
-  // Zero belongs to a plot of sizes that come near to it.
+  // Includes zero where the lowest value is near it relative to the highest.
   if (to_zero && range.low >= 0 && range.low < 0.3 * range.high)
     range.low = 0;
   else
@@ -72,7 +72,7 @@ Range fixed_ends(Range range, const PlotAxis& axis) {
   if (axis.lowest && valid(*axis.lowest)) range.low = *axis.lowest;
   if (axis.highest && valid(*axis.highest)) range.high = *axis.highest;
   if (range.low < range.high) return range;
-  // Ends that leave nothing between them: the lower one counts.
+  // Where the requested ends leave an empty range, the lower one is kept.
   return {range.low, axis.logarithmic ? range.low * 10 : range.low + 1};
 }
 
@@ -129,7 +129,7 @@ double widest(cairo_t* context, const Ticks& ticks) {
   return width;
 }
 
-// Half-pixel places keep one-point lines crisp in the PNG.
+// Rounds to half points, which keeps one-point lines sharp in the PNG.
 double crisp(double value) { return std::round(value * 2) / 2; }
 
 }  // namespace

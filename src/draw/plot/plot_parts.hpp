@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a plot: range and room, axes, grid, title, marks, legend, and the data.
+// Parts of a plot: ranges, layout, axes, grid, title, marks, legend and data.
 
 #include <cairo.h>
 
@@ -8,7 +8,7 @@
 
 namespace wisp::drawing {
 
-/// The rectangle that data is drawn in, points.
+/// The rectangle of the data area, points.
 struct PlotBox {
   double left = 0;
   double top = 0;
@@ -26,8 +26,8 @@ struct Axes {
   Ticks y_ticks;
 };
 
-/// Finds the range of the data and the room that labels leave for it in a panel of that size, whose data begin at
-/// `left` or farther right.
+/// Computes the range of the data and the space for labels in a panel of that size, whose data area begins at `left` or
+/// farther right.
 Axes make_axes(cairo_t* context, const Plot& plot, double width, double height, double left = 0);
 
 void draw_title(cairo_t* context, const std::string& title, const PlotBox& box);
@@ -35,20 +35,20 @@ void draw_grid(cairo_t* context, const Axes& axes);
 void draw_axes(cairo_t* context, const Plot& plot, const Axes& axes);
 void draw_marks(cairo_t* context, const Plot& plot, const Axes& axes);
 
-/// The legend of the series stands in a line above the data, where it cannot hide any.
+/// Draws the legend of the series in a line above the data, where it hides none.
 void draw_keys(cairo_t* context, const Plot& plot, const Axes& axes);
 
-/// The colour that a series has when it names none: the palette's, by its place among the series.
+/// Colour of a series: its own, or the palette's colour by its index.
 Colour series_colour(const PlotSeries& series, std::size_t place);
 
 void draw_series(cairo_t* context, const PlotSeries& series, Colour colour, const Scale& x, const Scale& y);
 
-/// The series as it looks, in a legend: from (x, y) to the right.
+/// Draws a sample of the series' style for a legend, from (x, y) to the right.
 void draw_sample(cairo_t* context, const PlotSeries& series, Colour colour, double x, double y, double width);
 
 void set_dash(cairo_t* context, Dash dash, double width);
 
-/// How wide bars are, in data units: the smallest step between them; 1 for a single one.
+/// Width of bars in data units: the smallest step between them; 1 for a single bar.
 double bar_width(const PlotSeries& series);
 
 }  // namespace wisp::drawing

@@ -33,7 +33,7 @@ std::string formatted(double value, int decimals) {
   return (value < 0 && !zero ? "−" : "") + std::string(text.data());
 }
 
-// Decimals that tell multiples of the step apart.
+// Number of decimals needed to distinguish multiples of the step.
 int decimals_of(double step) {
   for (int decimals = 0; decimals < 12; ++decimals) {
     const double scaled = step * std::pow(10.0, decimals);
@@ -49,13 +49,13 @@ Ticks linear_ticks(const Scale& scale, int wanted, bool whole_numbers) {
   double step = round_step(length, wanted, whole_numbers);
   const auto first = [&] { return std::ceil((scale.low - slack) / step); };
   const auto last = [&] { return std::floor((scale.high + slack) / step); };
-  // Two ticks at least, or the axis would tell nothing.
+  // At least two ticks, as fewer do not define the scale.
   for (int more = wanted + 1; last() < first() + 1 && more < 3 * wanted; ++more) {
     step = round_step(length, more, whole_numbers);
   }
   const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
   const int exponent = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
-  // Up to five digits before the point or two zeros after it are read at a glance.
+  // Numbers of up to five digits, or with two zeros after the point, are readable without an exponent.
   const bool apart = exponent >= 5 || exponent <= -3;
   const double unit = apart ? std::pow(10.0, exponent) : 1.0;
   if (apart) ticks.shared = "×10" + superscript(exponent);
@@ -82,7 +82,7 @@ Ticks logarithmic_ticks(const Scale& scale, int wanted) {
       const double value = digit * power;
       if (value < scale.low * (1 - 1e-9) || value > scale.high * (1 + 1e-9)) continue;
       const bool round = digit == 1 && (exponent - first) % every == 0;
-      // Over less than two decades the powers of ten alone would leave the axis nearly bare.
+      // Over less than two decades, powers of ten alone would be too few ticks.
       const bool few = scale.high < 50 * scale.low && (digit == 2 || digit == 5);
       if (!round && !few) {
         ticks.between.push_back(value);
@@ -99,7 +99,7 @@ Ticks logarithmic_ticks(const Scale& scale, int wanted) {
 
 double Scale::operator()(double value) const {
   const double share = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-  // Cairo's coordinates are small fixed-point numbers: what is far outside stays just outside.
+  // Cairo's coordinates are fixed-point numbers of limited range: points far outside are moved to just outside.
   return from + std::clamp(share, -4.0, 5.0) * (to - from);
 }
 

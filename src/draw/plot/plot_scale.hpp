@@ -1,14 +1,14 @@
 #pragma once
-// From data to positions on an axis, and the ticks between.
+// Conversion of data to positions on an axis, and its ticks.
 
 #include <string>
 #include <vector>
 
 namespace wisp::drawing {
 
-/// A stretch of data on a stretch of the sheet.
+/// Linear or logarithmic mapping from a data range to an interval of the sheet.
 struct Scale {
-  double low = 0;  ///< data at `from`
+  double low = 0;  ///< data value at `from`
   double high = 1;
   double from = 0;  ///< points
   double to = 1;
@@ -16,16 +16,16 @@ struct Scale {
 
   double operator()(double value) const;
 
-  /// Whether the value has a place: finite, and positive on a logarithmic axis.
+  /// Whether a value can be drawn: finite, and positive on a logarithmic axis.
   bool shows(double value) const;
 };
 
-/// The ticks of an axis. Labels are short: a power of ten that they share stands apart.
+/// The ticks of an axis. A common power of ten is factored out of the labels.
 struct Ticks {
   std::vector<double> at;
-  std::vector<std::string> labels;  ///< as many
+  std::vector<std::string> labels;  ///< one per labelled tick
   std::vector<double> between;      ///< unlabelled ticks of a logarithmic axis
-  std::string shared;               ///< such as "×10⁻³"; empty: none
+  std::string shared;               ///< common factor, such as "×10⁻³"; empty: none
 };
 
 /// Round values over the scale, about `wanted` of them (2 … 20).
@@ -34,7 +34,7 @@ Ticks make_ticks(const Scale& scale, int wanted, bool whole_numbers);
 /// Collects the range of data.
 class Extent {
  public:
-  /// Takes a value that has a place on the axis; others are passed over.
+  /// Includes a value in the range, unless the axis cannot show it.
   void take(double value, bool logarithmic);
   bool empty() const { return !(low_ <= high_); }
   double low() const { return low_; }

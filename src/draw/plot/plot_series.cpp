@@ -10,11 +10,11 @@
 namespace wisp::drawing {
 namespace {
 
-// Apart in lightness as well as in hue, so that they survive a gray printer and colour-blind eyes.
+// Colours differ in lightness as well as in hue, for gray printers and colour-blind readers.
 constexpr std::array<Colour, 6> kPalette{
     {{31, 90, 166}, {217, 96, 26}, {42, 140, 90}, {142, 69, 133}, {184, 134, 11}, {90, 91, 96}}};
 
-// A line with more samples than this a point of width is drawn as its envelope.
+// Samples per point of width above which a line is drawn as its envelope.
 constexpr double kDensest = 6;
 constexpr double kEnvelopeColumn = 0.5;  // points
 
@@ -46,8 +46,8 @@ bool dense(const PlotSeries& series, const Scale& x) {
   return static_cast<double>(size_of(series)) > kDensest * width && std::is_sorted(series.x.begin(), series.x.end());
 }
 
-// Draws, for each narrow column, its first, lowest, highest and last sample. The picture is the same as with every
-// sample, and the file stays small.
+// Draws the first, lowest, highest and last sample of each narrow column. The picture equals that of all samples, in a
+// smaller file.
 void trace_envelope(cairo_t* context, const PlotSeries& series, const Scale& x, const Scale& y) {
   const std::size_t size = size_of(series);
   bool broken = true;
