@@ -1,5 +1,5 @@
 #pragma once
-// What the microphone hears when nobody blows, found while it listens.
+// Estimates the background level, that is the sound without wind, while listening.
 
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
@@ -7,12 +7,12 @@
 
 namespace wisp::wind {
 
-constexpr float kMinFloorDb = -95;  ///< a floor below this is a gated microphone's, not a room's
-constexpr float kQuietDb = 6;       ///< of loudness over the floor: no wind below this
-constexpr float kSwellDb = 3;       ///< the floor lies at most so far below the loudest that the room was of late
+constexpr float kMinFloorDb = -95;  ///< a lower floor is that of a gated microphone
+constexpr float kQuietDb = 6;       ///< minimum loudness of wind over the floor
+constexpr float kSwellDb = 3;       ///< maximum distance of the floor below the room's recent loudness
 
-/// The loudness that the sound keeps coming back to. It starts at what is heard first, falls to a softer sound within
-/// 50 ms, and rises: fast under what does not sound like blowing, slowly under what does.
+/// Floor of loudness. It starts at the first loudness heard, falls to softer sound within 50 ms, and rises: fast during
+/// sound unlike blowing, slowly during blowing.
 template <class T>
 class Floor {
  public:
@@ -49,7 +49,7 @@ class Floor {
   bool known_ = false;
 };
 
-/// Means over quiet frames: plainly over the first ones, forgetting later.
+/// Means over quiet frames: unweighted at first, with forgetting later.
 template <class T>
 class QuietMean {
  public:
@@ -61,7 +61,7 @@ class QuietMean {
     loudness_db_ = loudness_db_ + share * (seen.loudness_db - loudness_db_);
   }
 
-  /// What was known of it before; its loudness now is heard.
+  /// Sets the means from earlier knowledge; `loudness_db` is the current loudness.
   void set(T rms, T band_power, T loudness_db, float count) {
     rms_ = rms;
     band_power_ = band_power;
@@ -81,11 +81,11 @@ class QuietMean {
   float count_ = 0;
 };
 
-/// Floor and quiet means together.
+/// Tracks floor and quiet means together.
 template <class T>
 class Background {
  public:
-  /// `sudden`: the sound began suddenly and goes on; `blows`: and it sounds like blowing.
+  /// `sudden`: the sound began suddenly and continues; `blows`: it also sounds like blowing.
   void end_hop(T loudness_db, bool sudden, bool blows, const Design& d) {
     floor_.follow(loudness_db, blows, d);
     if (!floor_.known()) return;
@@ -101,29 +101,29 @@ class Background {
     last_floor_ = floor;
     run_ = quiet ? run_ + 1 : 0;
     if (run_ <= d.quiet_run_frames) return;
-    // A room that turns out quieter than believed is learned anew: what was taken for it was a long blow.
+    // A room quieter than assumed resets the means: a long blow had been taken for the background.
     if (mean_.known() && seen.loudness_db < mean_.loudness_db() - T(kQuietDb)) mean_ = {};
     mean_.add(seen, d.quiet_span_frames);
   }
 
-  /// What was known of it before; its loudness now is heard.
+  /// Sets the background from earlier knowledge; `loudness_db` is the current loudness.
   void set(T rms, T band_power, T loudness_db, const Design& d) {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
   }
 
-  /// Loudness of the room; one that swells (the sea, a fan that labours) may do so again.
+  /// Loudness of the room, including its recent swells (sea, a labouring fan), which may recur.
   T floor_db() const {
     const T swell = swell_db_ - T(kSwellDb);
     return floor_.level_db() < swell ? swell : floor_.level_db();
   }
 
-  /// How far the floor has risen above the room's, dB, not below 0.
+  /// Rise of the floor above the room's, dB, ≥ 0.
   T rise_db() const { return room_db_ < floor_.level_db() ? floor_.level_db() - room_db_ : T(0.0F); }
 
   const QuietMean<T>& mean() const { return mean_; }
 
  private:
-  /// The room's floor: the mean over the first seconds, later only lower.
+  /// Tracks the room's floor: the mean over the first seconds, later it only falls.
   void follow_room(const Design& d) {
     const T floor = floor_.level_db();
     if (room_hops_ == 0) room_db_ = floor;
@@ -134,7 +134,7 @@ class Background {
 
   Floor<T> floor_;
   QuietMean<T> mean_;
-  T swell_db_ = T(kMinFloorDb);  ///< loudest that it was of late without beginning suddenly
+  T swell_db_ = T(kMinFloorDb);  ///< recent maximum loudness without a sudden beginning
   T room_db_ = T(kMinFloorDb);
   T last_floor_ = T(kMinFloorDb);
   int run_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The bands that distinguish blowing from speech, and their powers over a hop.
+// Bands that distinguish blowing from speech, and their power per hop.
 
 #include "sound/wind_design.hpp"
 #include "sound/wind_math.hpp"
@@ -30,7 +30,7 @@ class Bands {
  public:
   explicit Bands(const Design& d) : high_pass_(d.high_pass), low_pass_(d.low_pass), low_(d.low), high_(d.high) {}
 
-  /// Takes a sample at the analysis rate; returns the voice band's.
+  /// Filters a sample at the analysis rate; returns the voice band's sample.
   T push(T x) {
     const T total = high_pass_.high(x);
     const T voice = low_pass_.low(total);
@@ -47,7 +47,7 @@ class Bands {
 
   const BandSums<T>& sums() const { return sums_; }
 
-  /// Ends the hop. Sets inaudible filter state to 0, before it becomes a number that some machines flush.
+  /// Ends the hop. Sets inaudible filter state to 0, as some machines flush denormal numbers and others do not.
   void end_hop() {
     sums_ = {};
     high_pass_.hush();

@@ -1,8 +1,8 @@
 #pragma once
-// The wind under another sound.
+// Estimates the wind during other sounds.
 //
-// Another sound can only add to the level: under a voice or a knock the wind is at most what is measured, and most
-// likely what it was just before (and, where that is known, what it is just after).
+// Other sounds only add to the level: during a voice or a knock the wind is at most the measured level, and most likely
+// what it was just before (and, where known, just after).
 
 #include <array>
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace wisp::wind {
 
-constexpr float kHeardDb = 8;    ///< loudness over the floor from which a sound counts as one
-constexpr float kForeignDb = 3;  ///< and live, from which it may be another than the room's
+constexpr float kHeardDb = 8;    ///< loudness over the floor from which a sound counts
+constexpr float kForeignDb = 3;  ///< live: loudness over the floor from which a sound may be foreign
 constexpr float kBlowingLikeness = 0.5F;
 
 template <class T>
@@ -28,17 +28,17 @@ bool sounds_like_blowing(const Observation<T>& seen) {
   return T(kBlowingLikeness) < seen.likeness;
 }
 
-/// Speed as far as anything is heard at all: the background's own flicker is no wind.
+/// Share of the wind that counts by loudness over the floor: fluctuation of the background is no wind.
 template <class T>
 T heard_speed(T speed, const Observation<T>& seen, T floor_db) {
   return speed * audible(seen.loudness_db - floor_db, kHeardDb, 1.0F);
 }
 
-/// Live: frames that sound like blowing pass, and those in which nothing is heard. In others the wind is at most what
-/// it was before them, dying away in half a second.
+/// Live estimate. Frames that sound like blowing, or in which nothing is heard, pass unchanged. In others the wind is
+/// at most that before them, decaying within half a second.
 ///
-/// "Before" is 50 ms before, since it takes some time until a voice is known for one. Wind that swings fast sounds like
-/// something else for a few frames, too: for 80 ms after blowing it is still believed.
+/// "Before" is 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a few
+/// frames, so for 80 ms after blowing the measurement is still accepted.
 template <class T>
 class LiveBridge {
  public:

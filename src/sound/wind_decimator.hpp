@@ -1,5 +1,5 @@
 #pragma once
-// From the sound's rate down to the analysis rate.
+// Decimates sound to the analysis rate.
 
 #include <cstddef>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace wisp::wind {
 
-/// One channel: the mean of `box` samples, a low-pass, one value kept in `decimation`. All channels of a stream run in
+/// One channel: the mean of `box` samples, a low-pass, decimation by `decimation`. All channels of a stream run in
 /// step.
 template <class T>
 class Decimator {
@@ -19,13 +19,13 @@ class Decimator {
         taps_(d.taps.begin(), d.taps.end()),
         history_(2 * taps_.size(), T(0.0F)) {}
 
-  /// Takes a sample; returns whether a value is due, which is then in value().
+  /// Takes a sample; returns whether a value() is ready.
   bool push(T x) {
     sum_ = box_count_ == 0 ? x : sum_ + x;
     if (++box_count_ < box_) return false;
     box_count_ = 0;
     if (taps_.empty()) return true;
-    // Written twice, so that the window that starts after the newest value is one piece.
+    // Stored twice, so that the window that starts after the newest value is contiguous.
     history_[at_] = sum_;
     history_[at_ + taps_.size()] = sum_;
     at_ = at_ + 1 == taps_.size() ? 0 : at_ + 1;

@@ -8,10 +8,10 @@ namespace wisp::wind {
 namespace {
 
 constexpr double kMinAnalysisHz = 8000;
-constexpr double kMinBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
-constexpr double kLevelHz = 300;       // the level rises above; its gain there is 1
-constexpr float kOtherRise = 9;        // how much faster the floor rises under what does not sound like blowing
-constexpr int kTapsPerPhase = 4;       // of the low-pass
+constexpr double kMinBoxedHz = 32000;  // above this rate, the box filter's droop at 3.4 kHz is below 0.2 dB
+constexpr double kLevelHz = 300;       // the levelling filter rises above this frequency, where its gain is 1
+constexpr float kOtherRise = 9;        // factor by which the floor rises faster under sound unlike blowing
+constexpr int kTapsPerPhase = 4;       // taps of the low-pass per phase
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
   if (found >= least && found <= most) return {};
@@ -86,11 +86,11 @@ Design design(const SoundFormat& format, const WindOptions& options) {
   const double rate = boxed / d.decimation;
   d.analysis_rate_hz = rate;
   if (d.decimation > 1) d.taps = windowed_sinc(kTapsPerPhase * d.decimation, 3800 / boxed);
-  for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // the box hands on a sum
+  for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // the box filter outputs a sum
 
   set_filters(d);
-  // The delay of the decimating low-pass, half its length, plus that of the 900 Hz one at low frequencies, which is
-  // 1 / (2π · 900 Hz · Q).
+  // Delay of the decimating low-pass (half its length) plus that of the 900 Hz low-pass at low frequencies, 1 / (2π ·
+  // 900 Hz · Q).
   d.delay_seconds = static_cast<double>(d.taps.size()) / 2 / boxed + 0.00025;
   d.voice_step = rounded(rate / 4000);
   d.hop = d.voice_step * rounded(rate / d.voice_step * 0.01);

@@ -7,7 +7,7 @@ namespace wisp::wind {
 namespace {
 
 /// sin and cos of x, |x| <= 4, by halving the angle eight times and doubling back; error below 1e-14. The C library's
-/// may differ in the last bit from one machine to the next.
+/// results may differ in the last bit between machines.
 struct SinCos {
   double sin;
   double cos;
@@ -17,7 +17,7 @@ SinCos sin_cos(double x) {
   const double y = x / 256;
   const double y2 = y * y;
   double s = y * (1 - y2 / 6 * (1 - y2 / 20 * (1 - y2 / 42)));
-  double v = y2 / 2 * (1 - y2 / 12 * (1 - y2 / 30 * (1 - y2 / 56)));  // 1 − cos, kept apart for its small digits
+  double v = y2 / 2 * (1 - y2 / 12 * (1 - y2 / 30 * (1 - y2 / 56)));  // 1 − cos, separate for its small digits
   for (int i = 0; i < 8; ++i) {
     const double c = 1 - v;
     v = 2 * s * s;

@@ -1,5 +1,5 @@
 #pragma once
-// The filters that sound passes on its way to the wind level, and their design.
+// Filters of the wind estimator, and their design.
 
 #include <vector>
 
@@ -7,7 +7,7 @@ namespace wisp::wind {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Coefficients of one second-order section: gain · (zeros) / (1 + a1 z⁻¹ + a2 z⁻²), the zeros being those of its kind.
+/// Coefficients of one second-order section: gain · zeros / (1 + a1 z⁻¹ + a2 z⁻²), with zeros that depend on its kind.
 /// The gain is applied once to the band's power, not to every sample.
 struct Section {
   float a1 = 0;
@@ -15,8 +15,8 @@ struct Section {
   double gain = 1;
 };
 
-/// Sections by the bilinear transform (R. Bristow-Johnson, Cookbook formulae for audio equalizer biquad filters).
-/// All numbers come from + − × ÷ and square root, so that designs are the same bits everywhere.
+/// Section design by the bilinear transform (R. Bristow-Johnson, Cookbook formulae for audio equalizer biquad filters).
+/// Uses only + − × ÷ and square root, so that designs are the same bits on every machine.
 ///
 /// Precondition: 0 < frequency_hz < rate_hz / 2, q > 0.
 Section high_pass(double frequency_hz, double q, double rate_hz);
@@ -25,17 +25,17 @@ Section band_pass(double frequency_hz, double q, double rate_hz);
 
 /// A low-pass of odd symmetry about its middle tap: windowed sinc (Hamming) with gain 1 at 0 Hz.
 ///
-/// Precondition: taps >= 1, 0 < cutoff < 0.5 (share of the sample rate).
+/// Precondition: taps >= 1, 0 < cutoff < 0.5 (as a share of the sample rate).
 std::vector<float> windowed_sinc(int taps, double cutoff);
 
-/// Sine and cosine of a share of a turn, 0 to 1.
+/// Sine and cosine of an angle in turns, 0 to 1.
 struct Turn {
   double sin;
   double cos;
 };
 Turn turn_of(double share);
 
-/// Gain in power of x(t) − zero · x(t−1) at a frequency.
+/// Power gain of x(t) − zero · x(t−1) at a frequency.
 double power_of_zero(double zero, double frequency_hz, double rate_hz);
 
 /// 1 − e^(−steps / time constant): the weight of an exponential average for one step.
@@ -47,7 +47,7 @@ class Filter {
  public:
   explicit Filter(const Section& s) : a1_(s.a1), a2_(s.a2) {}
 
-  /// As a high-pass: zeros 1 − 2 z⁻¹ + z⁻².
+  /// Filters as a high-pass: zeros 1 − 2 z⁻¹ + z⁻².
   T high(T x) {
     const T w = recurse(x);
     const T y = (w - d1_) - (d1_ - d2_);
@@ -55,7 +55,7 @@ class Filter {
     return y;
   }
 
-  /// As a low-pass: zeros 1 + 2 z⁻¹ + z⁻².
+  /// Filters as a low-pass: zeros 1 + 2 z⁻¹ + z⁻².
   T low(T x) {
     const T w = recurse(x);
     const T y = (w + d1_) + (d1_ + d2_);
@@ -63,7 +63,7 @@ class Filter {
     return y;
   }
 
-  /// As a band-pass: zeros 1 − z⁻².
+  /// Filters as a band-pass: zeros 1 − z⁻².
   T band(T x) {
     const T w = recurse(x);
     const T y = w - d2_;
@@ -71,8 +71,8 @@ class Filter {
     return y;
   }
 
-  /// Sets state below −300 dB to 0. Called often enough, no number gets so small that some machines flush it to zero
-  /// and others do not: even the fastest filter here loses less than 18 digits in a hop.
+  /// Sets state below −300 dB to 0. Called once per hop, it prevents denormal numbers, which some machines flush to
+  /// zero and others do not: even the fastest filter here decays by less than 18 digits in a hop.
   void hush() {
     const T least = T(1e-15F);
     const bool quiet = d1_ < least && T(-1e-15F) < d1_ && d2_ < least && T(-1e-15F) < d2_;

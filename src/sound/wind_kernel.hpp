@@ -1,8 +1,8 @@
 #pragma once
-// The estimator's arithmetic, over any number type: from samples to what was observed in a frame.
+// Arithmetic of the wind estimator, over any number type: from samples to the observation of a frame.
 //
-// The features follow the approach of C. M. Nelke et al. (wind noise told from speech by its low band and by the lack
-// of harmonics); tools/fit_blowing.py fits what is made of them, docs/explanation/wind.md has figures.
+// Features follow C. M. Nelke et al. (wind noise distinguished from speech by its low band and by the lack of
+// harmonics); tools/fit_blowing.py fits the classifier, docs/explanation/wind.md has figures.
 
 #include <cmath>
 #include <cstddef>
@@ -21,29 +21,29 @@
 
 namespace wisp::wind {
 
-/// What the last 50 ms sound like.
+/// Features of the last 50 ms of sound.
 template <class T>
 struct Features {
-  T low_db = T(0.0F);          ///< power near 126 Hz over all above 80 Hz
-  T high_db = T(0.0F);         ///< power near 2.6 kHz over all above 80 Hz
-  T voicing = T(0.0F);         ///< periodicity, 0 to 1, its peak held
-  T tone = T(0.0F);            ///< steadiness of the same, 0 to 1
-  T peaked = T(0.0F);          ///< log of the kurtosis of the voice band over a Gaussian's, −1 to 3
+  T low_db = T(0.0F);          ///< power near 126 Hz relative to all above 80 Hz
+  T high_db = T(0.0F);         ///< power near 2.6 kHz relative to all above 80 Hz
+  T voicing = T(0.0F);         ///< periodicity with peak hold, 0 to 1
+  T tone = T(0.0F);            ///< steadiness of periodicity, 0 to 1
+  T peaked = T(0.0F);          ///< log of the voice band's kurtosis relative to a Gaussian's, −1 to 3
   T loudness_db = T(-120.0F);  ///< power of the voice band (100–900 Hz)
 };
 
-/// What one frame's sound says by itself, before it is set against a background.
+/// Observation of one frame, before it is compared with a background.
 template <class T>
 struct Observation {
-  T rms = T(0.0F);             ///< of all samples
+  T rms = T(0.0F);             ///< root mean square of all samples
   T band_power = T(0.0F);      ///< mean square of the level band
   T clipped = T(0.0F);         ///< share of samples at full scale
   T loudness_db = T(-120.0F);  ///< as in Features, at the frame's end
-  T likeness = T(0.0F);        ///< 0 to 1: sounds like blowing, not talking, whatever its strength
-  T likeness_now = T(0.0F);    ///< the same of the newest hop alone, without a gust's tail
+  T likeness = T(0.0F);        ///< probability-like, 0 to 1, of blowing rather than talking, independent of strength
+  T likeness_now = T(0.0F);    ///< likeness of the newest hop alone, without a gust's tail
 };
 
-/// 0 to 1: whether features are those of blowing. A layer of rectified sums and a logistic one.
+/// Classifier for blowing, 0 to 1: a layer of rectified sums, then a logistic unit.
 template <class T>
 T likeness_of(const Features<T>& f) {
   const T features[] = {f.low_db, f.high_db, f.voicing, f.tone, f.peaked};
@@ -56,9 +56,9 @@ T likeness_of(const Features<T>& f) {
   return sigmoid(z);
 }
 
-/// A gust that dies away does so in a few soft puffs that by themselves sound like anything. For half a second after
-/// sure blowing (50 ms of it) its likeness is kept while the sound only gets softer; whoever starts to talk gets
-/// louder.
+/// Keeps likeness at the end of a gust, which decays in soft puffs that by themselves sound like anything. For half a
+/// second after certain blowing (50 ms of it), likeness is kept while the sound only gets softer; a beginning voice
+/// gets louder.
 template <class T>
 class Tail {
  public:
@@ -101,7 +101,7 @@ class Kernel {
     per_hop_ = T(1.0F / static_cast<float>(d_.channels * d_.hop));
   }
 
-  /// Takes one sample of every channel. Returns whether a hop has ended, so that features() are new.
+  /// Takes one sample of every channel. Returns whether a hop has ended, so that features() is new.
   bool push(const float* samples) {
     bool due = false;
     // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): there are as many channels as its caller filled
@@ -110,7 +110,7 @@ class Kernel {
     return due && analyse();
   }
 
-  /// What the samples since the last frame say; starts the next frame.
+  /// Observation of the samples since the last frame; starts the next frame.
   Observation<T> end_frame() {
     gather();
     Observation<T> seen;
@@ -136,7 +136,7 @@ class Kernel {
   T likeness() const { return likeness_; }
   bool began_suddenly() const { return began_suddenly_; }
 
-  /// The stream begins in the middle of whatever sounds.
+  /// Declares that the stream begins during an unknown sound.
   void begin_unknown() { sudden_.begin_unknown(); }
 
   /// A channel's voice band in the hop that has just ended, differenced, at the rate of voices.
