@@ -11,17 +11,17 @@ namespace {
 
 constexpr double kMaxSum = 1e30;  // far below the largest float, so that no sum overflows
 
-// One mode's coefficients, as ArxModel and ArxMode have them.
+// Coefficients of one mode, in the layout of ArxModel and ArxMode.
 struct ModeRows {
   const std::vector<std::vector<double>>& theta;
   const std::vector<double>& constant;
 };
 
-// Inputs first, then past outputs, the newest last: of what a step adds up, one product waits for the step before.
+// Taps of output i: inputs first, then past outputs, the newest last: only one product depends on the previous step.
 std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRows> modes,
                                  const std::vector<double>& units, int i) {
   std::vector<ModeWeights> taps;
-  // `at`: one past the channel's in the row of theta, where its lags ascend.
+  // `at`: index one past the channel's coefficients in the row of theta, where lags ascend.
   const auto add = [&](int channel, int first_lag, int count, double sign, std::size_t at) {
     for (int lag = first_lag + count - 1; lag >= first_lag; --lag) {
       ModeWeights weights{static_cast<std::uint32_t>(channel), static_cast<std::uint32_t>(lag), {}};
@@ -32,7 +32,7 @@ std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRo
       keep(taps, std::move(weights));
     }
   };
-  std::size_t past = 0, end = 0;  // of the row: coefficients of outputs come first
+  std::size_t past = 0, end = 0;  // within the row: coefficients of outputs come first
   for (int j = 0; j < orders.outputs(); ++j) end += static_cast<std::size_t>(orders.na(i, j));
   for (int k = 0; k < orders.inputs(); ++k) {
     end += static_cast<std::size_t>(orders.nb(i, k));
@@ -83,7 +83,7 @@ std::size_t count_runs(const Regression& regression) {
   return all;
 }
 
-// Whether two outputs are sums over the same samples in the same order.
+// Returns whether two outputs are sums over the same samples in the same order.
 bool are_twins(const std::vector<ModeWeights>& a, const std::vector<ModeWeights>& b) {
   const auto same = [](const ModeWeights& x, const ModeWeights& y) { return x.channel == y.channel && x.lag == y.lag; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
@@ -155,7 +155,7 @@ std::vector<double> channel_units(const Model& model) {
   return units;
 }
 
-// Every output's own shock, and those that outputs share.
+// Each output's own shock, and the shared ones.
 Regression regression_of(const Model& model, const ArxModel& arx) {
   const std::vector<double> units = channel_units(model);
   const ModeRows mode[] = {{arx.theta, arx.constant}};

@@ -1,7 +1,7 @@
 #pragma once
 // The regression of an ARX model, or of the K modes of a switched one, compiled for stepping: coefficients in single
-// precision and channel units, mode beside mode, what is zero in every mode left out, in the order in which every
-// instance adds them up. Lanes in different modes so do the same operations in the same order.
+// precision and channel units, interleaved by mode, without taps that are zero in every mode, in the order of
+// summation. Lanes in different modes therefore do the same operations in the same order.
 
 #include <cstdint>
 #include <span>
@@ -15,40 +15,40 @@
 
 namespace wisp {
 
-/// Lags of one channel, each one less than the one before, with coefficients that are not zero in every mode.
+/// Descending consecutive lags of one channel, with coefficients that are not zero in every mode.
 struct TapRun {
   std::uint32_t channel;    ///< outputs first, then regressors
-  std::uint32_t first_lag;  ///< the longest
+  std::uint32_t first_lag;  ///< largest lag of the run
   std::uint32_t count;
-  std::uint32_t coefficient;  ///< index of the first, in taps
+  std::uint32_t coefficient;  ///< index of the run's first coefficient, in taps
 };
 
 struct ArxProgram {
   int outputs = 0;
   int regressors = 0;
-  int depth = 0;  ///< samples of history that are kept, the one being made included
+  int depth = 0;  ///< number of stored samples, the one being made included
   int modes = 1;
   int shock_channels = 0;  ///< standard normal numbers that a step may draw
-  std::size_t shocks = 0;  ///< that are added; known while measuring, when all arrays are empty
+  std::size_t shocks = 0;  ///< number of shocks added; known while measuring, when all arrays are empty
   std::span<TapRun> runs;
   std::span<std::uint32_t> row_end;    ///< per output, one past its last run
-  std::span<std::uint32_t> twin;       ///< per output, its taps where the next has the same but for coefficients, or 0
-  std::span<float> coefficients;       ///< taps × modes; those of A with their sign turned: a step only adds
+  std::span<std::uint32_t> twin;       ///< per output, its number of taps if the next has the same taps, else 0
+  std::span<float> coefficients;       ///< taps × modes; those of A are negated: a step only adds
   std::span<float> constant;           ///< outputs × modes
-  std::span<std::uint32_t> shock;      ///< which of the standard normal numbers
-  std::span<std::uint32_t> shock_end;  ///< per output, one past its last
+  std::span<std::uint32_t> shock;      ///< per shock, index of its standard normal number
+  std::span<std::uint32_t> shock_end;  ///< per output, one past its last shock
   std::span<float> shock_size;         ///< shocks × modes
   ResampledProgram resampled;          ///< residuals to play instead; empty: Gaussian shocks
 };
 
-/// A number of every mode that one sample is multiplied with, in channel units.
+/// A tap's or shock's coefficient in every mode, in channel units.
 struct ModeWeights {
-  std::uint32_t channel;  ///< of a tap as in TapRun; of a shock which of the standard normal numbers
+  std::uint32_t channel;  ///< channel of a tap as in TapRun; of a shock the index of its standard normal number
   std::uint32_t lag;
   std::vector<float> of_mode;
 };
 
-/// A regression in channel units, before it is laid out.
+/// A regression in channel units, before layout.
 struct Regression {
   std::vector<std::vector<ModeWeights>> taps;    ///< per output
   std::vector<std::vector<ModeWeights>> shocks;  ///< per output
@@ -62,20 +62,20 @@ struct Regression {
 Regression regression_of(const Model& model, const ArxModel& arx);
 Regression regression_of(const Model& model, const SwitchedArxModel& switched);
 
-/// What the numbers of each channel are multiples of: outputs, then regressors.
+/// Returns the unit of each channel: outputs, then regressors.
 std::vector<double> channel_units(const Model& model);
 
-/// A number as the kernels have it: what is too small to matter is 0.
+/// Returns a number as the kernels store it: 0 if negligible.
 float kept(double value);
 
-/// Appends what is not zero in every mode.
+/// Appends the weights unless they are zero in every mode.
 void keep(std::vector<ModeWeights>& list, ModeWeights weights);
 
 /// Lays the program out and, unless the arena measures, fills it.
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena);
 ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena);
 
-/// A hash of the program, over a hash of what came before.
+/// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before);
 
 /// Errors: coefficients so large that a step could overflow single precision.

@@ -1,7 +1,7 @@
 #pragma once
 // Steps blocks of instances of an ARX model, or of a switched one, whose modes are ARX models. Source: section 3.5 of
-// the paper (one multiplication by the matrix of coefficients, histories in circular buffers); here the bank shares one
-// place in the buffers, and what is zero costs nothing.
+// the paper (one multiplication by the matrix of coefficients, histories in circular buffers); here all instances share
+// one ring position, and zero coefficients cost nothing.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace wisp {
 
-/// `Modes` says which of the model's modes acts in each lane.
+/// `Modes` selects the active mode of each lane.
 template <class N, class Modes = SingleMode<N>>
 class ArxStepper : public ChannelHistory<N> {
  public:
@@ -27,13 +27,13 @@ class ArxStepper : public ChannelHistory<N> {
   using ChannelHistory<N>::kLanes;
   static constexpr int kCountedFrames = Modes::kCountedFrames;
 
-  /// Where the model's deviations are measured from.
+  /// Returns the point from which the model's deviations are measured.
   template <class Dynamics>
   static OperatingPoint operating_point(const Dynamics& dynamics) {
     return {dynamics.output_mean, dynamics.input_mean};
   }
 
-  /// Errors: what single precision can't step.
+  /// Errors: values that single precision cannot represent.
   template <class Dynamics>
   static Result<void> check(const Model& model, const Dynamics& dynamics) {
     return check_regression(regression_of(model, dynamics));
@@ -44,7 +44,7 @@ class ArxStepper : public ChannelHistory<N> {
       : ArxStepper(make_arx_program(model, dynamics, arena), Modes(model, dynamics, blocks, arena), channels, blocks,
                    arena) {}
 
-  /// Sets the scale of the residual noise. At 0 there is no chance in the modes either.
+  /// Sets the scale of the residual noise. At 0 mode transitions are deterministic too.
   void set_noise(float scale) {
     modes_.set_chance(scale > 0);
     noisy_ = resampled_.set_noise(scale);
@@ -57,18 +57,18 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
-  /// Moves every block's history by so many samples; the newest is now to be made.
+  /// Advances every block's ring by so many samples; the newest is then to be computed.
   void turn(int samples = 1) {
     ChannelHistory<N>::turn(samples);
     resampled_.turn(samples);
   }
 
-  /// Blocks that step_group() steps at once.
+  /// Number of blocks that step_group() steps at once.
   static constexpr int kGroup = Modes::kGroup;
   static constexpr bool kGroupsVary = false;
 
-  /// Makes the newest samples of blocks in a row, one or kGroup, of which the moment is the first's: each coefficient
-  /// is read once for all, and sums that do not wait for each other keep the machine busy.
+  /// Computes the newest samples of consecutive blocks, one or kGroup, whose first has this moment: each coefficient is
+  /// read once for all, and independent sums fill the processor's pipelines.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
     std::uint64_t quiet = ~std::uint64_t{0};
@@ -97,12 +97,12 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  /// Whether step_alone() makes the steps of a bank's only instance. It knows nothing of modes: not where kGroup is 1.
+  /// Returns whether step_alone() steps a bank's only instance. It ignores modes, so it is unavailable if kGroup is 1.
   bool steps_alone() const { return alone_.there(); }
 
-  /// Makes `count` steps of it, two or more, as so many calls of step() with a turn() between. For each regressor,
-  /// fill(k, first, of, out) writes those of `of` steps from `first` on; take(first, of, deviations) gets what was
-  /// made. Returns in how many an output was clamped.
+  /// Makes `count` steps of it, two or more, equal to so many calls of step() with a turn() between. For each
+  /// regressor, fill(k, first, of, out) writes its values for `of` steps from `first` on; take(first, of, deviations)
+  /// receives the results. Returns the number of steps in which an output was clamped.
   template <class Fill, class Take>
   std::uint64_t step_alone(const Moment<N>& moment, int count, Fill fill, Take take) {
     const std::span<const float> shocks = noisy_ ? shock_size_ : std::span<const float>();
@@ -118,48 +118,47 @@ class ArxStepper : public ChannelHistory<N> {
     }
     ring_.turn(count - 1);
     alone_.end(ring_);
-    std::fill_n(quiet_.begin(), program_.regressors, 0);  // nobody counts
+    std::fill_n(quiet_.begin(), program_.regressors, 0);  // not counted in this kernel
     return clamped;
   }
 
-  /// What makes steps of some blocks before the others make theirs: a copy, of the same memory but with a place in its
-  /// rings of its own.
+  /// Returns a stepper to step some blocks ahead of others: a copy on the same memory with its own ring position.
   ArxStepper ahead() const { return *this; }
 
-  /// Puts one lane to the operating point.
+  /// Sets one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
     modes_.start(block, lane);
     if (!resampled_.empty()) resampled_.start(block, lane);
     this->start_history(block, lane);
   }
 
-  /// Whether ranges of blocks can be stepped at once.
+  /// Returns whether ranges of blocks may be stepped in parallel.
   bool can_be_shared() const { return true; }
 
-  /// The mode that made a lane's newest sample; none before the first step.
+  /// Returns the mode that made a lane's newest sample; none before the first step.
   std::optional<int> mode(int block, int lane) const { return modes_.mode(block, lane); }
 
-  /// Coefficients that a step multiplies by: those of A and B of one mode, and what the choice of a mode takes.
+  /// Returns the number of multiplications of a step: coefficients of A and B of one mode, and the selection of a mode.
   std::int64_t multiply_adds() const {
     return static_cast<std::int64_t>(program_.coefficients.size() / modes_.count());
   }
 
-  /// Numbers of state that one lane holds.
+  /// Returns the number of state variables of one lane.
   std::size_t lane_values() const { return modes_.lane_values() + resampled_.lane_values() + this->history_values(); }
 
-  /// Calls visit(value, low, high) for each number of one lane's state, or visit(value, low, high, step) where only
-  /// low and whole steps above it are sound, in an order that does not depend on where in the ring it lies: the way to
-  /// save, check and restore it.
+  /// Calls visit(value, low, high) for each state variable of one lane, or visit(value, low, high, step) for those
+  /// restricted to low plus multiples of `step`, in an order independent of the ring position. Used to save, check and
+  /// restore the state.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
-    std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
+    std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // restored: may not be quiet
     modes_.visit_lane(block, lane, visit);
     const auto [low, high] = resampled_bounds();
     resampled_.visit_lane(block, lane, low, high, visit);
     this->visit_history(block, lane, visit);
   }
 
-  /// Goes into the hash that tells models apart.
+  /// Continues the hash that identifies the model.
   std::uint64_t hash(std::uint64_t before) const { return modes_.hash(hash_of(program_, before)); }
 
  private:
@@ -182,18 +181,18 @@ class ArxStepper : public ChannelHistory<N> {
 
   using Choice = typename Modes::Choice;
 
-  // What the blocks of a step have in common.
+  // Data common to the blocks of a step.
   template <int kBlocks>
   struct Step {
     const float* coefficients;
     std::size_t modes;
     const std::uint32_t* back;
-    const Real* ring;  // of the first block
+    const Real* ring;  // ring of the first block
     Real* newest;      // its newest sample
     std::size_t stride;
     Choice choice;
-    std::uint64_t quiet;     // a bit for each of the first regressors
-    std::uint32_t* clamped;  // a flag a lane
+    std::uint64_t quiet;     // one bit for each of the first regressors
+    std::uint32_t* clamped;  // one flag per lane
 
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
@@ -202,7 +201,7 @@ class ArxStepper : public ChannelHistory<N> {
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 
-  // Outputs from i on whose sums are over the same samples: each sample is read once for all of them.
+  // Computes outputs from i on whose sums are over the same samples: each sample is read once for all of them.
   template <int kRows, int kBlocks>
   void make_rows(int i, const Step<kBlocks>& step) const {
     using Values = BlockReals<N, kBlocks>;
@@ -227,14 +226,14 @@ class ArxStepper : public ChannelHistory<N> {
     if (any(clamped)) flag<kBlocks>(clamped, step.clamped);
   }
 
-  // Seldom: apart from what every step does.
+  // Rarely called, so it is kept out of the step's code.
   template <int kBlocks, class Clamped>
   [[gnu::noinline]] static void flag(const Clamped& clamped, std::uint32_t* flags) {
     const BlockPlaces<std::uint32_t, kBlocks> places(flags, kLanes);
     store_blocks<N>(clamped | load_blocks<N, Clamped>(places), places);
   }
 
-  // The run's products are added in the order of its lags, each to what was there before.
+  // Adds the run's products in the order of its lags.
   template <int kRows, int kBlocks>
   static void add_run(const Step<kBlocks>& step, const TapRun& run, std::size_t twin,
                       BlockReals<N, kBlocks> (&sum)[kRows]) {
@@ -255,9 +254,8 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  // A regressor that has been 0 in all lanes for as long as anything looks back adds nothing: a
-  // wind in calm air. Whether its zeros are added or not changes no bit (settle() makes −0 to 0). Returns
-  // a bit for each of the first regressors.
+  // A regressor that has been 0 in all lanes over the whole history, such as calm wind, contributes nothing. Skipping
+  // it changes no bit (settle() converts −0 to 0). Returns one bit for each of the first regressors.
   std::uint64_t count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
     const Real* newest = this->regressors(block);
@@ -276,7 +274,7 @@ class ArxStepper : public ChannelHistory<N> {
     return regressor >= 0 && regressor < kQuietBits && (quiet >> regressor & 1) != 0;
   }
 
-  // Puts what the sums of the blocks' outputs start from where their newest samples will be.
+  // Writes the initial values of the blocks' output sums to their newest samples.
   template <int kBlocks>
   void make_shocks(int block, const Step<kBlocks>& step, const Moment<N>& moment) {
     if (!resampled_.empty()) {
@@ -303,15 +301,15 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  // The lowest and the highest input that resampled residuals hear.
+  // Returns the lowest and the highest value of the input of resampled residuals.
   std::pair<float, float> resampled_bounds() const {
     if (!program_.resampled.driven()) return {0.0f, 0.0f};
     const RegressorChannel& toward = channels_.regressors[program_.resampled.toward];
     return {toward.least, toward.most};
   }
 
-  // Calls take(channel, block, normals) for every shock that is added to an output. First the words of many channels,
-  // then what is made of them: a word takes so many steps that hang on each other that one after the other would wait.
+  // Calls take(channel, block, normals) for every shock that is added to an output. Words of many channels are drawn
+  // first, then converted: the steps of one conversion depend on each other, so conversions are interleaved.
   static constexpr int kDrawnAtOnce = 32;
   template <int kBlocks, class Take>
   void draw(const Moment<N>& moment, Take take) const {
@@ -347,13 +345,13 @@ class ArxStepper : public ChannelHistory<N> {
     return choice.template pick<Values>(program_.constant.data() + i * modes_.count());
   }
 
-  // Downwards, since a shock of an output is added to that and later ones.
+  // Descending, since a shock of an output is added to that and later ones.
   void start_all(int block, const Choice& choice) {
     Real* newest = ring_.sample(block, 0);
     for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
   }
 
-  // What a sum starts from: the constant and the noise.
+  // Returns the initial value of a sum: the constant and the noise.
   Reals<N> start_shaken(int block, const Choice& choice, int i) {
     auto sum = constant<Reals<N>>(choice, i);
     for (std::uint32_t k = i == 0 ? 0 : program_.shock_end[i - 1]; k < program_.shock_end[i]; ++k) {
@@ -363,7 +361,7 @@ class ArxStepper : public ChannelHistory<N> {
     return sum;
   }
 
-  // Where a standard normal number lies: those of outputs where their sums will.
+  // Returns the address of a standard normal number; an output's own is where its sum will be.
   Real* shock(int block, int channel) {
     if (channel < program_.outputs) return ring_.sample(block, 0) + channel * kLanes;
     return shared_.data() + block * shared_row() + static_cast<std::size_t>(channel - program_.outputs) * kLanes;
@@ -376,12 +374,12 @@ class ArxStepper : public ChannelHistory<N> {
   Modes modes_;
   ResampledLanes<N> resampled_;
   TimeLanes<N> alone_;
-  std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers that outputs share
-  std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it
+  std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers shared by outputs
+  std::span<std::uint8_t> shaken_;  // per standard normal number: whether any output uses it
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
-  std::span<float> shock_size_;     // those of the program, scaled
+  std::span<float> shock_size_;     // shock sizes of the program, scaled
   bool noisy_ = false;
-  bool own_shocks_ = false;  // every output has one, and shares none
+  bool own_shocks_ = false;  // every output has one shock of its own and none is shared
 };
 
 template <class N>

@@ -1,11 +1,11 @@
 #pragma once
-// Looks for the place to jump to from the end of the block that is played, lane by lane: near in position and speed,
-// not played just now, and rather where little has been played. Where a block ends is known when it begins, so each
-// step compares some of the places, and no step is expensive.
+// Searches for the row to jump to from the end of the current block of rows, lane by lane: near in position and speed,
+// not played recently, preferably in a little-used part. Since a block's end is known at its beginning, the candidates
+// are compared a few per step, which bounds the cost of a step.
 //
-// Sources: A. Schödl, R. Szeliski, D. Salesin, I. Essa, "Video Textures", SIGGRAPH 2000; for the cost of what was
-// played, W. Li, X. Chen, P. Li, O. Sorkine-Hornung, B. Chen, "Example-Based Motion Synthesis via Generative Motion
-// Matching", SIGGRAPH 2023, whose bidirectional similarity asks that all of an example is used.
+// Sources: A. Schödl, R. Szeliski, D. Salesin, I. Essa, "Video Textures", SIGGRAPH 2000; for the penalty of repeated
+// play, W. Li, X. Chen, P. Li, O. Sorkine-Hornung, B. Chen, "Example-Based Motion Synthesis via Generative Motion
+// Matching", SIGGRAPH 2023, whose bidirectional similarity requires that all of an example is used.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace wisp {
 
-/// Rows that were played one after the other.
+/// A run of consecutively played rows.
 struct PlayedRows {
   std::uint32_t last;
   std::uint32_t count;
@@ -40,11 +40,11 @@ class LookupLanes {
     forget_places(block, lane);
   }
 
-  /// Whether the block of rows that is played is over.
+  /// Returns whether the current block of rows is finished.
   bool is_over(int block, int lane, std::uint32_t played) const { return played >= length(block, lane); }
 
-  /// Compares as many places as belong to this step. `played`: the rows of the block so far, then those of blocks
-  /// before it, the newest first; so many more rows follow in its stretch.
+  /// Compares this step's share of candidates. `played`: the current block's rows so far, then earlier blocks, newest
+  /// first; `left`: number of rows that follow in its stretch.
   void look(int block, int lane, std::span<const PlayedRows> played, std::uint32_t left) {
     const std::uint32_t all = length(block, lane), now = played[0].count;
     if (now == 0 || now > all) return;
@@ -55,7 +55,7 @@ class LookupLanes {
     for (std::uint32_t group = first; group < end; ++group) compare(block, lane, group, aim, played, ahead);
   }
 
-  /// Counts a block of rows as played and begins another one; returns its first row.
+  /// Records a block of rows as played and begins another one; returns its first row.
   std::uint32_t jump(int block, int lane, PlayedRows played, std::uint32_t where, std::uint32_t how_long,
                      std::span<const std::uint32_t> left) {
     count(block, lane, played);
@@ -87,9 +87,9 @@ class LookupLanes {
   }
 
  private:
-  static constexpr float kNone = 1e30f;       // the cost of a place that is not there
-  static constexpr float kBarred = 10;        // added where no jump leads, unless everything is so
-  static constexpr float kForgotten = 1e-3f;  // of the counts in a step
+  static constexpr float kNone = 1e30f;       // cost of a missing candidate
+  static constexpr float kBarred = 10;        // cost added to a row that is excluded, unless all are
+  static constexpr float kForgotten = 1e-3f;  // share of the play counts that decays per step
   static constexpr float kMostCounted = 1e7f;
   static constexpr int kLength = 0, kWeight = 1, kCost = 2, kPlace = kCost + kNearestPlaces;
   static constexpr int kCount = kPlace + kNearestPlaces, kValues = kCount + static_cast<int>(kPlayedParts);
@@ -109,7 +109,7 @@ class LookupLanes {
     }
   }
 
-  // What places are compared with: position and speed where the block ends.
+  // Position and speed at the block's end, with which candidates are compared.
   struct Aim {
     Real trait[2 * kMaxTraits];
     std::uint32_t row;
@@ -150,7 +150,7 @@ class LookupLanes {
     }
   }
 
-  // Rows near those that would follow, or played just now.
+  // Returns whether a row is near those that follow anyway, or was played recently.
   bool is_barred(std::uint32_t row, std::uint32_t end, std::span<const PlayedRows> played, std::uint32_t ahead) const {
     if (row + program_.beside > end && row <= end + 1 + program_.beside) return true;
     std::uint32_t room = program_.recent;
@@ -163,7 +163,7 @@ class LookupLanes {
     return false;
   }
 
-  // Of two that cost the same the first stays before the other.
+  // Of two equal costs the first stays in front.
   void keep(int block, int lane, Real cost, std::uint32_t place) {
     int rank = kNearestPlaces;
     while (rank > 0 && cost < at(block, kCost + rank - 1)[lane]) --rank;
@@ -176,7 +176,7 @@ class LookupLanes {
     at(block, kPlace + rank)[lane] = Real(static_cast<float>(place));
   }
 
-  // Forgets a little of what was counted and adds a block's rows; what all of it weighs goes with the sum.
+  // Decays the play counts and adds a block's rows; the weight of each is relative to the total.
   void count(int block, int lane, PlayedRows played) {
     if (played.count == 0) return;
     const std::uint32_t first = played.last + 1 - played.count;

@@ -1,6 +1,5 @@
 #pragma once
-// Which mode of an ARX model acts in every lane of a block: the only one, or one of those of a switched model, chosen
-// by a Markov chain.
+// Active mode of an ARX model in every lane of a block: the only one, or of a switched model one chosen by a chain.
 
 #include <cstdint>
 #include <optional>
@@ -20,30 +19,30 @@ inline constexpr std::uint32_t kAnyWord = 0xffffffffU;
 struct ModeProgram {
   int modes = 0;
   int outputs = 0;
-  /// (modes + 1) × modes, from every mode and from before the first step; a random word goes to the first mode whose
-  /// threshold is above it, or is kAnyWord.
+  /// (modes + 1) × modes, from every mode and from before the first step; a random word selects the first mode whose
+  /// threshold exceeds it or is kAnyWord.
   std::span<std::uint32_t> thresholds;
 };
 
 /// Lays the program out and, unless the arena measures, fills it.
 ModeProgram make_mode_program(const SwitchedArxModel& switched, Arena& arena);
 
-/// A hash of the program, over a hash of what came before.
+/// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ModeProgram& program, std::uint64_t before);
 
-/// An ARX model's: there is nothing to choose, and nothing of it is kept.
+/// Modes of a plain ARX model: no choice and no state.
 template <class N>
 class SingleMode {
  public:
   using Real = typename N::Real;
-  /// Frames over which a cost is averaged: resampled residuals jump in some of them.
+  /// Number of frames over which a cost is averaged: resampled residuals jump in some of them.
   static constexpr int kCountedFrames = 60;
 
   SingleMode(const Model&, const ArxModel&, int, Arena&) {}
 
   static constexpr std::size_t count() { return 1; }
   void set_chance(bool) {}
-  /// Blocks that can be stepped at once: what they multiply with is the same.
+  /// Number of blocks that can be stepped at once, since they share coefficients.
   static constexpr int kGroup = WISP_BLOCKS_AT_ONCE;
   struct Choice {
     template <class Values>
@@ -60,14 +59,14 @@ class SingleMode {
   std::uint64_t hash(std::uint64_t before) const { return before; }
 };
 
-/// A switched model's. Numbers are picked lane by lane, so that the arithmetic is that of a single mode, however many
-/// there are. The chain takes one random word.
+/// Modes of a switched model. Coefficients are gathered lane by lane, so that the arithmetic is that of a single mode,
+/// whatever their number. The chain takes one random word.
 template <class N>
 class ModeLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// Every frame costs the same.
+  /// One: every frame costs the same.
   static constexpr int kCountedFrames = 1;
 
   ModeLanes(const Model&, const SwitchedArxModel& switched, int blocks, Arena& arena)
@@ -76,16 +75,16 @@ class ModeLanes {
 
   std::size_t count() const { return static_cast<std::size_t>(program_.modes); }
 
-  /// Without chance a Markov chain takes the likeliest step.
+  /// Without chance the Markov chain takes its likeliest transition.
   void set_chance(bool there) { chance_ = there; }
 
   static constexpr int kGroup = 1;
 
-  /// Every lane's mode of this step.
+  /// Every lane's mode in this step.
   struct Choice {
     std::uint32_t mode[kLanes];
 
-    /// Every lane's number of its own mode.
+    /// Returns, in every lane, the number of the lane's mode.
     template <class Values>
     Values pick(const float* of_mode) const {
       Real picked[kLanes];
@@ -102,10 +101,10 @@ class ModeLanes {
     return choice;
   }
 
-  /// A newborn has no mode before its first step.
+  /// A new instance has no mode before its first step.
   void start(int block, int lane) { modes_[block * kLanes + lane] = Real(kNoMode); }
 
-  /// The mode that made the newest sample; none before the first step.
+  /// Returns the mode that made the newest sample; none before the first step.
   std::optional<int> mode(int block, int lane) const {
     const int mode = static_cast<int>(value_of(modes_[block * kLanes + lane]));
     if (mode < 0) return {};
@@ -124,7 +123,7 @@ class ModeLanes {
  private:
   static constexpr float kNoMode = -1.0f;
 
-  // One step of every lane's Markov chain. Its word comes after those of the shocks.
+  // Makes one step of every lane's Markov chain. Its word follows those of the shocks.
   Choice walk(int block, const Moment<N>& moment) const {
     Choice choice;
     const auto modes = static_cast<std::uint32_t>(program_.modes);
@@ -162,7 +161,7 @@ class ModeLanes {
   }
 
   ModeProgram program_;
-  std::span<Real> modes_;  // [block][lane]: what made the newest sample, or kNoMode
+  std::span<Real> modes_;  // [block][lane]: mode of the newest sample, or kNoMode
   bool chance_ = true;
 };
 

@@ -1,17 +1,17 @@
 #pragma once
-// Plays residuals as they were (ResampledResiduals), lane by lane. An instance's state is the row that it is at, how
-// long ago it jumped there, the blocks that it played before, and its input's recent past. Jumps are decided by
-// comparisons and taken by counted random words. Where nothing drives it, it jumps after a drawn time to where the
-// outputs were alike (lookup_lanes.hpp).
+// Replays recorded residuals (ResampledResiduals), lane by lane. An instance's state is its current row, the time since
+// its last jump, the blocks of rows played before, and its input's recent past. Comparisons decide on jumps and
+// counter-based random words choose among targets. Without a driving input, it jumps after a random time to a row with
+// similar outputs (lookup_lanes.hpp).
 //
-// Where an input drives it, where a jump leads is a search for the rows whose input's past is nearest (D. Kovar, M.
-// Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016, are its kin in
-// animation): one way down a k-d tree to a leaf, whose rows are compared. It is done only in steps in which going on
-// costs more than the tolerance.
+// With a driving input, a jump searches for the rows with the nearest input past (related methods in animation: D.
+// Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016): one
+// descent of a k-d tree to a leaf, whose rows are compared. The search runs only in steps in which the next row's
+// distance exceeds the tolerance.
 //
-// In the round the input is a level vector. A row is played along the direction from which it came when the row was
-// jumped to; what there is across it is another row's of like strength, to the one side or the other by chance: a
-// second life of the same kind, and of the same past.
+// For a 3-D body the input is a horizontal vector. A row's components along the wind apply along the wind's direction
+// at the jump to that row; those across come from another row of similar strength, mirrored at random: a second search
+// of the same kind over the same past.
 
 #include <algorithm>
 #include <cstdint>
@@ -42,19 +42,19 @@ class ResampledLanes {
     past_ = SampleRing<N>(blocks, program.depth, this->lives(), arena);
     if (program.across == 0) return;
     from_ = arena.take<Real>(lives * 2 * kLanes);
-    stride_ = (static_cast<std::size_t>(program.outputs) + 3) / 4 * 4;  // they are read four at a time
+    stride_ = (static_cast<std::size_t>(program.outputs) + 3) / 4 * 4;  // rows are read four numbers at a time
     turned_ = arena.take<float>(static_cast<std::size_t>(blocks) * kLanes * stride_);
   }
 
   bool empty() const { return program_.empty(); }
 
-  /// Sets the scale of the noise. Returns whether there is any.
+  /// Sets the scale of the noise. Returns whether it is nonzero.
   bool set_noise(float scale) {
     scale_ = scale;
     return !empty() && scale != 0;
   }
 
-  /// A newborn jumps in its first step; nothing blew before.
+  /// A new instance jumps in its first step; its input past is calm.
   void start(int block, int lane) {
     for (int k = 0; k < lives(); ++k) {
       const int life = k * blocks_ + block;
@@ -69,10 +69,10 @@ class ResampledLanes {
     if (program_.across > 0) std::fill_n(turned_.data() + (block * kLanes + lane) * stride_, stride_, 0.0f);
   }
 
-  /// Moves every block's past by so many samples.
+  /// Advances every block's past by so many samples.
   void turn(int samples = 1) { past_.turn(samples); }
 
-  /// Takes in the input of a block's step, whether there is noise or not: [regressor][lane].
+  /// Records the input of a block's step, with or without noise: [regressor][lane].
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
     for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {
@@ -80,7 +80,7 @@ class ResampledLanes {
     }
   }
 
-  /// Moves every lane of a block that is in use on.
+  /// Advances every lane of a block that is in use.
   void step(int block, const Moment<N>& moment) {
     for (int k = 0; k < lives(); ++k) {
       const Life life{block, k * blocks_ + block, k};
@@ -89,7 +89,7 @@ class ResampledLanes {
     for (int lane = 0; program_.across > 0 && lane < moment.lanes(); ++lane) turn_row(block, lane);
   }
 
-  /// Puts what is added to the outputs of a block, [output][lane], into `shocks`.
+  /// Writes the residuals of a block, [output][lane], to `shocks`.
   void play(int block, Real* shocks) const {
     const float* row[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) row[lane] = played(block, lane);
@@ -103,7 +103,7 @@ class ResampledLanes {
     }
   }
 
-  /// What a lane plays, one number an output, and what it is multiplied with.
+  /// Returns the residuals of a lane, one per output, before scaling.
   const float* played(int block, int lane) const {
     if (program_.across > 0) return turned_.data() + (block * kLanes + lane) * stride_;
     return program_.played(whole(state(block, kPlace)[lane]));
@@ -132,21 +132,21 @@ class ResampledLanes {
       lookup_.visit_lane(life, lane, visit);
       for (int axis = 0; program_.across > 0 && axis < 2; ++axis) visit(from(life, axis)[lane], -1.0f, 1.0f);
     }
-    if (program_.across > 0) turn_row(block, lane);  // it may be restored
+    if (program_.across > 0) turn_row(block, lane);  // the state may have been restored
   }
 
  private:
-  // Twice the row, and one more where its mirror image is played; steps since the jump; and the same of the last row of
-  // every block before, the newest first.
-  static constexpr float kMostSum = 1e15f;  // no input is as large in units of its range
+  // State layout: twice the row, plus one for its mirror image; steps since the jump; and both for the last row of
+  // every earlier block, newest first.
+  static constexpr float kMostSum = 1e15f;  // bound on any input past in units of its range
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;
   static constexpr int kAge = 1;
   static constexpr int kStateValues = 2 * (1 + kRecentBlocks);
 
-  static constexpr int kVectorRegressors = 3;  // of each part of a vector
+  static constexpr int kVectorRegressors = 3;  // regressors per component of a vector
 
-  // One search for rows: of the residuals along the wind, and in the round a second one of those across it.
+  // One search for rows: of the residuals along the wind, and for a body a second one of those across it.
   struct Life {
     int block;
     int at;
@@ -187,15 +187,15 @@ class ResampledLanes {
     }
   }
 
-  // The residuals of a lane in the round: one row along the wind, another across it, each turned to where the wind blew
-  // when the search jumped to that row.
+  // Computes a body lane's residuals: one row along the wind, another across it, each rotated to the wind's direction
+  // at the jump to that row.
   void turn_row(int block, int lane) {
     const std::uint32_t other = whole(state(blocks_ + block, kPlace)[lane]);
     const float *along = program_.played(whole(state(block, kPlace)[lane]) / 2 * 2), *across = program_.played(other);
     const auto vectors = static_cast<std::size_t>(program_.across);
     const std::size_t numbers = static_cast<std::size_t>(program_.outputs) - 2 * vectors;
     float* out = turned_.data() + (block * kLanes + lane) * stride_;
-    // Four at a time, as rows are padded; what is copied too far is written below.
+    // Four at a time, as rows are padded; excess numbers are overwritten below.
     for (std::size_t k = 0; k < numbers; k += 4) std::memcpy(out + k, along + k, 4 * sizeof(float));
     const Real x = from(block, 0)[lane], z = from(block, 1)[lane];
     const Real other_x = from(blocks_ + block, 0)[lane], other_z = from(blocks_ + block, 1)[lane];
@@ -235,29 +235,28 @@ class ResampledLanes {
     }
   }
 
-  // Where the lanes of a block go, and which of them must jump.
+  // Next rows of a block's lanes, and the lanes that must jump.
   struct Places {
     std::uint32_t next[kLanes];
     bool forced[kLanes];
   };
 
-  // The input's past at each lag, and whether it blew from the other side: there rows are looked for as mirror images,
-  // and the past is turned about.
+  // Input past at each lag, and whether it came from the other side: then mirror images are searched for, with the
+  // past's sign reversed.
   struct Heard {
     Real wind[kMaxResampledLags][kLanes];
     bool right[kLanes];
-    Real from[2][kLanes];  // in the round: where it blew to, and the past is along it
+    Real from[2][kLanes];  // for a body: wind direction, along which the past is measured
   };
 
-  // Lanes that may jump: of all that follows each does one thing at a time for all of them, since one alone would wait
-  // for every number that it reads.
+  // Lanes that may jump. Each stage of the search runs for all of them, to overlap their memory latencies.
   struct Seekers {
     int lane[kLanes];
     std::uint32_t leaf[kLanes] = {};
     int count = 0;
   };
 
-  // Lets those jump that must, or that go on in an input too far from what it was there.
+  // Makes lanes jump whose block has ended, or whose input is too far from the recorded one.
   void search(const Life& life, const Moment<N>& moment, Places& places) {
     Seekers seekers;
     Real ahead[kLanes];
@@ -282,14 +281,14 @@ class ResampledLanes {
     }
   }
 
-  // How far the input's past is from what it was at the next places: the sum over lags of the differences' sizes, as
-  // good a choice as their squares make for half the operations.
+  // Computes the distance of the input's past from that of the next rows: the sum of absolute differences over lags,
+  // which chooses as well as their squares at half the operations.
   void go_on(const Life& life, const Places& places, Real (&ahead)[kLanes]) const {
     const float* wind[kLanes];
     Real mirrored[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t next = places.next[lane];
-      // What must jump does not go on, and there may be nothing to go on to.
+      // A lane that must jump has no next row, and its stretch may have ended.
       wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
       mirrored[lane] = Real(next % 2 != 0 && program_.across == 0 ? 1.0f : 0.0f);
     }
@@ -320,13 +319,13 @@ class ResampledLanes {
     }
   }
 
-  // The part along a direction of the vector that was the input so many steps ago.
+  // Returns the component, along a direction, of the input vector so many steps ago.
   Reals<N> along(int block, std::uint32_t lag, const Real* x, const Real* z) const {
     const Real* vector = past(block, lag);
     return load<Reals<N>>(vector) * load<Reals<N>>(x) + load<Reals<N>>(vector + kLanes) * load<Reals<N>>(z);
   }
 
-  // The direction is that of the sum; of none it is x.
+  // The direction is that of the vector sum; for zero it is x.
   void hear_vector(int block, Heard& heard) const {
     auto x = all<Reals<N>>(0.0f), z = x, one = all<Reals<N>>(1.0f);
     for (const std::uint32_t lag : program_.lags) {
@@ -359,8 +358,8 @@ class ResampledLanes {
     for (int lane = 0; lane < kLanes; ++lane) heard.right[lane] = value_of(sides[lane]) < 0;
   }
 
-  // Down the tree to a leaf. Where the past lies within the margin of a node's value chance takes the side: rows of
-  // calm, which are all alike, are so all within reach.
+  // Descends the tree to a leaf. If the past is within the margin of a node's value, the side is chosen at random, so
+  // that all rows of calm, which are alike, are reachable.
   void descend(const Heard& heard, const std::uint32_t (&words)[kLanes], Seekers& seekers) const {
     std::uint32_t node[kLanes] = {}, word[kLanes] = {};
     for (int k = 0; k < seekers.count; ++k) word[k] = words[seekers.lane[k]];
@@ -379,8 +378,8 @@ class ResampledLanes {
     }
   }
 
-  // Rows that the lanes have played just now, or will play if they go on: above `low`, up to `high`. That half of a
-  // mirrored place is half a row above its row lets no other row in.
+  // Rows that the lanes played recently, or will play without a jump: above `low`, up to `high`. A mirrored place is
+  // half a row above its row, which admits no other row.
   struct Recent {
     float low[1 + kRecentBlocks][kLanes];
     float high[1 + kRecentBlocks][kLanes];
@@ -396,7 +395,7 @@ class ResampledLanes {
     }
   }
 
-  // How far a lane's past is from those of a leaf's rows: infinitely far from what is none, or was played just now.
+  // Computes the distance of a lane's past from those of a leaf's rows: infinite for missing or recently played rows.
   void compare(int lane, std::uint32_t leaf, const Heard& heard, const Recent& recent,
                float (&apart)[kCandidates]) const {
     const Candidates& rows = program_.leaves[leaf];
@@ -422,8 +421,8 @@ class ResampledLanes {
     }
   }
 
-  // The nearest of a leaf's rows, the best first, of every seeker: how far, and which candidate. Of two that are as
-  // near the first comes first.
+  // Distance and candidate index of the nearest rows of a leaf, best first, for every seeker. Of equal distances the
+  // first candidate precedes.
   struct Nearest {
     float apart[kNearestRows][kLanes];
     float candidate[kNearestRows][kLanes];
@@ -445,7 +444,7 @@ class ResampledLanes {
     for (int first = 0; first < seekers.count; first += N::kPartLanes) rank_part(row + first, nearest, first);
   }
 
-  // Always ranks a whole part of lanes; results of lanes without a seeker are not read.
+  // Always ranks whole vectors of lanes; results of lanes without a seeker are not read.
   static void rank_part(const float* const* row, Nearest& nearest, int first) {
     using Values = Pack<typename N::RealPart, 1>;
     Values best[kNearestRows], which[kNearestRows];
@@ -459,7 +458,7 @@ class ResampledLanes {
       columns_part(row, at, columns);
       unrolled<4>([&](auto k) {
         const Values apart{{columns[k]}}, number = all<Values>(static_cast<float>(at + k));
-        // From the last rank on: what a nearer one drives out of a rank goes to the next.
+        // From the last rank on: the entry displaced from a rank moves to the next.
         unrolled<kNearestRows>([&](auto back) {
           const int rank = kNearestRows - 1 - back;
           const auto pushed = rank > 0 ? each(first_if, apart, best[rank - 1], best[rank - 1], apart) : apart;
@@ -475,8 +474,8 @@ class ResampledLanes {
     }
   }
 
-  // Where to go from a leaf: on, where `ahead` says what that costs and it is not worse than the best by more than the
-  // tolerance, else to one of the nearest.
+  // Chooses the place after a leaf: the next row, if its cost `ahead` exceeds the best one's by at most the tolerance,
+  // else one of the nearest.
   std::uint32_t jump(const Life& life, int seeker, const Seekers& seekers, const Heard& heard, const Nearest& nearest,
                      std::uint32_t word, const Real* ahead) {
     const int lane = seekers.lane[seeker];
@@ -489,8 +488,8 @@ class ResampledLanes {
     return arrive(life, lane, heard, rows.place[which], word);
   }
 
-  // The place to play from after a jump to a place of the search tree: its mirror image where the past was mirrored
-  // before the search. In the round the direction is mirrored instead, and the components across by chance.
+  // Returns the place to play from after a jump to a place of the search tree: its mirror image if the past was
+  // mirrored before the search. For a body the direction is mirrored instead, and the components across at random.
   std::uint32_t arrive(const Life& life, int lane, const Heard& heard, std::uint32_t place, std::uint32_t word) {
     if (program_.across == 0) return place ^ (heard.right[lane] ? 1 : 0);
     const Real side(place % 2 != 0 ? -1.0f : 1.0f);
@@ -498,7 +497,7 @@ class ResampledLanes {
     return place / 2 * 2 + (life.number == 0 ? 0 : word % 2);
   }
 
-  // A word as a whole number below `count`.
+  // Scales a word to a whole number below `count`.
   static std::uint32_t scaled(std::uint32_t word, std::uint32_t count) {
     return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word) * count) >> 32);
   }
@@ -506,12 +505,12 @@ class ResampledLanes {
   ResampledProgram program_;
   LookupLanes<N> lookup_;
   std::span<Real> state_;
-  SampleRing<N> past_;       // of the input
-  std::span<Real> from_;     // in the round [life][x, z][lane]: along which direction a row is played
-  std::span<float> turned_;  // [block][lane][output]: what that makes of rows
+  SampleRing<N> past_;       // past of the input
+  std::span<Real> from_;     // for a body [life][x, z][lane]: direction along which a row is played
+  std::span<float> turned_;  // [block][lane][output]: residuals rotated to that direction
   std::size_t stride_ = 0;
   int blocks_ = 0;
-  float scale_ = 0;  // of the noise
+  float scale_ = 0;  // scale of the noise
 };
 
 }  // namespace wisp

@@ -13,8 +13,8 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxUnits = 1e9;      // of a residual or a wind, in ranges: no sum overflows
-constexpr std::uint32_t kMinLeft = 6;  // rows that follow one to which a jump leads, where any has as many
+constexpr double kMaxUnits = 1e9;      // bound of a residual or a wind, in ranges: no sum overflows
+constexpr std::uint32_t kMinLeft = 6;  // fewest rows after a jump's target, if any has as many
 
 float bounded(double value) {
   if (std::abs(value) < kMinCoefficient) return 0.0f;
@@ -51,7 +51,7 @@ std::size_t count_nodes(std::size_t rows) {
   return leaves - 1;
 }
 
-// In the regressor's channel units, as deviations from its mean where the channel is one.
+// Fills in winds in the regressor's channel units, as deviations from its mean if the channel has one.
 void fill_winds(const Model& model, const ArxModel& arx, const ResampledResiduals& resampled,
                 ResampledProgram& program) {
   const double unit = resampled.wind_scale / regressor_scale(model, resampled.toward);
@@ -78,8 +78,8 @@ class PastTree {
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
     if (node >= program_.nodes.size()) return;
     const std::uint32_t lag = widest(begin, end);
-    // Those alike are scattered, so that a leaf has not one stretch of calm alone: all of it may have been played just
-    // now. As a heap, since that takes little code and no memory.
+    // Equal rows are shuffled, so that a leaf holds calm rows of several stretches: one stretch may have been played
+    // entirely just now. Heap sort takes little code and no memory.
     const auto scattered = [](std::uint32_t row) { return row * 0x9E3779B1U; };
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
       const float x = past(a, lag), y = past(b, lag);
@@ -123,7 +123,7 @@ class PastTree {
   ResampledProgram& program_;
 };
 
-// The rows of each leaf, with all that a comparison reads in one piece.
+// Fills the rows of each leaf, with all data of a comparison contiguous.
 void fill_leaves(ResampledProgram& program, std::size_t node, std::size_t begin, std::size_t end) {
   if (node < program.nodes.size()) {
     const std::size_t middle = begin + (end - begin) / 2;
@@ -185,7 +185,7 @@ void fill_sides(const Model& model, const ResampledResiduals& resampled, Resampl
     program.factor[ny + i] = bounded((resampled.mirror[i] < 0 ? -1 : 1) * unit(from) / unit(i));
   }
   if (!program.mirrors()) return;
-  // Units are powers of two: it makes no difference that mirror images are made here, and not when they are played.
+  // Units are powers of two, so mirroring here gives the same bits as mirroring during play.
   const std::size_t half = program.rows.size() / 2;
   for (std::size_t row = 0; row < half; row += ny) {
     for (std::size_t i = 0; i < ny; ++i) {
@@ -210,7 +210,7 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   const std::size_t targets = program.driven() ? count_targets(resampled) : 0;
   program.lags = arena.take<std::uint32_t>(resampled.lags.size());
   const std::size_t numbers = static_cast<std::size_t>(program.sides) * resampled.rows.size();
-  const auto padded = arena.take<float>(numbers + 3);  // they are read four at a time
+  const auto padded = arena.take<float>(numbers + 3);  // rows are read four numbers at a time
   program.rows = padded.first(padded.empty() ? 0 : numbers);
   program.left = arena.take<std::uint32_t>(rows);
   program.wind = arena.take<float>(resampled.winds.size());
@@ -237,7 +237,7 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   return program;
 }
 
-// What the tree is follows from the rest.
+// The tree is determined by the rest, so it is not hashed.
 std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
   if (program.empty()) return before;
   std::uint64_t hash = before;
@@ -258,8 +258,8 @@ std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
 
 namespace {
 
-// Chosen on four films (docs/studies/still-flames.md): from a jump to the next at least and at most; rows to which
-// no jump leads; how far ahead the play of a place is counted; and what that weighs beside distances.
+// Chosen on four films (docs/studies/still-flames.md): shortest and longest time between jumps; number of rows excluded
+// as targets; time ahead over which usage is counted; and the weight of usage beside distances.
 constexpr double kShortestSeconds = 0.4;
 constexpr double kLongestSeconds = 1.2;
 constexpr double kBesideSeconds = 0.3;
@@ -273,7 +273,7 @@ std::uint32_t steps_of(double seconds, const Model& model) {
   return static_cast<std::uint32_t>(std::clamp(std::round(seconds * model.rate_hz), 1.0, kMaxSteps));
 }
 
-// Rows × outputs: deviations from the operating point as each row is played, after the rows of its stretch before it.
+// Rows × outputs: deviations from the operating point when each row is played, after earlier rows of its stretch.
 std::vector<double> states_of(const ArxModel& arx, std::span<const std::uint32_t> left) {
   const ResampledResiduals& resampled = arx.noise.resampled;
   const std::size_t ny = resampled.scale.size();
@@ -295,7 +295,7 @@ std::vector<double> states_of(const ArxModel& arx, std::span<const std::uint32_t
   return out;
 }
 
-// How much each component of the state moves what is seen.
+// Returns the contribution of each state component to the visible motion.
 std::vector<double> weights_of(const Model& model, std::size_t count) {
   const auto* view = std::get_if<OutlineView>(&model.view);
   if (!view || view->shape.empty()) return std::vector<double>(count, 1.0);
@@ -346,8 +346,8 @@ void fill_positions(const Model& model, const ArxModel& arx, std::span<const std
   }
 }
 
-// Rows after which as many follow as the shortest block has, or as the longest stretch has; of many those at even
-// distances.
+// Returns rows followed by as many as the shortest block has, or the longest stretch; a large number is subsampled
+// evenly.
 std::vector<std::uint32_t> places_of(const std::vector<std::uint32_t>& ends, std::uint32_t shortest) {
   std::uint32_t longest = 0;
   for (std::size_t k = 0; k < ends.size(); ++k) longest = std::max(longest, ends[k] - (k > 0 ? ends[k - 1] : 0));

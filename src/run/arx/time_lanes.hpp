@@ -1,7 +1,7 @@
 #pragma once
-// Makes many steps of a bank's only instance, of a model with one output: its steps go side by side, where in a block
-// instances do. What they take from inputs and from noise is computed so; only the sums over past outputs wait for each
-// other, and a step adds those last. Every step adds up what it adds in a block, in the same order.
+// Makes many steps of a bank's only instance, of a model with one output: lanes hold consecutive steps rather than
+// instances. Contributions of inputs and noise are computed in parallel; only sums over past outputs are sequential,
+// and are added last. Every step sums in the same order as in a block.
 
 #include <algorithm>
 #include <cmath>
@@ -30,10 +30,10 @@ class TimeLanes {
       : past_(takes(program) ? program.depth : 0),
         rows_(arena.take<Real>(takes(program) ? (1 + program.regressors) * row_size() : 0)) {}
 
-  /// Whether there is such a kernel for the model.
+  /// Returns whether this kernel supports the model.
   bool there() const { return past_ > 0; }
 
-  /// Takes over the history of the first lane of a bank, in which lag 0 is still to be made.
+  /// Copies the history of a bank's first lane, in which lag 0 is still to be computed.
   void begin(const SampleRing<N>& ring) {
     for (int lag = 1; lag < past_; ++lag) {
       const Real* sample = ring.sample(0, static_cast<std::uint32_t>(lag));
@@ -41,7 +41,7 @@ class TimeLanes {
     }
   }
 
-  /// And gives it back, where lag 0 is the last that was made.
+  /// Copies the history back; lag 0 is the last step made.
   ///
   /// Precondition: since begin() two steps or more were made.
   void end(SampleRing<N>& ring) const {
@@ -51,11 +51,11 @@ class TimeLanes {
     }
   }
 
-  /// Where the regressors of steps to come belong, kAtOnce of each.
+  /// Returns the address for the regressors of coming steps, kAtOnce of each.
   Real* regressors(int k) { return newest(1 + k); }
 
-  /// Makes up to kAtOnce steps, with shocks of those sizes, one an entry of program.shock, or without. Returns the
-  /// outputs; in how many steps they were clamped is added to `clamped`.
+  /// Makes up to kAtOnce steps, with shocks of those sizes, one per entry of program.shock, or without. Returns the
+  /// outputs, and adds the number of steps in which they were clamped to `clamped`.
   const Real* step(const ArxProgram& program, const OutputChannel& output, std::span<const float> shock_sizes,
                    const Moment<N>& moment, int count, std::uint64_t& clamped) {
     for (int first = 0; first < count; first += kLanes) {
@@ -70,7 +70,7 @@ class TimeLanes {
     return newest(0);
   }
 
-  /// What was made is past.
+  /// Moves the steps made into the past.
   void turn(int count) {
     for (int c = 0; c < channels(); ++c) {
       Real* row = newest(c) - past_;
@@ -110,8 +110,8 @@ class TimeLanes {
     }
   }
 
-  // Adds past outputs to what lies where the newest will, one at a time: a vector of them would wait for the last to
-  // get to memory. Returns whether it had to be clamped, which is rare: the next step does not wait for the comparison.
+  // Adds past outputs to the newest value one at a time, since a vector of them would wait for the last store. Returns
+  // whether it was clamped, which is rare: the next step does not wait for the comparison.
   static bool finish(const ArxProgram& program, const OutputChannel& output, Real* newest) {
     Real sum = *newest;
     for (const TapRun& run : program.runs) {
@@ -129,8 +129,8 @@ class TimeLanes {
     return held;
   }
 
-  int past_;              // samples that are kept, 0 where the model is another
-  std::span<Real> rows_;  // [channel][step], after those that are past: outputs, then regressors
+  int past_;              // number of stored samples, 0 if the model is unsupported
+  std::span<Real> rows_;  // [channel][step], after the past ones: outputs, then regressors
 };
 
 }  // namespace wisp

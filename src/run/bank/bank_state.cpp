@@ -1,5 +1,5 @@
-// A bank's state as bytes. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of what follows the header, 8 its
-// hash; then the bank's own fields, then one record of the same size for every slot.
+// Serialised state of a bank. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of the part after the header, 8
+// its hash; then the bank's own fields, then one record of equal size for every slot.
 
 #include <algorithm>
 #include <array>
@@ -100,7 +100,7 @@ void Bank::State::start(int slot) {
   show_block(block);
 }
 
-// The instance starts from rest, as a new one does. Its random stream goes on, so that it does not repeat its first
+// The instance starts from rest, like a new one. Its random stream continues, so that it does not repeat its first
 // flicker.
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;
@@ -127,7 +127,7 @@ LitState Bank::State::lit_state(int slot) const {
   const std::int64_t shown_late = between ? step_time - passed : 0;
   const auto since = [&](std::uint64_t then) {
     constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;  // true of kNeverInSteps too
+    if (steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;  // also holds for kNeverInSteps
     const auto ago = static_cast<std::int64_t>(steps - then) * step_time - shown_late;
     return std::chrono::nanoseconds(std::max<std::int64_t>(ago, 0));
   };
@@ -166,7 +166,7 @@ void Bank::State::set_ground(float height) {
   if (auto* stepped = chain_stepper()) stepped->set_ground(height);
 }
 
-// Work is divided into whole groups of blocks, so that no two threads write to one cache line.
+// Divides work into whole groups of blocks, so that no two threads write to one cache line.
 template <class Work>
 std::uint64_t Bank::State::share(Work work) {
   const bool shared = crew.run && std::visit([](const auto& dynamics) { return dynamics.can_be_shared(); }, stepper);
@@ -193,7 +193,7 @@ std::uint64_t Bank::State::share(Work work) {
   return task.sum;
 }
 
-// The outputs that are shown depend on `passed` and `between`, which the caller sets before.
+// The displayed outputs depend on `passed` and `between`, which the caller sets before.
 void Bank::State::step_all(const Steps& made) {
   const auto turn = [this](int samples) { std::visit([&](auto& dynamics) { dynamics.turn(samples); }, stepper); };
   turn(1);
@@ -213,7 +213,7 @@ void Bank::State::show() {
 namespace {
 
 constexpr std::array<char, 8> kSaveMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 3, kChainVersion = 5;  // of chains' banks
+constexpr std::uint32_t kVersion = 3, kChainVersion = 5;  // kChainVersion: for chains' banks
 constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
@@ -229,14 +229,14 @@ std::size_t record_size(const Bank::State& s) {
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
-// Whether `value` is a whole number of steps above `low`. Where step is 0, any number is. Counters and indices in a
+// Returns whether `value` is `low` plus a whole number of steps; any number if step is 0. Counters and indices in a
 // bank are small enough to be exact in single precision.
 bool on_grid(float value, float low, float step) { return !(step > 0) || std::fmod(value - low, step) == 0; }
 
-// A slot's record as it is written or read; what is read is found sound, that save() could have made it, or goes into
-// the bank.
+// Writes or reads a slot's record. On reading, a first pass checks that save() could have written it, a second one
+// stores it in the bank.
 struct SlotRecord {
-  ByteWriter* out = nullptr;  // null: it is read
+  ByteWriter* out = nullptr;  // null: the record is read
   ByteReader* in = nullptr;
   std::uint64_t now = 0;  // steps of the bank
   bool restores = false;
@@ -267,8 +267,8 @@ struct SlotRecord {
   }
 };
 
-// What is saved of a slot, in its order. Of a model that goes out: the wind, its harm, whether it is lit, its sizes,
-// its event, for how long, when it was lit and went out, and its last shape.
+// Visits the saved state of a slot, in order. With extinction: the wind, the damage, whether it is lit, its sizes, its
+// event and position in it, the times of lighting and extinction, and its last shape.
 void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   std::uint32_t alive = s.alive[slot];

@@ -1,5 +1,5 @@
 #pragma once
-// The state of a bank. Everything, this struct included, lies in the bank's one piece of memory.
+// The state of a bank. All of it, this struct included, lies in one piece of memory.
 
 #include "run/bank/extinction_lanes.hpp"
 #include "run/bank/frame_path.hpp"
@@ -16,8 +16,8 @@ namespace wisp {
 // A step number that no instance reaches. Steps from before a bank was restored wrap around to just below the largest
 // number, so "never" lies in the middle.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
-// Whether a block may make many steps before the next block makes its first. A build for small size makes one step at a
-// time, and passes no inputs or outputs with it.
+// Whether a block may make many steps before the next block makes its first. Builds for size make one step at a time,
+// and pass no inputs or outputs with it.
 inline constexpr bool kAhead = WISP_BLOCKS_AT_ONCE > 1;
 inline constexpr float kMaxNoise = 10.0f;
 inline constexpr float kMinNoise = 1e-6f;  // a smaller noise gain counts as 0
@@ -63,17 +63,17 @@ struct Bank::State {
   std::uint64_t step_group(Dynamics& dynamics, int first, const Steps& made, int blocks = kBlocks);
   template <class Dynamics>
   std::uint64_t step_alone(Dynamics& dynamics, const Steps& made);
-  void read_block(int block, float* rows) const;  // slots() × outputs, of the bank: those of the block are written
+  void read_block(int block, float* rows) const;  // fills in the block's rows of slots() × outputs
   bool lives_whole(int block) const;
   void read_whole_block(int block, float* rows) const;
   template <class Work>
-  std::uint64_t share(Work work);  // the sum of work(first block, one past its last), for all blocks
+  std::uint64_t share(Work work);  // returns the sum of work(first block, one past its last) over all blocks
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
   void live_block(int block, const float* newest, std::uint64_t moment);
   void go_out(int slot, const float* newest, std::uint64_t moment);
   void begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at);
   void grow(int slot);
-  std::size_t moved() const { return shape.empty() ? visible : shape.components(); }  // by the dynamics
+  std::size_t moved() const { return shape.empty() ? visible : shape.components(); }  // variables of the dynamics
   float* last_shape_of(int block) { return last_shape.data() + block * moved() * kLanes; }
   float* components_of(int block) const { return components.data() + block * shape.components() * kLanes; }
   void show();
@@ -86,7 +86,7 @@ struct Bank::State {
   void show_life(int block, std::size_t count, float* values) const;
   void see_round(int block, bool lines_too = true) const;
   void set_noise(float scale);
-  void set_ground(float height);  // where it is a chain
+  void set_ground(float height);  // for a chain
   void read_outputs(int slot, float* values) const;
   template <class Show>
   void polyline_of(int block, const Show& show,
@@ -111,44 +111,44 @@ struct Bank::State {
   Channels channels;
   Stepper stepper;
   ShapeProgram shape;
-  std::size_t visible;  // outputs that a host reads: of control points, where the dynamics move a shape's components
+  std::size_t visible;  // outputs that a host reads: control points, if the dynamics move shape components
   PolylineProgram polyline;
   ExtinctionProgram extinction;
 
-  std::span<std::uint32_t> generation;  // per slot, as are the next three
+  std::span<std::uint32_t> generation;  // per slot, like the next three
   std::span<std::uint8_t> alive;
   std::span<std::uint64_t> stream;
-  std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
-  std::span<float> regressors;    // [block][regressor][lane]: inputs of the next step
+  std::span<std::uint64_t> born;  // value of `steps` at spawning or resetting
+  std::span<float> regressors;    // [block][regressor][lane]: regressors of the next step
   std::span<float> shown;         // [block][output][lane]: outputs as a host reads them
-  std::span<float> components;    // [block][component][lane]: the components behind `shown`, where there is a shape
+  std::span<float> components;    // [block][component][lane]: the components behind `shown`, for a model with a shape
 
   std::span<float> round_points;  // [x, z][output][lane]: scratch, control points of a block seen from two sides
-  std::span<float> round_lines;   // [x, z][2 · point + coordinate][lane]: and their polylines
+  std::span<float> round_lines;   // [x, z][2 · point + coordinate][lane]: scratch, their polylines
 
   // Per slot; empty for a model without extinction.
   std::span<float> wind;  // strength of the wind in the next step
   std::span<float> harm;
   std::span<float> lit;  // 1 or 0
   std::span<float> size;
-  std::span<float> previous_size;   // before the last step
-  std::span<float> event;           // where in the extinction's sizes the next step's is, or kNoEvent
-  std::span<float> carried;         // the size that it went out with, or what is left of that which it was lit with
-  std::span<float> last_shape;      // [block][moved][lane]: what the dynamics moved when an instance went out
-  std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
-  std::span<std::uint64_t> out_at;  // and when it last went out
+  std::span<float> previous_size;   // size before the last step
+  std::span<float> event;           // index of the next step's size in the extinction's sizes, or kNoEvent
+  std::span<float> carried;         // size at extinction, or the rest of the size at relighting
+  std::span<float> last_shape;      // [block][moved][lane]: variables of the dynamics at extinction
+  std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
+  std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
 
   int living = 0;
   int rows = 0;         // one more than the highest slot in use
   int lowest_free = 0;  // no slot below it is free
   std::uint64_t spawned = 0;
-  std::uint64_t steps = 0;   // of the bank
-  std::uint64_t called = 0;  // its value before the last call of step() or advance()
-  float rest_area = 0;       // of an outline at the operating point
-  std::int64_t longest;      // nanoseconds that advance() lets pass at most
+  std::uint64_t steps = 0;   // steps of the bank
+  std::uint64_t called = 0;  // value of `steps` before the last call of step() or advance()
+  float rest_area = 0;       // area of an outline at the operating point
+  std::int64_t longest;      // longest time that advance() plays, nanoseconds
   std::int64_t passed = 0;   // nanoseconds since the last step
-  LevelView view;            // of what is in the round
-  bool between = false;      // whether `shown` lies between the last two steps, in proportion to `passed`
+  LevelView view;            // view of a body
+  bool between = false;      // whether `shown` is interpolated between the last two steps, by `passed`
   float noise = 0.0f;
   float ground = kNoGround;
   Crew crew;

@@ -21,7 +21,7 @@ OperationCount count(Work work) {
   return operation_count;
 }
 
-// Regressors for inputs at their highest values: strong wind from one side.
+// Returns regressors for inputs at their highest values: strong wind from one side.
 std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
   std::vector<CountingReal> values(channels.regressors.size());
   const auto highest = [&](int input) {
@@ -32,14 +32,14 @@ std::vector<CountingReal> blowing_regressors(const Model& model, const Channels&
   return values;
 }
 
-// What the inputs do while steps are counted.
+// Course of the inputs while steps are counted.
 enum class Course {
   kSteady,    // every input is at its highest
   kSwinging,  // inputs rise to their highest again and again, so that resampled residuals search
-  kSteered,   // as kSteady, while a chain is steered to a place
+  kSteered,   // inputs as in kSteady, while a chain is steered
 };
 
-// The share of the highest inputs that acts in a step.
+// Returns the share of the highest inputs that acts in a step.
 float share_of(Course course, std::uint64_t step) {
   constexpr std::uint64_t kSwing = 24;
   return course == Course::kSwinging ? static_cast<float>(step % kSwing) / kSwing : 1.0f;
@@ -84,7 +84,7 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
   return {{numbers, mean(all.numbers + all.words) - numbers}, most};
 }
 
-// What is counted: an instance's dynamics, and what shows it, with a polyline of `points` points (0: none).
+// The counted parts of an instance: its dynamics, and its display with a polyline of `points` points (0: none).
 template <class Stepper>
 struct Played {
   template <class Kind>
@@ -121,8 +121,8 @@ OperationCount count_view(const Played<Stepper>& played) {
 }
 
 struct ExtinctionCount {
-  std::int64_t burning = 0;    // taking in the wind, and a step
-  std::int64_t shrinking = 0;  // in addition, for an instance that goes out or catches fire
+  std::int64_t burning = 0;    // reading the wind, and a step
+  std::int64_t shrinking = 0;  // in addition, for an instance during extinction or relighting
 };
 
 ExtinctionCount count_extinction(const Model& model) {

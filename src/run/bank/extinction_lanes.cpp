@@ -10,8 +10,8 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxHarm = 0.5;       // harm of one step: no single sample blows a flame out
-constexpr double kFadeSeconds = 0.08;  // half of what a flame was lit with is gone then
+constexpr double kMaxHarm = 0.5;       // largest damage per step: no single sample blows a flame out
+constexpr double kFadeSeconds = 0.08;  // half-life of the excess size at relighting
 
 void lay_out(const SizeEvents& events, std::span<std::uint32_t> begins, std::size_t& at, std::span<float> sizes) {
   std::uint32_t begin = 0;
@@ -33,7 +33,7 @@ ExtinctionProgram make_extinction_program(const Model& model, Arena& arena) {
   program.vector = is_vector(model.inputs[rule.input].shape);
   const bool across = model.inputs[rule.input].shape == InputShape::kWindAcross;
   program.input = static_cast<std::int32_t>(rule.input) - (across ? 1 : 0);
-  const double harm = std::min(step / rule.seconds, kMaxHarm);  // harm of a step at the level
+  const double harm = std::min(step / rule.seconds, kMaxHarm);  // damage of a step at the level
   const double most = std::min(Extinction::kMaxWind, 1 + (kMaxHarm / harm - 1) / rule.haste);
   program.level = static_cast<float>(rule.level);
   program.most = static_cast<float>((rule.haste > 0 ? most : Extinction::kMaxWind) * rule.level);

@@ -1,8 +1,8 @@
 #pragma once
-// Whether instances burn: the rule of extinction (wisp/model/extinction.hpp), block by block.
+// The rule of extinction (wisp/model/extinction.hpp), applied block by block.
 //
-// An instance has a harm, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes three
-// operations, and one to read the wind; through a recorded event, five more and one for each output that is shown.
+// An instance has a damage, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes
+// three operations, and one to read the wind; during a recorded event, five more and one for each displayed output.
 
 #include <cstdint>
 #include <span>
@@ -16,33 +16,33 @@ namespace wisp {
 
 /// The rule of extinction, compiled for stepping.
 struct ExtinctionProgram {
-  bool present = false;  ///< false: nothing ever goes out, and nothing below is used
+  bool present = false;  ///< false: instances are never extinguished, and the fields below are unused
   std::int32_t input = 0;
-  bool vector = false;  ///< the input is the first of a vector's two
+  bool vector = false;  ///< the input is the first component of a vector
   float level = 0;
-  float most = 0;  ///< stronger wind counts as this
-  float base = 0;  ///< harm of a step at or above the level is base + slope · wind
+  float most = 0;  ///< upper limit of the wind
+  float base = 0;  ///< damage of a step at or above the level is base + slope · wind
   float slope = 0;
-  float recovery = 0;      ///< by how much a step below the level reduces harm
-  float fade = 0;          ///< what a step leaves of the size that an instance caught with beyond the recorded one
-  std::span<float> sizes;  ///< event after event, each with kEventEnds behind it
-  std::span<std::uint32_t> dying;     ///< where each event begins
-  std::span<std::uint32_t> catching;  ///< likewise
+  float recovery = 0;                 ///< reduction of the damage per step below the level
+  float fade = 0;                     ///< factor per step of the size at relighting in excess of the recorded one
+  std::span<float> sizes;             ///< sizes of all events, each followed by kEventEnds
+  std::span<std::uint32_t> dying;     ///< start index of each event
+  std::span<std::uint32_t> catching;  ///< start index of each event
 };
 
-/// In the place of a size: the event is over.
+/// Value in the place of a size that ends an event.
 inline constexpr float kEventEnds = -1;
 
-/// In the place of an event: there is none.
+/// Value in the place of an event index: no event.
 inline constexpr float kNoEvent = -1;
 
 /// Lays the program out and, unless the arena measures, fills it.
 ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
 
-/// Combines the program with the hash `before`. Returns `before` where there is no rule.
+/// Hashes the program, continuing from the hash `before`; returns `before` without a rule.
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
 
-/// The strength of the input that the rule reads, lanes_of(input). NaN counts as calm.
+/// Returns the strength of the rule's input, lanes_of(input). NaN counts as calm.
 template <class N, class LanesOf>
 inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -54,13 +54,13 @@ inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) 
 /// The state of a block's instances, [lane].
 template <class Real>
 struct LifeLanes {
-  Real* wind;  ///< strength in this step
+  Real* wind;  ///< wind strength in this step
   Real* harm;
   Real* lit;
 };
 
-/// A step through an event: the recorded size, times what an instance had when it went out, or with what it had when it
-/// was lit.
+/// Returns the size of one step of an event: the recorded size multiplied by the size at extinction, or combined with
+/// the size at relighting.
 template <class Real>
 inline Real size_of_step(const ExtinctionProgram& rule, bool lit, float recorded, Real& carried) {
   if (!lit) return Real(recorded) * carried;
@@ -69,7 +69,7 @@ inline Real size_of_step(const ExtinctionProgram& rule, bool lit, float recorded
   return size < Real(0.0f) ? Real(0.0f) : Real(1.0f) < size ? Real(1.0f) : size;
 }
 
-/// One step of a block.
+/// Makes one step of a block.
 template <class N>
 inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real>& life) {
   const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f);
@@ -83,7 +83,7 @@ inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real
   store(lit, life.lit);
 }
 
-/// Scales shown outputs, [output][lane], by the sizes of their instances. Size 0 gives 0.
+/// Scales displayed outputs, [output][lane], by the sizes of their instances. Size 0 gives 0.
 template <class N>
 inline void shrink(const Reals<N>& size, std::size_t outputs, typename N::Real* shown) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -93,7 +93,7 @@ inline void shrink(const Reals<N>& size, std::size_t outputs, typename N::Real* 
   }
 }
 
-/// The size between two steps.
+/// Interpolates the size between two steps.
 template <class N>
 inline Reals<N> size_between(const Reals<N>& from, const Reals<N>& to, float share) {
   return from + all<Reals<N>>(share) * (to - from);

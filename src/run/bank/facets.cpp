@@ -12,7 +12,7 @@ namespace {
 constexpr float kLeastNear = 0.001f;  // metres
 constexpr float kMaxNear = 1000.0f;
 constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
-constexpr float kMinOrientation = 1e-6f;  // of its squared length
+constexpr float kMinOrientation = 1e-6f;  // bound of its squared norm
 constexpr float kMaxOrientation = 1e30f;
 
 int block_of(InstanceId id) { return static_cast<int>(id.slot) / Bank::State::kLanes; }
@@ -42,7 +42,7 @@ std::optional<ChainPlace> ChainFacet::place_of(InstanceId id) const {
   ChainPlace place = chain.place_of(block_of(id), lane_of(id));
   const auto [velocity, spin] = chain.rates(block_of(id), lane_of(id));
   place.velocity = velocity, place.spin = spin;
-  // It touched the ground so many steps ago, of those that the last call made.
+  // It touched the ground so many steps ago, to be compared with the number of the last call's steps.
   const float settled = chain.settled(block_of(id), lane_of(id));
   const float ago = settled * kSettleSeconds / (static_cast<float>(state_->step_time) * 1e-9f);
   place.lies = settled >= 1;
@@ -62,7 +62,7 @@ bool ChainFacet::can_steer() const { return state_->chain_stepper()->can_steer()
 
 bool ChainFacet::steer(InstanceId id, const SteerTarget& target) {
   if (!state_->valid(id) || !is_sound(target) || !can_steer()) return false;
-  const auto steps = (target.in.count() + state_->step_time - 1) / state_->step_time;  // those begun count
+  const auto steps = (target.in.count() + state_->step_time - 1) / state_->step_time;  // rounded up
   state_->chain_stepper()->steer(block_of(id), lane_of(id), target.position, static_cast<float>(steps), target.near);
   return true;
 }
@@ -111,7 +111,7 @@ namespace {
 
 constexpr int kBodyLanes = Bank::State::kLanes;
 
-// A ring from the two points of each outline, seen from the front and from the side, that are as far from the tip.
+// Computes a ring from two points of each outline, front and side view, that are equally far from the tip.
 std::array<float, kRingNumbers> ring_of(const Bank::State& s, int ring, int lane) {
   const int points = s.polyline.points;
   const auto at = [&](int side, int point, int coordinate) {
@@ -130,7 +130,7 @@ void write_lane(const Bank::State& s, int lane, float* out) {
 
 }  // namespace
 
-// The outlines of a block as they are seen from the front and from the side.
+// Computes the outlines of a block in front and side view.
 void Bank::State::see_round(int block, bool lines_too) const {
   for (int side : {0, 1}) {
     float* points = round_points.data() + static_cast<std::size_t>(side) * visible * kBodyLanes;

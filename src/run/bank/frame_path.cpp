@@ -1,6 +1,6 @@
-// This file is compiled once for every width of vectors, each time in a namespace of its own (-Dwisp=wisp_avx2):
-// templates and inline functions that use wide vectors must not be linked where a narrow machine would run them.
-// tests/house lists the symbols of the wide objects.
+// This file is compiled once for every vector width, each time in its own namespace (-Dwisp=wisp_avx2): templates and
+// inline functions with wide vectors must not be linked into code for a narrow machine. tests/house lists the symbols
+// of the wide objects.
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@
 namespace wisp {
 namespace {
 
-// A value in the first lane and 0 in the others. Through memory, a load would have to wait for the store.
+// Returns a value in the first lane and 0 in the others. Through memory, a load would have to wait for the store.
 Reals<LiveNumbers> alone(float value) {
   auto lanes = all<Reals<LiveNumbers>>(0.0f);
   first_part(value, lanes.part[0]);
@@ -27,7 +27,7 @@ Reals<LiveNumbers> alone(float value) {
 inline void copy_lanes(const float* from, std::size_t count, float* to) {
   constexpr int kLanes = LiveNumbers::kLanes;
   if (!kAhead) {
-    std::copy_n(from, count * kLanes, to);  // the smaller
+    std::copy_n(from, count * kLanes, to);  // smaller code
     return;
   }
   for (std::size_t k = 0; k < count; ++k) store(load<Reals<LiveNumbers>>(from + k * kLanes), to + k * kLanes);
@@ -47,7 +47,7 @@ void Bank::State::take_inputs(int block, const LanesOf& lanes_of) {
   store(blowing<LiveNumbers>(extinction, lanes_of), wind.data() + block * kLanes);
 }
 
-// Reads rows of all slots. Lanes beyond the last slot get numbers too; spawning an instance there clears them.
+// Reads rows of all slots. Lanes beyond the last slot are written too; spawning an instance there clears them.
 void Bank::State::set_inputs(int block, const float* all_rows) {
   const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
   const int count = std::min(kLanes, rows - block * kLanes);
@@ -147,8 +147,7 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
   return count_of_clamped;
 }
 
-// Steps a bank of one instance with one output; inputs and outputs of as many steps as there are lanes go through one
-// vector.
+// Steps a bank of one instance with one output; inputs and outputs of one step per lane pass through one vector.
 template <class Dynamics>
 std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
   const auto regressors_at = [&](int k, int first, int count, float* out) {
@@ -180,7 +179,7 @@ std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
   return count_of_clamped;
 }
 
-// A mask of the instances of a block that are alive and lit and had an output clamped.
+// Returns a mask of the block's living and lit instances with a clamped output.
 std::uint32_t Bank::State::count_clamped(int block, const std::uint32_t* flags) const {
   if (!any(load<Words<LiveNumbers>>(flags))) return 0;
   std::uint32_t count = 0;
@@ -204,7 +203,7 @@ void Bank::State::live_block(int block, const float* newest, std::uint64_t momen
   }
 }
 
-// One of the recorded events, by chance.
+// Begins a random recorded event.
 void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at) {
   constexpr std::uint32_t kGroup = 0xffff;  // of random words, beyond what dynamics draw
   Words<LiveNumbers> counters[4], words[4];
@@ -216,7 +215,7 @@ void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, s
   carried[slot] = 0.0f;
 }
 
-// The size of a step of an event.
+// Sets the size of one step of an event.
 void Bank::State::grow(int slot) {
   const float recorded = extinction.sizes[static_cast<std::size_t>(event[slot])];
   const bool burning = lit[slot] != 0.0f;
@@ -230,7 +229,7 @@ void Bank::State::grow(int slot) {
   }
 }
 
-// A flame that is out is drawn as its last shape, shrinking: the dynamics have not learned wind strong enough to kill.
+// An extinguished flame is drawn as its last shape, shrinking: the dynamics have not learned such strong wind.
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   const int block = slot / kLanes, lane = slot % kLanes;
   out_at[slot] = moment;
@@ -257,14 +256,13 @@ void Bank::State::read_block(int block, float* rows_of_all) const {
   }
 }
 
-// Whether every instance of a block is alive.
+// Returns whether every instance of a block is alive.
 bool Bank::State::lives_whole(int block) const {
   const auto* lane = alive.data() + block * kLanes;
   return (block + 1) * kLanes <= rows && std::all_of(lane, lane + kLanes, [](std::uint8_t one) { return one != 0; });
 }
 
-// Reads four outputs of all lanes at once. Where the number of outputs is no multiple of four, the last four overlap
-// those before.
+// Reads four outputs of all lanes at once. If their number is no multiple of four, the last four overlap others.
 void Bank::State::read_whole_block(int block, float* rows_of_all) const {
   using Values = Reals<LiveNumbers>;
   const std::size_t count = visible;
@@ -305,14 +303,14 @@ void Bank::State::show_blocks(const Dynamics& dynamics, int first) {
   for (int block = first; block < first + kBlocks; ++block) show_life(block, visible, shown_of(block));
 }
 
-// The control points of a block's shapes, [output][lane], from the components that it shows.
+// Computes the control points of a block's shapes, [output][lane], from their displayed components.
 void Bank::State::show_shape(int block, LevelView from, float* points) const {
   shape_lanes<LiveNumbers>(
       shape, components_of(block), [&](std::size_t i, const auto& values) { store(values, points + i * kLanes); },
       from);
 }
 
-// An instance that is out keeps the shape of its last step.
+// Restores the last shape of extinguished instances.
 void Bank::State::show_last(int block) {
   if (is_whole(block)) return;
   float* out = shape.empty() ? shown_of(block) : components_of(block);
@@ -322,7 +320,7 @@ void Bank::State::show_last(int block) {
   }
 }
 
-// Whether every instance of a block burns at full size, so that scaling would change no bit.
+// Returns whether every instance of a block burns at full size, so that scaling would change no bit.
 bool Bank::State::is_whole(int block) const {
   bool whole = true;
   for (const auto& values : {lit, size, previous_size}) {

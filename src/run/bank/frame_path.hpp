@@ -1,6 +1,6 @@
 #pragma once
-// The work of a frame for a range of blocks. frame_path.cpp is compiled once for every width of vectors that the
-// machine may have (src/run/CMakeLists.txt); a bank chooses one when it is made. All give the same bits.
+// The work of a frame for a range of blocks. frame_path.cpp is compiled once for every vector width that the machine
+// may have (src/run/CMakeLists.txt); a bank chooses one when it is created. All give the same bits.
 
 #include <cstdint>
 #include <span>
@@ -25,19 +25,19 @@ struct Steps {
   bool show = true;               ///< whether the outputs of the last step are made readable
 };
 
-/// A bank's state and steps are of another namespace for every width, alike in memory, and so come as addresses.
+/// Functions of one vector width. State and steps have types of their own for every width, of equal layout: addresses.
 struct FramePath {
   const char* width;
   void (*set_inputs)(void* state, const float* values);
   void (*set_common_inputs)(void* state, const float* values);
-  /// Makes the Steps `made` of blocks first … last − 1 and, where asked, makes their outputs readable while they are in
-  /// the cache. Returns in how many steps of instances an output was clamped.
+  /// Makes the Steps `made` of blocks first … last − 1 and, on request, their readable outputs while they are in the
+  /// cache. Returns the number of instance-steps in which an output was clamped.
   std::uint64_t (*step)(void* state, int first, int last, const void* made);
   void (*show)(void* state, int first, int last);
   void (*polylines)(const void* state, float* values);
 };
 
-/// The frame paths that this machine can run, the narrowest first.
+/// Returns the frame paths that this machine can run, the narrowest first.
 std::span<const FramePath* const> frame_paths();
 
 /// Returns the widest frame path, or the one that the environment variable WISP_WIDTH names.

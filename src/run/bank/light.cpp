@@ -1,4 +1,4 @@
-// A flame as a source of light, from the polygon of its control points.
+// Light source of a flame, from the polygon of its control points.
 
 #include <cmath>
 
@@ -7,10 +7,10 @@
 namespace wisp {
 namespace {
 
-// Candles: 1850 to 1930 K. Soot's light at 480 nm goes as about the 16th power of its temperature.
+// Candles: 1850 to 1930 K. Soot's light at 480 nm is proportional to about the 16th power of its temperature.
 constexpr float kKelvinAtRest = 1900;
 
-// Area and centroid of a polygon of one lane, [number][lane].
+// Area and centroid of a polygon in one lane, [number][lane].
 struct Polygon {
   float area = 0, x = 0, y = 0;
 };

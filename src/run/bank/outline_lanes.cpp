@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMinWeight = 1e-8;  // a smaller weight of a control point is lost in rounding
+constexpr double kMinWeight = 1e-8;  // smaller weights of a control point are lost in rounding
 
 // Factors that turn differences of control points into derivatives of the spline, in steps of the polyline. A factor is
 // 0 where knots coincide, since no point lies there.
@@ -26,8 +26,8 @@ struct Factors {
 
 float share(double weight, double factor) { return weight < kMinWeight ? 0.0f : static_cast<float>(weight / factor); }
 
-// A run that begins at s in its span: the basis weights as factors of differences of the four control points, and
-// Taylor's series for one step and for two.
+// Returns a run that begins at s in its span: the basis weights as factors of differences of the four control points,
+// and Taylor's series for one step and for two.
 PolylineRun run_from(const Factors& factors, const BasisWeights& weights, double s) {
   const auto span = static_cast<std::size_t>(weights.first);
   const auto& weight = weights.weight;

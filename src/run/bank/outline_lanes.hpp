@@ -1,9 +1,9 @@
 #pragma once
 // The outlines of a block of instances as polylines, by forward differences: within one knot span a point takes three
-// additions a coordinate, where four basis weights take seven operations. Source: C. de Boor, A Practical Guide to
+// additions per coordinate, where four basis weights take seven operations. Source: C. de Boor, A Practical Guide to
 // Splines, chapter X (the coefficients of derivatives); differences from Taylor's series, which is finite for a cubic.
 //
-// Rounding accumulates in differences, so every span starts anew, and so does every run of kLongestRun points.
+// Rounding errors accumulate in differences, so they restart in every span, and after every run of kLongestRun points.
 
 #include <cstdint>
 #include <span>
@@ -14,30 +14,30 @@
 
 namespace wisp {
 
-/// The longest run of points that are computed by differences. Its last point is a sum of eight rounded numbers.
+/// Largest number of points computed by differences. The last of them is a sum of eight rounded numbers.
 inline constexpr std::uint32_t kLongestRun = 8;
 
-/// Successive points in one knot span. The first point and the differences after it are weighted sums of the span's
+/// Consecutive points in one knot span. The first point and the differences after it are weighted sums of the span's
 /// slope, of the bends at its two ends, and of its twist.
 struct PolylineRun {
   std::uint32_t points;
   std::uint32_t control;  ///< index of the control point from which the first point is offset; all three weights are 0
-                          ///< where it is that point
+                          ///< if it is that point
   float along;
   float left;
   float right;
-  float step_left;  ///< from the first to the second point: the slope, and these
+  float step_left;  ///< weights for the step from the first to the second point, beside the slope
   float step_right;
-  float bend_twist;  ///< by how much the second difference exceeds the left bend
+  float bend_twist;  ///< weight of the twist by which the second difference exceeds the left bend
 };
 
-/// An outline compiled for a number of points. Slopes are factors times differences of control points, bends of slopes,
-/// twists of bends, all in steps from point to point.
+/// An outline compiled for a number of points. Slopes are factors times differences of control points, bends those of
+/// slopes, twists those of bends, all per step of the polyline.
 struct PolylineProgram {
-  int points = 0;                ///< 0: there is no outline
-  std::span<float> slope;        ///< one fewer than control points
-  std::span<float> bend;         ///< two fewer
-  std::span<float> twist;        ///< three fewer: one a knot span
+  int points = 0;                ///< 0: no outline
+  std::span<float> slope;        ///< one factor fewer than control points
+  std::span<float> bend;         ///< two factors fewer than control points
+  std::span<float> twist;        ///< three factors fewer than control points: one per knot span
   std::span<std::uint32_t> end;  ///< per knot span, one past its last run
   std::span<PolylineRun> runs;
 };
@@ -48,15 +48,15 @@ struct PolylineProgram {
 /// Precondition: points >= 2.
 PolylineProgram make_polyline(const OutlineView& view, int points, Arena& arena);
 
-/// Calls show(point, values) for one coordinate (0 x, 1 y) of every point in order; `controls` is
-/// [control point][x, y][lane].
+/// Calls show(point, values) for one coordinate (0 x, 1 y) of every point in order; `controls` is [control point][x,
+/// y][lane].
 template <class N, class Show>
 inline void polyline_lanes(const PolylineProgram& program, int coordinate, const typename N::Real* controls,
                            const Show& show) {
   using Values = Reals<N>;
   const auto control = [&](std::size_t i) { return load<Values>(controls + (2 * i + coordinate) * N::kLanes); };
   const auto times = [](float factor, const Values& values) { return all<Values>(factor) * values; };
-  // Flushed to zero where small, so that sums can't be denormal.
+  // Small differences are flushed to zero, so that sums cannot be denormal.
   const auto scaled = [&](float factor, const Values& difference) { return settle(times(factor, difference)); };
   const PolylineRun* run = program.runs.data();
   int point = 0;

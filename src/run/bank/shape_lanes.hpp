@@ -1,7 +1,7 @@
 #pragma once
-// Control points of an outline from the components that its dynamics move (wisp/model/shape_components.hpp), for a
-// block of instances. It takes half of the products of a full basis, since a coordinate has components of one kind
-// only. In the round they are points of the outline as it is seen from a level direction.
+// Control points of an outline from its shape components (wisp/model/shape_components.hpp), for a block of instances.
+// It takes half of the products of a full basis, since a coordinate has components of one kind only. For a body they
+// are the outline's points in a horizontal view direction.
 
 #include <cstdint>
 #include <span>
@@ -12,12 +12,12 @@
 
 namespace wisp {
 
-/// The shape of an outline, compiled for showing.
+/// The shape of an outline, compiled for display.
 struct ShapeProgram {
-  std::size_t points = 0;  ///< 0: outputs are shown as the dynamics make them
+  std::size_t points = 0;  ///< 0: outputs are those of the dynamics
   std::size_t symmetric = 0;
   std::size_t antisymmetric = 0;
-  std::size_t across = 0;    ///< as many where vectors have a z too
+  std::size_t across = 0;    ///< equal to `antisymmetric` if vectors have a z too, else 0
   std::span<float> rest;     ///< per coordinate
   std::span<float> lowest;   ///< per coordinate
   std::span<float> highest;  ///< per coordinate
@@ -27,20 +27,20 @@ struct ShapeProgram {
   std::size_t components() const { return symmetric + antisymmetric + across; }
 };
 
-/// From where a body is seen: what of x and of z points to the right.
+/// View direction of a body: weights of x and z in the coordinate to the right.
 struct LevelView {
   float x = 1;
   float z = 0;
 };
 
-/// Lays the program out and, unless the arena measures, fills it. It is empty where the model has no such shape.
+/// Lays the program out and, unless the arena measures, fills it. It is empty for a model without a shape.
 ShapeProgram make_shape_program(const Model& model, Arena& arena);
 
-/// Combines the program with the hash `before`. Returns `before` where the program is empty.
+/// Hashes the program, continuing from the hash `before`; returns `before` if the program is empty.
 std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
 
-/// A coordinate of the symmetric part, or of the antisymmetric one from `points` on, as the weighted sum of the part's
-/// components, [component][lane], about `rest`.
+/// Returns a coordinate of the symmetric part, or of the antisymmetric one from `points` on, as the weighted sum of the
+/// part's components, [component][lane], plus `rest`.
 template <class N>
 inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components,
                                  float rest) {
@@ -56,7 +56,7 @@ inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, con
 }
 
 /// Calls show(output, values) for every coordinate of every control point; `components` is [component][lane]. Vectors
-/// are seen from a direction before they are summed: that takes half of the products of summing x and z.
+/// are projected before they are summed: that takes half of the products of summing x and z.
 template <class N, class Show>
 inline void shape_lanes(const ShapeProgram& program, const typename N::Real* components, const Show& show,
                         LevelView view = {}) {

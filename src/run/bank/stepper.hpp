@@ -1,6 +1,6 @@
 #pragma once
-// The kinds of dynamics that can be stepped. A new kind is a file with its stepper, which has the public functions of
-// ArxStepper, and a line for it here.
+// Kinds of dynamics that can be stepped. A new kind is a file with its stepper, with the public functions of
+// ArxStepper, and a line here.
 
 #include <type_traits>
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// The stepper of dynamics of a kind, on numbers N.
+/// Stepper for dynamics of a kind, on numbers N.
 template <class Kind, class N>
 struct StepperOf;
 
@@ -31,7 +31,7 @@ struct StepperOf<SwitchedArxModel, N> {
 
 using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>, SwitchedStepper<LiveNumbers>>;
 
-// Each kind is compiled in a file of its own, so that a build can optimise each for speed or for size.
+// Each kind is compiled in its own file, so that a build can optimise each for speed or for size.
 #ifndef WISP_FRAME_PATH  // the wide versions are compiled with frame_path.cpp
 extern template class ArxStepper<LiveNumbers>;
 extern template class ChainStepper<LiveNumbers>;

@@ -1,6 +1,6 @@
 #pragma once
-// What a step does with the lanes of a block of chains side by side, where all fall alike: each goes on in its segment,
-// what is added to it moves, and it is shown.
+// Operations of a step that are equal for all falling lanes of a block of chains, computed in parallel: each advances
+// in its segment, its offset is updated, and its pose is displayed.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// What a step does with each lane of a block: 1 or 0. A step has room for many, so nothing is set at first.
+/// What a step does with each lane of a block, as masks of 1 or 0. Uninitialised, since a step has many of them.
 template <class N>
 struct ChainCourse {
   using Real = typename N::Real;
@@ -22,12 +22,12 @@ struct ChainCourse {
   }
 
   Mask used;
-  Mask shown;   ///< it falls: what is shown is made anew
-  Mask ends;    ///< its segment does
-  Mask begins;  ///< the curve towards what follows does
-  Mask moved;   ///< it is between joins: what is added moves
+  Mask shown;   ///< it falls: its displayed pose is recomputed
+  Mask ends;    ///< its segment ends
+  Mask begins;  ///< the curve towards the next segment begins
+  Mask moved;   ///< it is between joins: its offset changes
   Mask turned;  ///< the latter half of its curve begins
-  Mask faded;   ///< something is added to what is shown
+  Mask faded;   ///< its displayed pose has an offset
   const std::int16_t* row[N::kLanes];
 };
 
@@ -36,14 +36,14 @@ inline bool any_lane(const typename N::Real (&mask)[N::kLanes]) {
   return any(bits_of(load<Reals<N>>(mask)));
 }
 
-/// Of the segments of a block's lanes: follows from what is played.
+/// Row numbers of the lanes' segments, derived from the played state.
 template <class N>
 struct ChainSegmentRows {
   using Real = typename N::Real;
   using LaneNumbers = std::array<Real, N::kLanes>;
 
   std::array<std::uint32_t, N::kLanes> first_row{};
-  LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};  // as ChainMover::Rows
+  LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};  // as in ChainMover::Rows
 
   void note(int lane, const ChainProgram& program, std::uint32_t segment) {
     const auto rows = ChainMover<Real>(program).rows_of(segment);
@@ -57,7 +57,7 @@ struct ChainSegmentRows {
   }
 };
 
-/// One block; `newest`: what is shown of it, [channel][lane].
+/// One block; `newest`: its displayed poses, [channel][lane].
 template <class N>
 class ChainBlock {
  public:
@@ -69,7 +69,7 @@ class ChainBlock {
              Real* newest)
       : program_(program), played_(played), segments_(segments), newest_(newest) {}
 
-  /// Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
+  /// Advances the lanes of a block. Resting and empty ones stay.
   void go(ChainCourse<N>& course) {
     const auto zero = all<Reals<N>>(0.0f), row = number(played_.row);
     const auto next = smaller(next_of(row), number(segments_.steps));
@@ -98,7 +98,7 @@ class ChainBlock {
     store(chosen(steered, left - all<Reals<N>>(1.0f), left), played_.left.data());
   }
 
-  /// Moves what is added to the lanes' segments by one step.
+  /// Advances the offsets of the lanes by one step.
   void move(const ChainCourse<N>& course) {
     if (!any_lane<N>(course.moved)) return;
     const auto moved = load<Reals<N>>(course.moved), turned = load<Reals<N>>(course.turned);
@@ -119,7 +119,7 @@ class ChainBlock {
     }
   }
 
-  /// Shows one lane where it was placed.
+  /// Displays one lane where it was placed.
   void show_only(int lane) {
     const float row = value_of(played_.row[lane]);
     const bool faded = row < value_of(segments_.quiet_from[lane]) || row > value_of(segments_.quiet_to[lane]);
@@ -130,7 +130,7 @@ class ChainBlock {
     show(course);
   }
 
-  /// Shows the lanes that fall: position, then, for poses, orientation.
+  /// Displays the falling lanes: position, then, for poses, orientation.
   void show(const ChainCourse<N>& course) {
     Reals<N> stored[kRowReach];
     columns_of<N>(course.row, stored);
@@ -161,7 +161,7 @@ class ChainBlock {
  private:
   static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
 
-  // Finds the stored rows that the lanes are at. Rows are clamped: a damaged or hostile saved bank may name one beyond
+  // Finds the current stored rows of the lanes. Rows are clamped: a damaged or hostile saved bank may name one beyond
   // the last.
   void find_rows(const Reals<N>& at, ChainCourse<N>& course) const {
     typename N::Word own[kLanes];
@@ -172,7 +172,7 @@ class ChainBlock {
     }
   }
 
-  // As unit(), lane by lane.
+  // Like unit(), lane by lane.
   static Quaternion<Reals<N>> unit_lanes(const Quaternion<Reals<N>>& q) {
     const auto square = dot(q, q), one = all<Reals<N>>(1.0f);
     const auto inverse = one / square_root(square), least = all<Reals<N>>(1e-30f);

@@ -1,6 +1,6 @@
 #pragma once
-// How a chain chooses what comes next: a mode by what came before, then a segment of that mode, by counted random
-// words. Words and whole numbers only.
+// Choice of a chain's next segment: a mode given the previous ones, then a segment of that mode, by counter-based
+// random words. Integer arithmetic only.
 
 #include <cstdint>
 
@@ -8,20 +8,20 @@
 
 namespace wisp {
 
-/// Random words of one join: of the mode, and of the segment.
+/// Random words of one join: for the mode, and for the segment.
 struct ChainWords {
   std::uint32_t mode = 0;
   std::uint32_t segment = 0;
 };
 
-/// One of `count`, by a word.
+/// Selects one of `count` by a word.
 inline std::uint32_t share_of(std::uint32_t word, std::uint32_t count) {
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word) * count >> 32);
 }
 
 class ChainChoice {
  public:
-  /// Whether chance plays; otherwise the likeliest mode and the best-joining segment are chosen.
+  /// Sets whether choices are random; otherwise the likeliest mode and the best-joining segment are chosen.
   void set_chance(bool chance) { chance_ = chance; }
   bool has_chance() const { return chance_; }
 
@@ -34,7 +34,7 @@ class ChainChoice {
     return mode;
   }
 
-  /// A segment of a mode with which a life begins.
+  /// Returns a random segment of a mode for the start of an instance.
   std::uint32_t beginning(const ChainProgram& program, std::uint32_t mode, const ChainWords& words) const {
     return any(program, mode, words.segment);
   }
@@ -46,14 +46,14 @@ class ChainChoice {
     return chance_ ? best[share_of(words.segment, static_cast<std::uint32_t>(program.breadth))] : best[0];
   }
 
-  /// How likely a mode is, of 1.
+  /// Returns the probability of a mode.
   float chance_of(const ChainProgram& program, std::uint32_t state, std::uint32_t mode) const {
     const std::uint32_t* threshold = program.threshold.data() + state * static_cast<std::uint32_t>(program.modes);
     const std::uint32_t width = threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);
     return static_cast<float>(width) * (1.0f / 4294967296.0f);
   }
 
-  /// Candidate k of those of a mode that may follow: of the best-joining ones, otherwise some by chance.
+  /// Returns candidate k among a mode's possible successors: the k-th best-joining, or if any may follow, a random one.
   std::uint32_t candidate(const ChainProgram& program, std::uint32_t before, std::uint32_t mode, std::uint32_t k,
                           const ChainWords& words) const {
     if (program.breadth == 0) return any(program, mode, words.segment + k * 0x9E3779B9U);

@@ -1,6 +1,6 @@
 #pragma once
-// Lets the lanes of parties join the next segment, draws what follows, and moves what is known of them to vectors and
-// back. What is computed is in chain_joins.hpp.
+// Lets the lanes of parties join the next segment, draws its successor, and converts between per-lane state and
+// vectors. The computation is in chain_joins.hpp.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@ template <class N>
 class ChainJoining {
   using Mover = ChainMover<typename N::Real>;
   using Joins = ChainJoins<PartNumbers<N>>;
-  using Values = typename Joins::Values;  // of the members of a party
+  using Values = typename Joins::Values;  // values of a party's members
   using Segments = typename Joins::Segments;
   using Played = typename ChainLives<N>::Played;
   using LaneNumbers = typename ChainLives<N>::LaneNumbers;
@@ -35,7 +35,7 @@ class ChainJoining {
   ChainJoining(ChainLives<N>& lives, const ChainChoice& choice, ChainSteering<Real>& steering)
       : lives_(lives), choice_(choice), steering_(steering) {}
 
-  /// Random words of one group of each member of a party; the moment is that of the block `first`.
+  /// Draws the random words of one group for each member of a party; the moment is that of block `first`.
   static Drawn draw(const Party& party, int first, const Moment<N>& moment, std::uint32_t group) {
     std::array<std::uint64_t, kMembers> stream{}, born{};
     for (std::size_t k = 0; k < party.count; ++k) {
@@ -51,12 +51,12 @@ class ChainJoining {
     return drawn;
   }
 
-  /// Joins the next segments where the lanes' own end, and draws what follows those.
+  /// Joins the next segments of lanes whose segment ends, and draws their successors.
   void follow(const Party& party, int first, const Moment<N>& moment) {
     for (std::size_t k = 0; k < party.count; ++k) {
       const int block = party.block[k], lane = party.lane[k];
       if (Mover::is_prepared(lives_.plan_of(block, lane))) continue;
-      // Where a body was placed, nothing was drawn yet: then all that differs is left to the new segment.
+      // After a placement, no successor was drawn yet: then the new segment takes the whole difference.
       prepare_one(block, lane, draw(Party::of(block, lane), first, moment, 2));
       ChainGap<Real>& gap = lives_.plan_of(block, lane).ahead.gap;
       each_number(gap, gap, [](Real& half, const Real&) { half = half + half; });
@@ -69,12 +69,12 @@ class ChainJoining {
     add(party, Joins(program()).meeting(segments, heights_of(party), begun.gap, ahead.gap));
   }
 
-  /// Begins the curves towards what follows.
+  /// Begins the curves towards the next segments.
   void leave(const Party& party) {
     add(party, Joins(program()).leaving(segments_of(party), heights_of(party), ahead_of(party).gap));
   }
 
-  /// Draws what follows one lane's segment, as that lies.
+  /// Draws the successor of one lane's segment, given the segment's orientation.
   void prepare_one(int block, int lane, const Drawn& words) {
     ChainTurn<Values> turn;
     each_number(turn, lives_.played_of(block).turn,
@@ -83,7 +83,7 @@ class ChainJoining {
     prepare(one, segments_of(one), turn, words);
   }
 
-  /// Lets a lane's segment meet what came before it, to which it lacks `from`, and what follows.
+  /// Lets a lane's segment meet the previous one, from which it differs by `from`, and the next one.
   void meet_one(int block, int lane, const ChainGap<Real>& from) {
     if (program().blend_steps == 0) return;
     const Party one = Party::of(block, lane);
@@ -95,7 +95,7 @@ class ChainJoining {
  private:
   const ChainProgram& program() const { return lives_.program(); }
 
-  // Places the beginning of what was prepared where the body is shown.
+  // Places the beginning of the drawn segment at the displayed pose.
   void join(int block, int lane) {
     Played& played = lives_.played_of(block);
     const ChainPlan<Real>& plan = lives_.plan_of(block, lane);
@@ -108,7 +108,7 @@ class ChainJoining {
     lives_.note_segment(block, lane);
   }
 
-  // Draws what follows the lanes' segments, which lie as turned, and notes what is ahead.
+  // Draws the successors of the lanes' segments, which are rotated by `turn`, and stores their joins.
   ChainAhead<Values> prepare(const Party& party, const Segments& segments, const ChainTurn<Values>& turn,
                              const Drawn& words) {
     const Segments next = draw_next(party, segments, words);
@@ -120,7 +120,7 @@ class ChainJoining {
     return ahead;
   }
 
-  // First the modes of all, then their segments: what is far in memory is then waited for together.
+  // First the modes of all, then their segments, so that memory latencies overlap.
   Segments draw_next(const Party& party, const Segments& segments, const Drawn& words) {
     const Mover mover(program());
     Segments mode{}, next{};
@@ -142,14 +142,14 @@ class ChainJoining {
     return next;
   }
 
-  // Whether a lane's segment ends before it should be where it is steered to.
+  // Returns whether a lane is steered and its segment ends before the target time.
   bool is_steered(const Mover& mover, int block, int lane) {
     const Real& left = lives_.played_of(block).left[lane];
     if (program().lead.empty() || !(left > Real(0.0f))) return false;
     return left > Real(static_cast<float>(mover.steps_left(lives_.lane_of(block, lane))));
   }
 
-  // Draws towards a target: from where the segment will have ended.
+  // Draws a segment towards a target, from the expected end of the current segment.
   std::uint32_t draw_steered(const Mover& mover, int block, int lane, const ChainWords& words) {
     Lane end = lives_.lane_of(block, lane);
     end.left = end.left - Real(static_cast<float>(mover.steps_left(end)));
@@ -158,10 +158,10 @@ class ChainJoining {
     return next;
   }
 
-  // Numbers of a plan in a row, as it is laid out.
+  // Numbers of a plan as a contiguous row.
   static_assert(offsetof(ChainPlan<float>, near) == (kAheadNumbers - 1) * sizeof(float));
 
-  // What is ahead of the lanes; of those that a party lacks, the first member's.
+  // Returns the joins ahead of the lanes; missing members of a party repeat the first one's.
   ChainAhead<Values> ahead_of(const Party& party) {
     const Real* row[kMembers];
     for (std::size_t k = 0; k < kMembers; ++k) {
@@ -186,12 +186,12 @@ class ChainJoining {
     rows_of<PartNumbers<N>>({turn.half_cos_scale, turn.half_sin_scale, gap.lean[0], gap.lean[1]}, 4, row);
     rows_of<PartNumbers<N>>({gap.lean[2], gap.lean[3], gap.lean_rate[0], gap.lean_rate[1]}, 8, row);
     rows_of<PartNumbers<N>>({gap.lean_rate[2], gap.lean_rate[3], gap.slip[0], gap.slip[1]}, 12, row);
-    Real last[kMembers];  // behind it, others follow
+    Real last[kMembers];  // stored singly: other numbers follow it
     store(gap.slip[2], last);
     for (std::size_t k = 0; k < party.count; ++k) row[k][16] = last[k];
   }
 
-  // The heights at which the lanes' segments lie.
+  // Returns the initial heights of the lanes' segments.
   Values heights_of(const Party& party) {
     Real height[kMembers] = {};
     for (std::size_t k = 0; k < party.count; ++k) {
@@ -200,7 +200,7 @@ class ChainJoining {
     return load<Values>(height);
   }
 
-  // Adds curves to the lanes' segments in place of what was added to them.
+  // Replaces the offsets of the lanes' segments by curves.
   void add(const Party& party, const typename Joins::Curves& curves) {
     using Numbers = std::array<Real, kMembers>;
     struct {

@@ -1,15 +1,15 @@
 #pragma once
-// What happens to lanes of a chain where one segment follows another: how the next one will lie, and the curves by
-// which neighbours meet. Joins come now and then, so lanes of several blocks have theirs side by side.
+// Computation of joins between consecutive segments: the placement of the next one, and the curves by which neighbours
+// meet. Joins are rare, so lanes of several blocks are processed in parallel.
 //
-// Neighbours meet half-way: at a join attitude, its rate and velocity are the means of what one segment ends with and
-// the other begins with. What that takes off either is spread over the whole segment: by a smooth curve for each number
-// of a quaternion, in the world's frame, made unit when shown, and by a velocity that changes evenly. Half of the
-// difference over twice the time of fading it on one side (D. Bollo, Inertialization, GDC 2018) has an eighth of its
-// curvature, which recorded motion has little of. It takes the next segment to be known while one is
-// played, so what follows is drawn when a segment begins.
+// Neighbours meet half-way: at a join, attitude, its rate and velocity are the means of one segment's end and the
+// other's beginning. Each segment's share of the difference is spread over the whole segment: by a smooth curve for
+// each number of a quaternion, in world axes, normalised for display, and by a linearly changing velocity. Half the
+// difference over twice the time of a one-sided fade (D. Bollo, Inertialization, GDC 2018) has an eighth of its
+// curvature, which recorded motion has little of. This requires the next segment while one is played, so it is drawn
+// when a segment begins.
 //
-// The curve of each number is two parabolas, clamped as differences from row to row: two additions a number.
+// The curve of each number is two parabolas, stored as differences from row to row: two additions per number.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace wisp {
 
-/// Lanes of some blocks at which the same happens, as many as go side by side.
+/// Lanes of several blocks with the same event, as many as are processed in parallel.
 template <class N>
 struct ChainParty {
   static constexpr int kMost = N::kLanes;
@@ -55,7 +55,7 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// How the segments `next` are laid at the ends of `before`, which lie as `turn` says, and what differs at the joins.
+  /// Returns the placement of segments `next` at the ends of `before`, rotated by `turn`, and the differences there.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);
@@ -72,14 +72,14 @@ class ChainJoins {
              bounded(taken(oriented(turn, end.change), oriented(next_turn, start.change))), slipped}};
   }
 
-  /// What is added to segments, as in ChainPlayed.
+  /// Offsets of segments, as in ChainPlayed.
   struct Curves {
     std::array<Quaternion<Values>, 4> lean;
     std::array<Vector3<Values>, 2> slip;
   };
 
-  /// Lets segments that begin at some height meet what came before them, to which they lack `from`, and, short ones,
-  /// what follows.
+  /// Computes the curves of segments that begin at `height` from the previous segments, which they differ from by
+  /// `from`, and, for short ones, also to the next.
   Curves meeting(const Segments& segments, const Values& height, const ChainGap<Values>& from,
                  const ChainGap<Values>& to) const {
     Segments over{}, led{};
@@ -98,7 +98,7 @@ class ChainJoins {
     return curves;
   }
 
-  /// Begins the curves of longer ones towards what follows.
+  /// Begins the curves of longer segments towards the next ones.
   Curves leaving(const Segments& segments, const Values& height, const ChainGap<Values>& to) const {
     Segments over;
     over.fill(program_.blend_steps);
@@ -110,14 +110,14 @@ class ChainJoins {
   }
 
  private:
-  // Where segments begin or end, as stored.
+  // Stored states at the beginnings or ends of segments.
   struct Edge {
     Quaternion<Values> attitude;
     Quaternion<Values> change;
     Vector3<Values> velocity;
   };
 
-  // Of any length, half as long as the turn.
+  // A half turn of any norm.
   using Turn = LongTurn<Values>;
 
   static Values number(float value) { return all<Values>(value); }
@@ -158,8 +158,7 @@ class ChainJoins {
 
   static std::size_t edge_number(std::uint32_t segment, bool end) { return std::size_t{2} * segment + (end ? 1 : 0); }
 
-  // How a segment lies that follows another. Where heading is kept, a whole turn keeps the quaternion's sign from
-  // jumping.
+  // Returns the rotation of a successor. If heading is kept, a whole turn prevents the quaternion's sign from jumping.
   ChainTurn<Values> turn_after(const ChainTurn<Values>& turn, const Edge& end, const Edge& start) const {
     const Turn more = turn_between_edges(start, end);
     const auto cos = turn.half_cos * more.cos - turn.half_sin * more.sin;
@@ -167,12 +166,12 @@ class ChainJoins {
     const auto square = cos * cos + sin * sin;
     const auto inverse = number(1.0f) / square_root(square);
     ChainTurn<Values> out = turn_of(cos * inverse, sin * inverse, program_, number);
-    const auto least = number(1e-12f);  // what is below is a saved bank that was made to harm
+    const auto least = number(1e-12f);  // smaller only in a hostile saved bank
     each_number(out, turn, [&](Values& x, const Values& as_before) { x = above(square, least, x, as_before); });
     return out;
   }
 
-  // The same as half a turn against the other, of any length.
+  // Returns the half turn between the edges, of any norm.
   Turn turn_between_edges(const Edge& start, const Edge& end) const {
     const auto zero = number(0.0f), one = number(1.0f);
     if (program_.channels < 7) {
@@ -186,7 +185,7 @@ class ChainJoins {
     return {chosen(is_long, turn.cos, one), chosen(is_long, turn.sin, zero)};
   }
 
-  // As turn_between() of one lane: half of an angle, whichever of cosine and sine is larger first.
+  // Like turn_between() of one lane: half of an angle, the larger of cosine and sine first.
   static Turn turn_between_velocities(const Vector3<Values>& from, const Vector3<Values>& to) {
     const auto zero = number(0.0f), half = number(0.5f);
     const auto along = to[0] * from[0] + to[1] * from[1];
@@ -199,17 +198,17 @@ class ChainJoins {
             above(size, least, above(cos, zero, other, larger), zero)};
   }
 
-  // Stored quaternions, or their changes, in the world.
+  // Converts stored quaternions, or their changes, to world axes.
   static Quaternion<Values> oriented(const ChainTurn<Values>& turn, const Quaternion<Values>& stored) {
     return turned<Values>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }
 
-  // A stored velocity in the world, in the units of positions.
+  // Converts a stored velocity to world axes, in the units of positions.
   static Vector3<Values> turned_velocity(const ChainTurn<Values>& turn, const Vector3<Values>& stored) {
     return turned<Values>(turn.cos_scale, turn.sin_scale, stored);
   }
 
-  // The curves over so many steps from what is lacking at the beginning to what is too much at the end.
+  // Returns the curves over so many steps from the difference at the beginning to that at the end.
   Curves spread(const Segments& steps, const ChainGap<Values>& from, const ChainGap<Values>& to) const {
     Real slope[kLanes], count[kLanes];
     const float* row[kLanes];
@@ -222,7 +221,7 @@ class ChainJoins {
     Curves out;
     out.slip[1] = scaled(added(to.slip, from.slip), load<Values>(slope));
     out.slip[0] = from.slip;
-    if (program_.channels < 7) return {{}, out.slip};  // what is saved must have been set
+    if (program_.channels < 7) return {{}, out.slip};  // saved state must be initialised
     Values shares[4];
     columns_of<N>(row, 0, shares);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -236,8 +235,8 @@ class ChainJoins {
     return out;
   }
 
-  // Moves segments, so that so many steps would bring them there, towards the heights at which they were recorded: what
-  // joins add to velocities would else add up to a walk without bounds.
+  // Moves segments towards their recorded heights, over so many steps: otherwise the velocity offsets of joins would
+  // add up to an unbounded random walk.
   void lead_back(const Segments& segments, const Values& height, const Segments& steps, Curves& curves) const {
     if (program_.height.empty()) return;
     Real recorded[kLanes], share[kLanes];
