@@ -1,6 +1,6 @@
 #pragma once
-// One instance of a segment chain: where it is in which segment, where that segment lies, and what is added to it so
-// that it meets its neighbours (run/chain/chain_joins.hpp).
+// One instance of a segment chain: its position in a segment, the segment's placement, and the offset by which it meets
+// its neighbours (run/chain/chain_joins.hpp).
 
 #include <algorithm>
 
@@ -13,17 +13,17 @@ namespace wisp {
 /// Positions are clamped to this many metres from the origin: single precision can't place a body beyond it.
 inline constexpr float kFarthest = 1e6f;
 
-/// Lower than anything falls.
+/// Below any reachable height.
 inline constexpr float kNoGround = -4.0f * kFarthest;
 
-/// How fast a body moves and turns, in the world.
+/// Velocity and angular velocity of a body, in world axes.
 template <class Real>
 struct BodyRates {
-  Vector3<Real> velocity{};  ///< a second
-  Vector3<Real> spin{};      ///< radians a second
+  Vector3<Real> velocity{};  ///< metres per second
+  Vector3<Real> spin{};      ///< radians per second
 };
 
-/// A body at one moment, in the world.
+/// State of a body at one moment, in world axes.
 template <class Real>
 struct BodyState {
   Vector3<Real> position{};
@@ -31,8 +31,8 @@ struct BodyState {
   BodyRates<Real> rates{};
 };
 
-/// A turn about z with which a segment lies: half of it, and the whole and half of it times the scales of what they
-/// turn.
+/// Rotation of a segment about z: half and whole angle, each also multiplied by the scales of the quantities that they
+/// rotate.
 template <class Real>
 struct ChainTurn {
   Real half_cos{};
@@ -43,7 +43,7 @@ struct ChainTurn {
   Real half_sin_scale{};
 };
 
-/// Half of what a segment's beginning lacks against what comes before it, in the world; rates are a step's.
+/// Half of the difference between the previous segment's end and the next one's beginning (world axes, rates per step).
 template <class Real>
 struct ChainGap {
   Quaternion<Real> lean{};
@@ -51,53 +51,53 @@ struct ChainGap {
   Vector3<Real> slip{};
 };
 
-/// What follows a segment: how it will lie, and what differs where they meet.
+/// The join after a segment: the next one's placement, and the difference.
 template <class Number>
 struct ChainAhead {
   ChainTurn<Number> turn{};
   ChainGap<Number> gap{};
 };
 
-/// What every step reads or moves. A bank has these numbers side by side, those of a block's lanes as one `Number`.
+/// State that every step reads or changes. In a bank, `Number` holds those of a block's lanes side by side.
 template <class Number>
 struct ChainPlayed {
-  // Where it is in the chain; whole numbers.
+  // Position in the chain; whole numbers.
   Number segment{};
   Number row{};
-  // Where the segment lies: base + turn(scale · row). What is added to its velocity moves the base.
+  // Placement of the segment: base + turn(scale · row). Velocity offsets move the base.
   Vector3<Number> base{};
   ChainTurn<Number> turn{};
-  // What is added to the orientation, its first and second differences, and the second one of the latter half; what is
-  // added to the base, and its difference.
+  // Offset of the orientation, its first and second differences, and the second one of the latter half; offset of the
+  // base, and its difference.
   std::array<Quaternion<Number>, 4> lean{};
   std::array<Vector3<Number>, 2> slip{};
-  // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls.
+  // The ground: progress of coming to rest, 0 to 1; below 0: it falls.
   Number settled{};
-  // Steering: steps left until it should be there, 0: it is not steered.
+  // Steering: steps left until the target time, 0: not steered.
   Number left{};
 };
 
-/// What only joins, the ground and steering need. Joins read what is ahead of several lanes side by side, four numbers
-/// of each at a time, so it comes first, and three more that it is read with.
+/// State that only joins, the ground and steering need. Joins read `ahead` of several lanes in parallel, four numbers
+/// at a time, so it comes first, together with three more numbers that they read.
 template <class Real>
 struct ChainPlan {
   ChainAhead<Real> ahead{};
-  Real next{};   ///< the number of the segment that follows and 1; 0: not drawn yet
-  Real state{};  ///< in the chain; a whole number
-  Real near{};   ///< steering: how near it should come, metres
-  // The pose in which it touched the ground, and the Gibbs vector that lays it flat.
+  Real next{};   ///< index of the next segment plus 1; 0: not drawn yet
+  Real state{};  ///< state of the Markov chain; a whole number
+  Real near{};   ///< steering: tolerance, metres
+  // Pose at touchdown, and the Gibbs vector that rotates it flat.
   Quaternion<Real> touched{};
   Vector3<Real> laid{};
-  Vector3<Real> target{};  ///< steering: where it should be
+  Vector3<Real> target{};  ///< steering: target position
 };
 
-/// Numbers of what is ahead, with those that it is read with.
+/// Number of values in `ahead` and those read with it.
 inline constexpr std::size_t kAheadNumbers = 20;
 
 template <class Real>
 struct ChainLane : ChainPlayed<Real>, ChainPlan<Real> {};
 
-/// Calls visit(number of a, number of b) for each number of a turn, a gap or what is added to a segment.
+/// Calls visit(number of a, number of b) for each number of a turn, a gap or an offset.
 template <class A, class B, class Visit>
 inline void each_number(ChainTurn<A>& a, B& b, Visit visit) {
   visit(a.half_cos, b.half_cos);
@@ -128,7 +128,7 @@ inline void each_added(A& a, B& b, Visit visit) {
   }
 }
 
-/// The same for each number that is played.
+/// Calls visit(number of a, number of b) for each number of the played state.
 template <class A, class B, class Visit>
 inline void each_played(A& a, B& b, Visit visit) {
   visit(a.segment, b.segment);
@@ -140,13 +140,13 @@ inline void each_played(A& a, B& b, Visit visit) {
   visit(a.left, b.left);
 }
 
-/// Stored quaternions of which no turn about z brings one nearer to the other than this, are not turned.
+/// Stored quaternions that no rotation about z aligns better than this are not rotated.
 inline constexpr float kMinTurn = 1e-3f;
 
-/// Differences at joins are clamped to this.
+/// Bound of differences at joins.
 inline constexpr float kMaxDifference = 1e9f;
 
-/// A half turn with the scales of what it turns; number(x) is x in every lane.
+/// Returns a half turn with the scales of the quantities that it rotates; number(x) is x in every lane.
 template <class Values, class Number>
 inline ChainTurn<Values> turn_of(const Values& half_cos, const Values& half_sin, const ChainProgram& program,
                                  Number number) {
@@ -159,7 +159,7 @@ inline ChainTurn<Values> turn_of(const Values& half_cos, const Values& half_sin,
           half_sin * quaternion_scale};
 }
 
-/// What moves lanes of one program.
+/// Moves lanes of one program.
 template <class Real>
 class ChainMover {
  public:
@@ -169,14 +169,14 @@ class ChainMover {
 
   explicit ChainMover(const ChainProgram& program) : program_(program) {}
 
-  /// Draws the segment that begins, and moves the history in `of_state` on.
+  /// Draws the first segment, and updates the history in `of_state`.
   std::uint32_t draw_first(Real& of_state, const ChainChoice& choice, const ChainWords& words) const {
     const std::uint32_t mode = choice.mode(program_, 0, words);
     of_state = state_after(0, mode);
     return choice.beginning(program_, mode, words);
   }
 
-  /// Draws the mode that follows, and moves the history in `of_state` on.
+  /// Draws the next mode, and updates the history in `of_state`.
   std::uint32_t draw_mode(Real& of_state, const ChainChoice& choice, const ChainWords& words) const {
     const std::uint32_t state = index(of_state, program_.states());
     const std::uint32_t mode = choice.mode(program_, state, words);
@@ -184,19 +184,19 @@ class ChainMover {
     return mode;
   }
 
-  /// The same, and a segment of that mode.
+  /// Draws the next mode and a segment of it, and updates the history.
   std::uint32_t draw(Real& of_state, std::uint32_t before, const ChainChoice& choice, const ChainWords& words) const {
     const std::uint32_t mode = draw_mode(of_state, choice, words);
     return choice.successor(program_, before, mode, words);
   }
 
-  /// Where a segment begins: at the height at which it was recorded, where that is bounded.
+  /// Returns where a segment begins: at its recorded height, if heights are bounded.
   Vector3<Real> beginning_of(std::uint32_t segment) const {
     if (program_.height.empty()) return {};
     return {Real(0.0f), Real(0.0f), height_of(segment)};
   }
 
-  /// Places the beginning of a segment as it is, turned by a half turn.
+  /// Places the beginning of a segment at a position, rotated by a half turn.
   void place(Lane& lane, std::uint32_t segment, const Vector3<Real>& position, Real half_cos, Real half_sin) const {
     lane.segment = Real(static_cast<float>(segment));
     lane.row = Real(0.0f);
@@ -206,7 +206,7 @@ class ChainMover {
     lane.turn = turn_of(half_cos, half_sin, program_, [](float x) { return Real(x); });
   }
 
-  /// Places the beginning of a segment where a body is; returns by how much that differs.
+  /// Places the beginning of a segment at a body; returns the difference between them.
   ChainGap<Real> place(Lane& lane, std::uint32_t segment, const Body& body) const {
     const HalfTurn<Real> turn = turn_to(segment, body);
     place(lane, segment, body.position, turn.cos, turn.sin);
@@ -226,14 +226,14 @@ class ChainMover {
     return gap;
   }
 
-  /// At which rows of a segment what is added to it changes: whole numbers, −1 for none.
+  /// Rows of a segment at which its offset changes: whole numbers, −1 for none.
   struct Rows {
     float steps;       ///< the last row
-    float quiet_from;  ///< nothing is added to rows from here
-    float quiet_to;    ///< to here: to none of a segment in which both joins overlap
+    float quiet_from;  ///< rows from here have no offset
+    float quiet_to;    ///< up to here; no row if both joins overlap
     float turn;        ///< the first row of the latter half of a curve
-    float last_turn;   ///< and of the second curve
-    float curve;  ///< the row after which the curve towards what follows begins, where it does not with the segment
+    float last_turn;   ///< the same for the second curve
+    float curve;  ///< the row after which the curve to the next segment begins, if it does not begin with the segment
   };
   Rows rows_of(std::uint32_t segment) const {
     const std::uint32_t blend = program_.blend_steps, steps = program_.steps(segment);
@@ -245,16 +245,16 @@ class ChainMover {
     return {last, number(blend), number(steps - blend), turn, number(steps - blend) + turn, number(steps - blend)};
   }
 
-  /// Steps that are left of the lane's segment.
+  /// Returns the number of steps left in the lane's segment.
   std::uint32_t steps_left(const Lane& lane) const {
     const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
     return steps - index(lane.row, steps + 1);
   }
 
-  /// Whether it is known what follows.
+  /// Returns whether the next segment has been drawn.
   static bool is_prepared(const ChainPlan<Real>& plan) { return plan.next > Real(0.0f); }
 
-  /// How a lane's segment will have ended, but for what is added to it: where a walk goes on.
+  /// Returns the state at the end of a lane's segment, without its offset: where the walk continues.
   Body end_of(const Lane& lane) const {
     const std::uint32_t segment = index(lane.segment, program_.segments());
     const std::int16_t* row = row_of(segment, program_.steps(segment));
@@ -265,7 +265,7 @@ class ChainMover {
     return body;
   }
 
-  /// The rates of a segment's beginning or end, turned as the lane is.
+  /// Returns the rates at a segment's beginning or end, rotated as the lane is.
   Rates rates_of(const Lane& lane, std::uint32_t segment, bool end) const {
     const std::int16_t* rate = rates_at(segment, end);
     Rates rates;
@@ -279,8 +279,8 @@ class ChainMover {
     return rates;
   }
 
-  /// How badly the beginning of a segment fits a body: differences of attitude, velocity and spin in the body's own
-  /// axes, in units of what is usual.
+  /// Returns the distance of a segment's beginning from a body's state: differences of attitude, velocity and spin in
+  /// body axes, in units of their typical sizes.
   Real misfit(std::uint32_t segment, const Body& body) const {
     Lane lane;
     const HalfTurn<Real> turn = turn_to(segment, body);
@@ -296,7 +296,7 @@ class ChainMover {
     return sum + dot(twist, twist) * spin_unit * spin_unit + Real(8.0f) * (Real(1.0f) - nearness);
   }
 
-  /// The turn about z with which a segment is placed where a body is. As they are stored: scales are no matter of
+  /// Returns the rotation about z that aligns a segment with a body. It uses stored units: scales do not affect
   /// direction.
   HalfTurn<Real> turn_to(std::uint32_t segment, const Body& body) const {
     if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
@@ -304,18 +304,18 @@ class ChainMover {
     return turn_between(quaternion(row_of(segment, 0)), body.orientation);
   }
 
-  /// Where a segment leads from its beginning to its end, as it is stored but in metres.
+  /// Returns a segment's displacement from beginning to end, in its own axes, metres.
   Vector3<Real> way_of(std::uint32_t segment) const {
     return scaled(vector(row_of(segment, program_.steps(segment))), Real(program_.position_scale));
   }
 
-  /// A whole number that is stored as a real one, below a bound.
+  /// Converts a whole number that is stored as a real one, limited to below a bound.
   static std::uint32_t index(Real number, std::uint32_t bound) {
     const auto whole = static_cast<std::uint32_t>(value_of(number));
     return whole < bound ? whole : bound - 1;
   }
 
-  /// Clamped to what no sound model exceeds: squares of it are no trouble to single precision.
+  /// Clamps numbers to what no valid model exceeds: their squares do not overflow single precision.
   template <class Numbers>
   static Numbers bounded(Numbers numbers, float bound = kMaxDifference) {
     const Real most(bound), least(-bound);
@@ -336,12 +336,12 @@ class ChainMover {
     return {Real(static_cast<float>(from[0])), Real(static_cast<float>(from[1])), Real(static_cast<float>(from[2]))};
   }
 
-  // Stored quaternions, or their changes, in the world.
+  // Converts stored quaternions, or their changes, to world axes.
   static Quaternion<Real> oriented(const ChainTurn<Real>& turn, const Quaternion<Real>& stored) {
     return turned<Real>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }
 
-  // A stored velocity in the world, metres a second.
+  // Converts a stored velocity to world axes, metres per second.
   Vector3<Real> turned_velocity(const ChainTurn<Real>& turn, const std::int16_t* stored) const {
     const Real scale(program_.velocity_scale / program_.position_scale);
     const auto v = vector(stored);

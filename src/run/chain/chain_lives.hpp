@@ -1,6 +1,6 @@
 #pragma once
-// The lanes of all blocks of a chain: what is played of each and what is shown, [block][number][lane], and what only
-// joins, the ground and steering need, lane by lane.
+// The lanes of all blocks of a chain: played and displayed state, [block][number][lane], and the state of joins, ground
+// and steering, lane by lane.
 
 #include <array>
 #include <cstdint>
@@ -34,7 +34,7 @@ class ChainLives {
 
   const ChainProgram& program() const { return program_; }
 
-  /// Outputs of the last step, and of the one before: [output][lane].
+  /// Returns the outputs of the last step, and of the one before: [output][lane].
   const Real* newest(int block) const { return newest_.data() + block * sample_size(); }
   const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
 
@@ -49,7 +49,7 @@ class ChainLives {
     return {program_, played_of(block), segments_[static_cast<std::size_t>(block)], newest_of(block)};
   }
 
-  /// All of a lane, taken from among the others of its block, and put there.
+  /// Gathers the state of one lane from its block, or scatters it back.
   Lane lane_of(int block, int lane) {
     Lane life;
     static_cast<ChainPlan<Real>&>(life) = plan_of(block, lane);
@@ -67,7 +67,7 @@ class ChainLives {
     return ChainMover<Real>::index(played_of(block).segment[lane], program_.segments());
   }
 
-  /// Notes what follows from a lane's segment.
+  /// Records the rows at which the offset of a lane's segment changes.
   void note_segment(int block, int lane) {
     segments_[static_cast<std::size_t>(block)].note(lane, program_, segment_of(block, lane));
   }

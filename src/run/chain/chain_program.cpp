@@ -15,7 +15,7 @@ constexpr double kMinScale = 1e-12;
 constexpr double kMaxScale = 1e6;
 constexpr float kMinUnit = 1e-6f;
 constexpr double kMaxStored = 32767;
-constexpr double kReturnShare = 0.2;  // of the usual speed: what leads back to a height is hardly seen beside it
+constexpr double kReturnShare = 0.2;  // share of the typical speed: a return to a height is then barely visible
 
 void fill_thresholds(std::span<const double> probability, std::span<std::uint32_t> out) {
   double sum = 0;
@@ -25,11 +25,11 @@ void fill_thresholds(std::span<const double> probability, std::span<std::uint32_
     out[mode] = static_cast<std::uint32_t>(std::min(sum * kWords, kWords - 1));
     if (probability[mode] > 0) last = mode;
   }
-  // The highest words belong to the last mode that can come, however the sum was rounded.
+  // The highest words belong to the last mode with positive probability, whatever the rounding of the sum.
   for (std::size_t mode = last; mode < out.size(); ++mode) out[mode] = 0xffffffffU;
 }
 
-// Root-mean-square length of the vectors that begin at `offset` of each group of rates.
+// Returns the root-mean-square length of the vectors that begin at `offset` of each group of rates.
 float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   const auto stride = static_cast<std::size_t>(program.rate_count);
   double sum = 0;
@@ -42,7 +42,7 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   return std::max(unit, kMinUnit);
 }
 
-// Root-mean-square way from row to row, metres.
+// Returns the root-mean-square displacement from row to row, metres.
 double usual_step(const ChainProgram& program) {
   double sum = 0;
   for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
@@ -55,8 +55,8 @@ double usual_step(const ChainProgram& program) {
   return program.position_scale * std::sqrt(sum / steps);
 }
 
-// Differences go on by the first half's second difference m − 1 times and by the latter's n times, from a first one of
-// the slope and half of the former: their sum and the last slope are what is asked for.
+// The difference grows by the first half's second difference m − 1 times and by the latter's n times, starting from the
+// slope plus half of the former: their sum and the last slope are prescribed.
 ChainSpread spread_over(std::uint32_t steps) {
   const double m = first_half(steps), n = steps - m;
   const double way[] = {m * m / 2 + n * (m - 0.5), n * (n + 1) / 2}, slope[] = {m - 0.5, n + 0.5};
@@ -67,7 +67,7 @@ ChainSpread spread_over(std::uint32_t steps) {
           steps > 1 ? static_cast<float>(-1.0 / (n + m - 1)) : 0.0f};
 }
 
-// Gives stored quaternions the length that is shown: a file has them coarser.
+// Normalises stored quaternions to the displayed length: a file stores them more coarsely.
 void make_unit(ChainProgram& program) {
   for (std::size_t at = 3; at < program.rows.size(); at += 7) {
     std::int16_t* q = program.rows.data() + at;
@@ -81,7 +81,7 @@ void make_unit(ChainProgram& program) {
   }
 }
 
-// How much stored quaternions change in half a step, at both ends of each segment.
+// Fills in the change of stored quaternions in half a step, at both ends of each segment.
 void fill_changes(ChainProgram& program) {
   float* out = program.changes.data();
   for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {

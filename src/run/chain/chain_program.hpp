@@ -11,26 +11,26 @@
 
 namespace wisp {
 
-/// A response to gusts: one lag after the other of the change of velocity, the wind, and its press on the body.
+/// A response to gusts: per lag coefficients of the velocity change, the wind, and the normal wind.
 struct GustProgram {
   int order = 0;  ///< 0: none
-  // Per lag the coefficients of the change, of the wind, and of a quarter of its press.
+  // Per lag the coefficients of the change, of the wind, and of a quarter of the normal wind.
   std::array<std::array<float, 3>, kMaxGustOrder> ground{};
   std::array<std::array<float, 3>, kMaxGustOrder> vertical{};
 };
 
-/// The curve over so many steps that goes from one number and slope to others: two parabolas. What their second
-/// differences are, of what is lacking beyond the first slope, and of the change of slope.
+/// A curve over so many steps between given values and slopes: two parabolas. Second differences as factors of the
+/// change of value, beyond the first slope, and of the change of slope.
 struct ChainSpread {
-  std::array<float, 2> way{};     ///< of the first half, and of the latter
-  std::array<float, 2> change{};  ///< likewise
-  float slope = 0;                ///< of a straight line from the first step to the last
+  std::array<float, 2> way{};     ///< factors of the first half, and of the latter
+  std::array<float, 2> change{};  ///< factors of the first half, and of the latter
+  float slope = 0;                ///< slope of a straight line from the first step to the last
 };
 
-/// Steps of the first parabola.
+/// Returns the number of steps of the first parabola.
 inline std::uint32_t first_half(std::uint32_t steps) { return (steps + 1) / 2; }
 
-/// Rows are read so many numbers at once, and there are as many behind the last one.
+/// Number of values read at once from a row, and of padding values behind the last row.
 inline constexpr std::size_t kRowReach = 8;
 
 struct ChainProgram {
@@ -38,39 +38,39 @@ struct ChainProgram {
   int rate_count = 0;
   int modes = 0;
   int breadth = 0;
-  int history = 1;  ///< modes that the next one depends on
+  int history = 1;  ///< number of past modes that determine the next one
   bool heading_free = true;
   float position_scale = 1;
   float orientation_scale = 1;
   float velocity_scale = 1;
   float spin_scale = 1;
   float step_seconds = 0;
-  std::uint32_t blend_steps = 0;  ///< most that a join fades over, on either side; 0: not at all
-  float height_scale = 0;         ///< of the heights at which segments begin
-  float max_return = 0;           ///< metres a step: how fast a join leads back to them at most
-  float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
-  float spin_unit = 1;   ///< the same of angular speeds
+  std::uint32_t blend_steps = 0;  ///< largest number of steps of a join, on either side; 0: no blending
+  float height_scale = 0;         ///< metres per unit of the segments' initial heights
+  float max_return = 0;           ///< metres per step: largest speed of return to those heights
+  float speed_unit = 1;           ///< root-mean-square speed at joins: unit of speed differences
+  float spin_unit = 1;            ///< root-mean-square angular speed at joins
   GustProgram gust{};
   std::span<std::int16_t> rows;
   std::span<std::int16_t> rates;
-  std::span<float> changes;            ///< of poses: per segment, at its start and its end, of the stored quaternion in
-                                       ///< half a step
-  std::span<ChainSpread> spread;       ///< by steps, up to twice those of a blend
+  std::span<float> changes;            ///< poses: per segment, change of the stored quaternion in half a step, at its
+                                       ///< start and its end
+  std::span<ChainSpread> spread;       ///< by number of steps, up to twice those of a blend
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;
-  std::span<std::int16_t> height;          ///< per segment; empty: height is free
+  std::span<std::int16_t> height;          ///< per segment; empty: unbounded heights
   std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
-  std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
-  std::span<std::int16_t> lead;            ///< segments × 3; empty: it can't be steered
+  std::span<std::uint32_t> threshold;  ///< states × modes: the first mode whose threshold exceeds the word is drawn
+  std::span<std::int16_t> lead;        ///< segments × 3; empty: no steering
   float lead_scale = 0;
-  std::array<float, 3> drift{};  ///< metres a second
-  float spread_ground = 0;       ///< m² a second
+  std::array<float, 3> drift{};  ///< metres per second
+  float spread_ground = 0;       ///< m² per second
   float spread_height = 0;
-  float mean_steps = 0;   ///< of the segments
+  float mean_steps = 0;   ///< mean number of steps per segment
   float memory = 0;       ///< seconds
   float half_width = 0;   ///< of the body, along its first axis, metres; 0: a point
-  float half_length = 0;  ///< and along its second
+  float half_length = 0;  ///< of the body, along its second axis
 
   std::uint32_t segments() const { return static_cast<std::uint32_t>(mode.size()); }
   std::uint32_t states() const {
@@ -84,17 +84,17 @@ struct ChainProgram {
   std::uint32_t steps(std::uint32_t segment) const { return first_row[segment + 1] - first_row[segment] - 1; }
 };
 
-/// State 0 is the beginning; state k + 1 is row k of the model's probabilities.
-/// `wind_unit` is what the wind of the regressors is measured in.
+/// Compiles a chain. State 0 is the beginning; state k + 1 is row k of the model's probabilities. `wind_unit` is the
+/// unit of the wind regressors.
 ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
 
-/// Gives the program the size of the body that it moves, where the view knows it.
+/// Sets the size of the program's body, if the view knows it.
 void take_size(const View& view, ChainProgram& program);
 
-/// A hash of the program, over a hash of what came before.
+/// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);
 
-/// Errors: scales so small or large that single precision can't hold what they make.
+/// Errors: scales so small or large that products leave the range of single precision.
 Result<void> check_chain_program(const ChainModel& chain);
 
 }  // namespace wisp

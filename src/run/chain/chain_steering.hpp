@@ -1,8 +1,8 @@
 #pragma once
-// Brings a falling body near a place at a time, by what is drawn at joins: a segment is as likely as the chain says,
-// times how probable it makes the target (J. L. Doob's h-transform, 1957). How probable that is, is taken as a normal
-// distribution around where the walk leads on average, wider the longer there is to go: ChainDrift in
-// wisp/model/chain.hpp.
+// Steers a falling body towards a place at a given time by the choice of segments at joins: the probability of a
+// segment is the chain's, times the probability that it leads to the target (J. L. Doob's h-transform, 1957). The
+// latter is approximated by a normal distribution around the walk's expected displacement, wider the more time is left:
+// ChainDrift in wisp/model/chain.hpp.
 
 #include <algorithm>
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace wisp {
 
-/// Candidates of each mode where any of its segments may follow.
+/// Number of candidates per mode if any of its segments may follow.
 inline constexpr std::uint32_t kAnyOf = 8;
 
-/// e^−x but for heavier tails: (1 + x/256)^−256. Precondition: x >= 0.
+/// Approximates e^−x with heavier tails: (1 + x/256)^−256. Precondition: x >= 0.
 template <class Real>
 inline Real falling_off(Real x) {
   Real power = Real(1.0f) / (Real(1.0f) + x * Real(1.0f / 256.0f));
@@ -29,14 +29,14 @@ class ChainSteering {
   using Lane = ChainLane<Real>;
   using Body = BodyState<Real>;
 
-  /// Takes the room for the candidates of one join.
+  /// Allocates room for the candidates of one join.
   ChainSteering(const ChainProgram& program, bool steers, Arena& arena) {
     if (!steers) return;
     per_mode_ = program.breadth > 0 ? static_cast<std::uint32_t>(program.breadth) : kAnyOf;
     candidates_ = arena.take<Candidate>(static_cast<std::size_t>(program.modes) * per_mode_);
   }
 
-  /// The segment that follows the lane's where `body` is; moves its history on.
+  /// Draws the successor of the lane's segment, which ends at `body`; updates the lane's history.
   std::uint32_t draw(const Mover& mover, const ChainProgram& program, const ChainChoice& choice, Lane& lane,
                      const Body& body, const ChainWords& words) {
     const auto modes = static_cast<std::uint32_t>(program.modes);
@@ -71,8 +71,8 @@ class ChainSteering {
     Real miss{};  // half the squared distance from the target, in standard deviations
   };
 
-  // How far from where it is expected a walk may be when the time has come: one over twice the variance. The same for
-  // all candidates of a join, or far targets would favour short segments.
+  // Inverse of twice the variance of a walk's position at the target time. Equal for all candidates of a join, since
+  // otherwise far targets would favour short segments.
   struct Bell {
     Real ground{};
     Real height{};
@@ -86,7 +86,7 @@ class ChainSteering {
             Real(0.5f) / (near + Real(program.spread_height) * left)};
   }
 
-  // How likely a candidate makes the target.
+  // Computes the probability that a candidate leads to the target.
   static Candidate aim(const Mover& mover, const ChainProgram& program, const Lane& lane, const Body& body,
                        std::uint32_t segment, const Bell& bell) {
     const Real zero(0.0f), one(1.0f);
@@ -95,7 +95,7 @@ class ChainSteering {
     const Real own = Real(static_cast<float>(program.steps(segment)));
     const Real beyond = lane.left - own;
     const Real left = beyond > zero ? beyond * Real(program.step_seconds) : zero;
-    // Of a segment in which the time runs out, the part that is played until then.
+    // If the time ends within the segment, the part played until then.
     const Real played = beyond > zero ? one : lane.left / own;
     const Real kept = left / (left + Real(program.memory) + Real(program.step_seconds));
     const std::int16_t* lead = program.lead.data() + std::size_t{3} * segment;

@@ -1,8 +1,8 @@
 #pragma once
 // Steps blocks of instances of a segment chain. Source: section 4.3 of the paper (the walk over the modes, each
 // realised by one of its segments); section 2.2 for histories longer than one. Lanes of a block are in different places
-// of different segments, but move and are shown alike, side by side. Of what happens now and then, joins are made for
-// lanes of several blocks side by side, the rest for one lane at a time.
+// of different segments, but advance and are displayed by the same operations in parallel. Of rarer events, joins run
+// in parallel for lanes of several blocks, the rest for one lane at a time.
 
 #include <array>
 #include <cstdint>
@@ -34,7 +34,7 @@ class ChainStepper : private ChainLives<N> {
   using typename ChainLives<N>::Played;
   using ChainLives<N>::newest;
   using ChainLives<N>::previous;
-  /// Frames over which a cost is averaged: joins come now and then.
+  /// Number of frames over which a cost is averaged: joins are rare.
   static constexpr int kCountedFrames = 8192;
 
   /// A chain has no operating point: its outputs are in their own units.
@@ -44,7 +44,7 @@ class ChainStepper : private ChainLives<N> {
             std::span(kOrigin).first(chain.gust ? 3 : 0)};
   }
 
-  /// Errors: what single precision can't step.
+  /// Errors: values that single precision cannot represent.
   static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
@@ -57,28 +57,28 @@ class ChainStepper : private ChainLives<N> {
     regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
   }
 
-  /// A chain has no residual noise; its chance is in the walk, and there or not.
+  /// A chain has no residual noise; its random walk is switched on or off.
   void set_noise(float scale) { choice_.set_chance(scale > 0); }
 
   void set_ground(float height) { ground_ = height; }
 
   void turn(int = 1) {}
 
-  /// Where the regressors of the step belong: [regressor][lane].
+  /// Returns the address for the step's regressors: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
-  /// Most blocks that step() takes at once: a segment ends every few steps, so that of these blocks some four times as
-  /// many lanes join as go side by side.
+  /// Largest number of blocks that step() takes at once: a segment ends every few steps, so that among these blocks
+  /// some four times as many lanes join as fit in a vector.
   static constexpr int kGroup = 32;
   static constexpr bool kGroupsVary = true;
 
-  /// What makes steps of some blocks before the others make theirs: blocks share no place in time.
+  /// Returns a stepper that steps some blocks ahead of the others: itself, since blocks share no time.
   ChainStepper& ahead() { return *this; }
 
-  /// Makes the newest sample of a block.
+  /// Computes the newest sample of a block.
   void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
 
-  /// Makes the newest samples of blocks in a row, at most kGroup, of which the moment is the first's.
+  /// Computes the newest samples of consecutive blocks, at most kGroup, whose first has this moment.
   void step(int first, int count, const Moment<N>& moment) {
     ChainCourse<N> courses[kGroup];
     for (int b = 0; b < count; ++b) set_out(first + b, moment.later(b), courses[b]);
@@ -92,14 +92,14 @@ class ChainStepper : private ChainLives<N> {
     gathering.end(&ChainStepper::go_on);
   }
 
-  /// What is read of a block: the newest sample.
+  /// Reads the outputs of a block: the newest sample.
   template <int kBlocks = 1>
   void show(int block, Real* out) const {
     copy_sample(newest(block), sample_size(), out);
   }
 
-  /// What is read of it a `share` of the way from the sample before: positions in proportion, orientations by
-  /// normalised linear interpolation.
+  /// Reads outputs interpolated by `share` from the sample before: positions linearly, orientations by normalised
+  /// linear interpolation.
   template <int kBlocks = 1>
   void show_between(int block, float share, Real* out) const {
     const Real *from = previous(block), *to = newest(block);
@@ -113,11 +113,11 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  /// What a frame of the model's own rate reads.
+  /// Reads the outputs of a frame at the model's own rate.
   void show_frame(int block, Real* out) const { show(block, out); }
 
-  /// Starts one lane at the origin, or where its height is bounded above it, with a segment that begins a recording,
-  /// its heading drawn by chance.
+  /// Starts one lane at the origin, or above it at its recorded height if that is bounded, with a segment that begins a
+  /// recording, and a random heading.
   void start(int block, int lane, const Moment<N>& moment) {
     const Party party = Party::of(block, lane);
     const Drawn words = Joining::draw(party, block, moment, 1);
@@ -134,7 +134,7 @@ class ChainStepper : private ChainLives<N> {
     begin_at(block, lane);
   }
 
-  /// How a lane moves from its last sample but one to the last.
+  /// Returns a lane's rates between its last two samples.
   BodyRates<Real> rates(int block, int lane) const {
     const Real *from = previous(block) + lane, *to = newest(block) + lane, rate(1.0f / program_.step_seconds);
     BodyRates<Real> moves;
@@ -142,7 +142,7 @@ class ChainStepper : private ChainLives<N> {
       moves.velocity[static_cast<std::size_t>(k)] = (to[k * kLanes] - from[k * kLanes]) * rate;
     }
     if (program_.channels < 7) return moves;
-    // The vector part of the rotation between them, the sine of half its angle: half the angle.
+    // The vector part of the rotation between them is the sine of half its angle, approximately half the angle.
     const auto q = [](const Real* at) { return Quaternion<Real>{at[0], at[kLanes], at[2 * kLanes], at[3 * kLanes]}; };
     const auto a = q(from + 3 * kLanes), b = q(to + 3 * kLanes);
     const Vector3<Real> u{a[1], a[2], a[3]}, v{b[1], b[2], b[3]};
@@ -151,10 +151,10 @@ class ChainStepper : private ChainLives<N> {
     return moves;
   }
 
-  /// How much of coming to rest on the ground has passed: below 0 it falls, from 1 on it lies.
+  /// Returns the progress of coming to rest on the ground: below 0 it falls, from 1 on it lies.
   Real settled(int block, int lane) const { return played_of(block).settled[lane]; }
 
-  /// Where a lane is in the chain.
+  /// Returns a lane's position in the chain.
   ChainPlace place_of(int block, int lane) const {
     const Played& played = played_of(block);
     const std::uint32_t segment = Mover::index(played.segment[lane], program_.segments());
@@ -162,12 +162,12 @@ class ChainStepper : private ChainLives<N> {
     return {segment, row, program_.mode[segment]};
   }
 
-  /// Whether ranges of blocks can be stepped at once: what is steered weighs its candidates in one place for all.
+  /// Returns whether ranges of blocks may be stepped in parallel: steering weighs candidates in one buffer for all.
   bool can_be_shared() const { return !steered_; }
 
   bool can_steer() const { return !program_.lead.empty(); }
 
-  /// Steers a lane to a place that it is to be near in so many steps; none: no longer.
+  /// Steers a lane towards a target to be reached in so many steps; 0: cancels steering.
   ///
   /// Precondition: can_steer().
   void steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
@@ -177,13 +177,13 @@ class ChainStepper : private ChainLives<N> {
     steered_ |= steps > 0;
   }
 
-  /// Puts a lane where a body is, on whichever segment begins most as the body moves.
+  /// Places a lane at a body, on the segment whose initial motion is nearest.
   void place(int block, int lane, const Body& body) {
     const Mover mover(program_);
     std::uint32_t best = 0;
     Real least(3e38f);
     for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
-      // A segment of one step has no time for what differs to fade.
+      // A segment of one step is too short for the difference to decay.
       if (program_.steps(segment) == 1) continue;
       const Real misfit = mover.misfit(segment, body);
       if (!(misfit < least)) continue;
@@ -208,7 +208,7 @@ class ChainStepper : private ChainLives<N> {
            9 * static_cast<std::size_t>(program_.gust.order);
   }
 
-  /// Calls visit(value, low, high) for each number of one lane's state, with a step of 1 where it is a whole number.
+  /// Calls visit(value, low, high) for each state variable of one lane, with a step of 1 for whole numbers.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     Lane life = lane_of(block, lane);
@@ -235,7 +235,7 @@ class ChainStepper : private ChainLives<N> {
     stirred_[static_cast<std::size_t>(block)] = 1;
     for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
       GustLane<Real>& gust = gust_of(block, lane);
-      gust.press[k] = scaled(gust.press[k], Real(4.0f));  // it is saved whole
+      gust.press[k] = scaled(gust.press[k], Real(4.0f));  // the whole of it is saved
       for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
         for (Real& x : *vector) visit(x, -kMaxSlip, kMaxSlip);
       }
@@ -249,7 +249,7 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  /// Goes into the hash that tells models apart.
+  /// Continues the hash that identifies the model.
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
 
  private:
@@ -270,7 +270,7 @@ class ChainStepper : private ChainLives<N> {
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr float kMaxSlip = 1e12f;
   static constexpr float kCarrySeconds = 1.0f;
-  static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
+  static constexpr float kLongest = 1.01f;  // bound on an orientation's numbers: stored norms are 1 up to rounding
 
   template <class Visit>
   void visit_turn(ChainTurn<Real>& turn, Visit visit) {
@@ -280,7 +280,7 @@ class ChainStepper : private ChainLives<N> {
       visit(*x, -most, most);
   }
 
-  // Differences grow from step to step: those of a bank that was made to harm beyond what it could be restored with.
+  // Differences grow from step to step: those of a hostile saved bank may exceed what may be restored.
   template <class Numbers, class Visit>
   static void visit_difference(Numbers& numbers, Visit visit) {
     numbers = Mover::bounded(numbers);
@@ -295,7 +295,7 @@ class ChainStepper : private ChainLives<N> {
     return program;
   }
 
-  // What the channels measure the wind in: the same for x, y and z, which have one range.
+  // Returns the unit of the wind channels: equal for x, y and z, which have one range.
   static double wind_unit(const Model& model) {
     if (model.inputs.empty()) return 1;
     double lowest = 0, highest = 0;
@@ -306,7 +306,7 @@ class ChainStepper : private ChainLives<N> {
     return channel_scale(lowest, highest);
   }
 
-  // Gathers lanes of blocks at which the same happens, and lets it happen to as many at once as go side by side.
+  // Collects lanes of blocks with the same event, and processes as many at once as fit in a vector.
   class Gathering {
    public:
     using Happen = void (ChainStepper::*)(const Party& party, int first, const Moment<N>& moment);
@@ -336,7 +336,7 @@ class ChainStepper : private ChainLives<N> {
     const Moment<N>& moment_;
   };
 
-  // Lets the lanes of a block go on by a step.
+  // Advances the lanes of a block by one step.
   void set_out(int block, const Moment<N>& moment, ChainCourse<N>& course) {
     copy_sample(newest(block), sample_size(), previous_of(block));
     std::fill_n(moment.clamped, kLanes, 0U);
@@ -347,7 +347,7 @@ class ChainStepper : private ChainLives<N> {
     lanes_of(block).go(course);
   }
 
-  // Shows them where they have got to, and leaves among those that end whichever join.
+  // Displays the advanced lanes, and leaves among those that end the ones that join.
   void arrive(int block, const Moment<N>& moment, ChainCourse<N>& course) {
     ChainBlock<N> lanes = lanes_of(block);
     lanes.move(course);
@@ -369,8 +369,8 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Finds the lanes of which a step makes more than it shows and lets join: those that come to rest, are too far away,
-  // or near the ground. Returns whether there are any.
+  // Finds the lanes for which a step does more than display and join: those that come to rest, are too far away, or
+  // near the ground. Returns whether there are any.
   bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
@@ -390,7 +390,7 @@ class ChainStepper : private ChainLives<N> {
     return any_lane<N>(eventful);
   }
 
-  // Moves a lane that lies on the ground. One at rest is shown as it is.
+  // Moves a lane that lies on the ground. One at rest is shown unchanged.
   void settle(int block, int lane) {
     if (!(played_of(block).settled[lane] < Real(1.0f))) return;
     Lane life = lane_of(block, lane);
@@ -398,7 +398,7 @@ class ChainStepper : private ChainLives<N> {
     put(block, lane, life);
   }
 
-  // Notes where a position was clamped.
+  // Records that a position was clamped.
   void hold_position(int block, int lane, const Moment<N>& moment) {
     if (!is_far(newest_of(block) + lane)) return;
     moment.clamped[lane] = 1;
@@ -409,8 +409,8 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Moves a segment in the last second of its steering by a share of what its body, if it drifted on as bodies do on
-  // average, would miss: what is missed falls as the square of the time that is left.
+  // In the last second of steering, moves a segment by a share of the expected miss, given the mean drift of bodies:
+  // the miss decreases as the square of the time left.
   void carry(int block, int lane) {
     const Real left = played_of(block).left[lane], all(kCarrySeconds / program_.step_seconds), one(1.0f);
     if (!falls(block, lane) || !(left > Real(0.0f)) || !(left < all)) return;
@@ -425,21 +425,21 @@ class ChainStepper : private ChainLives<N> {
     for (std::size_t k = 0; k < 3; ++k) played_of(block).base[k][lane] = played_of(block).base[k][lane] + way[k];
   }
 
-  // Moves the segments of a block by what the wind has done to their velocity.
+  // Moves the segments of a block by the velocity changes due to wind.
   void drift(int block, int lanes) {
     std::uint8_t& stirred = stirred_[static_cast<std::size_t>(block)];
     if (stirred == 0 && is_calm(block)) return;
     stirred = 0;
     for (int lane = 0; lane < lanes; ++lane) {
       if (!falls(block, lane)) {
-        stirred = 1;  // what it has is kept
+        stirred = 1;  // the response persists
         continue;
       }
       if (drift_lane(block, lane)) stirred = 1;
     }
   }
 
-  // Whether the wind is calm in every lane.
+  // Returns whether the wind is calm in every lane.
   bool is_calm(int block) {
     const Real* wind = regressors(block);
     auto most = magnitude(load<Reals<N>>(wind));
@@ -475,7 +475,7 @@ class ChainStepper : private ChainLives<N> {
     return q;
   }
 
-  // What is shown has come to the ground, and reaches so far below its middle.
+  // Settles a lane whose displayed body has reached the ground; `reach`: its extent below its centre.
   void land(int block, int lane, Real reach) {
     Lane life = lane_of(block, lane);
     Body body;
@@ -487,7 +487,7 @@ class ChainStepper : private ChainLives<N> {
     put(block, lane, life);
   }
 
-  // Whether a position was clamped.
+  // Returns whether a position was clamped.
   static bool is_far(const Real* shown) {
     for (int axis = 0; axis < 3; ++axis) {
       const Real& at = shown[axis * kLanes];
@@ -498,13 +498,13 @@ class ChainStepper : private ChainLives<N> {
 
   Joining joining() { return {*this, choice_, steering_}; }
 
-  // Begins the curves towards what follows.
+  // Begins the curves towards the next segments.
   void leave(const Party& party, int, const Moment<N>&) { joining().leave(party); }
 
-  // What comes after a segment's last step.
+  // Starts the next segments after the last step of the present ones.
   void go_on(const Party& party, int first, const Moment<N>& moment) { joining().follow(party, first, moment); }
 
-  // A lane that begins has no sample before its first: it is given the first one twice.
+  // A new lane has no sample before its first, which is therefore stored twice.
   void begin_at(int block, int lane) {
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
@@ -516,7 +516,7 @@ class ChainStepper : private ChainLives<N> {
     for (std::size_t k = 0; k < count; k += kLanes) store(load<Reals<N>>(from + k), to + k);
   }
 
-  // A direction without preference: two normal deviates, made a unit; the identity where the heading is to be kept.
+  // Returns a uniformly random heading: two normal deviates, normalised; the identity if heading is kept.
   HalfTurn<Real> random_turn(std::uint32_t a, std::uint32_t b) const {
     if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
     const Real x(normal_pair(a)[0]), y(normal_pair(b)[0]);
@@ -527,9 +527,9 @@ class ChainStepper : private ChainLives<N> {
 
   ChainChoice choice_;
   ChainSteering<Real> steering_;
-  std::span<std::uint8_t> stirred_;  // per block: whether something may be left of a wind
+  std::span<std::uint8_t> stirred_;  // per block: whether a response to wind may remain
   std::span<GustLane<Real>> gusts_;
-  bool steered_ = false;  // now or once
+  bool steered_ = false;  // an instance is or was steered
   std::span<Real> regressors_;
   std::size_t regressor_row_ = 0;
   float ground_ = kNoGround;

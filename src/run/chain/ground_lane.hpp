@@ -1,6 +1,6 @@
 #pragma once
-// How an instance of a segment chain comes to rest on the ground, a level plane: it touches with its lowest corner,
-// slides on a little, lies down on the side that is nearer, and rests.
+// Landing of a chain's instance on the ground, a level plane: it touches with its lowest corner, slides on a little,
+// tilts onto the nearer side, and rests.
 
 #include <optional>
 
@@ -8,10 +8,10 @@
 
 namespace wisp {
 
-/// Duration of coming to rest: longer than a jump, shorter than the eye follows.
+/// Duration of coming to rest: longer than a jump, too short to be noticed.
 inline constexpr float kSettleSeconds = 0.35f;
 
-/// How far below its middle a body reaches: the lowest corner of a flat rectangle of its size.
+/// Returns the extent of a body below its centre: the lowest corner of a flat rectangle of its size.
 template <class Real>
 inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   if (program.channels < 7 || !(program.half_width > 0.0f || program.half_length > 0.0f)) return Real(0.0f);
@@ -22,7 +22,7 @@ inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   return across * Real(program.half_width) + along * Real(program.half_length);
 }
 
-/// How far below its middle what is shown reaches, where it has come to the ground; far above it that costs nothing.
+/// Returns the extent of a displayed body below its centre, if it has reached the ground; free of cost far above it.
 template <class Real>
 inline std::optional<Real> reach_touching(const ChainProgram& program, const Real* shown, int stride, float ground) {
   const Real& height = shown[2 * stride];
@@ -35,7 +35,7 @@ inline std::optional<Real> reach_touching(const ChainProgram& program, const Rea
   return reach;
 }
 
-/// Lets a lane whose body has come to the ground settle there. Its rates are those of what it played.
+/// Starts the settling of a lane whose body has reached the ground. Its rates are those of its motion.
 template <class Real>
 inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
   lane.settled = Real(0.0f);
@@ -45,7 +45,7 @@ inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float grou
   lane.touched = body.orientation;
 }
 
-/// The rotation that lays a body flat on the side that is nearer, as a Gibbs vector.
+/// Returns the rotation that lays a body flat on its nearer side, as a Gibbs vector.
 template <class Real>
 inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
   const Real two(2.0f);
@@ -57,24 +57,24 @@ inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
   return {normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
 }
 
-/// Moves a settling lane on by a step and shows it; `out` has a stride.
+/// Advances a settling lane by one step and displays it; `out` has a stride.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
-  // Made here, since the step that touches has enough to do.
+  // Computed here, since the touchdown step is the most expensive.
   if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.laid = lean_to_ground(lane.touched);
   if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));
   const Real passed = rests ? Real(1.0f) : lane.settled;
   const Real rest = Real(1.0f) - passed;
-  // It slides to where a speed that fades to nothing, (1 − s)², takes it: a third of the way that it had gone.
+  // It slides with a speed that decays as (1 − s)²: a third of the distance at constant speed.
   const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
   const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
-  // A bank that was made to harm may have slid any way.
+  // In a hostile saved bank the distance is unbounded.
   const auto position = ChainMover<Real>::bounded(added(lane.base, scaled(lane.slip[0], way)), 2 * kFarthest);
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
   if (program.channels < 7) return;
   const auto q = rotated(scaled(lane.laid, lean), lane.touched);
-  // At rest it lies flat but for rounding.
+  // At rest it lies flat except for rounding.
   if (!rests) out[2 * stride] = out[2 * stride] + reach_of(program, q);
   for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What the wind has changed of the velocity of one instance of a segment chain. Source: section 4.4 of the paper.
+// Velocity change of one instance of a segment chain due to wind. Source: section 4.4 of the paper.
 
 #include <array>
 
@@ -8,18 +8,18 @@
 
 namespace wisp {
 
-/// Changes below this and wind below it end a gust: nothing is left to compute until the next.
+/// Threshold of velocity changes and wind, below which a gust ends: nothing is computed until the next.
 inline constexpr float kMinGust = 1e-4f;
 
-/// Changes of velocity are clamped to this many metres a second.
+/// Bound of velocity changes, metres per second.
 inline constexpr float kMaxGust = 1e3f;
 
 template <class Real>
 struct GustLane {
-  // The newest first.
+  // Histories, newest first.
   std::array<Vector3<Real>, kMaxGustOrder> change{};
   std::array<Vector3<Real>, kMaxGustOrder> wind{};
-  std::array<Vector3<Real>, kMaxGustOrder> press{};  ///< a quarter of it
+  std::array<Vector3<Real>, kMaxGustOrder> press{};  ///< a quarter of the normal wind
 };
 
 template <class Real>
@@ -30,8 +30,8 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// A quarter of the part that is square to a flat body of the wind that it feels, beyond what it moves with: half a
-/// normal is cheaper than a whole one.
+/// Returns a quarter of the wind component normal to a flat body, relative to its velocity: half a normal is cheaper
+/// than a whole one.
 template <class Real>
 inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
   const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],
@@ -39,7 +39,7 @@ inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real
   return scaled(half_normal, dot(half_normal, wind));
 }
 
-/// One step. Returns the change of velocity; `idle` lanes without wind cost nothing.
+/// Makes one step. Returns the change of velocity; `idle` lanes without wind cost nothing.
 template <class Real>
 inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, const Vector3<Real>& wind,
                           const Vector3<Real>& press) {
@@ -68,7 +68,7 @@ inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, cons
   return change;
 }
 
-/// Whether there is wind, or something left of it.
+/// Returns whether there is wind, or a remaining response.
 template <class Real>
 inline bool gust_lasts(const GustProgram& program, const GustLane<Real>& lane, const Vector3<Real>& wind) {
   if (stirs(wind)) return true;

@@ -1,8 +1,9 @@
 #pragma once
-// Places and turns of rigid bodies, on one number of any kind. Only + − × ÷ and square root, in the order written.
+// Positions and rotations of rigid bodies, on one number of any kind. Only + − × ÷ and square root, in the order
+// written.
 //
-// Quaternions are w, x, y, z and turn a body's axes to the world's. A rotation away from another is clamped as its
-// Gibbs vector, the rotation's axis times the tangent of half its angle: adding up parts of it needs no trigonometry.
+// Quaternions are w, x, y, z and rotate body axes to world axes. Rotations relative to another are represented by Gibbs
+// vectors, the axis times the tangent of half the angle: scaling them needs no trigonometry.
 
 #include <array>
 #include <cstdint>
@@ -53,7 +54,7 @@ inline Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The same orientation with length 1; what has no length is left as it is.
+/// Returns the orientation with norm 1; a zero one is unchanged.
 template <class Real>
 inline Quaternion<Real> unit(const Quaternion<Real>& q) {
   const Real square = dot(q, q);
@@ -61,14 +62,14 @@ inline Quaternion<Real> unit(const Quaternion<Real>& q) {
   return scaled(q, Real(1.0f) / square_root(square));
 }
 
-/// A turn about z, by the cosine and sine of half its angle, before an orientation.
+/// Rotates an orientation about the world's z, by the cosine and sine of half the angle.
 template <class Real>
 inline Quaternion<Real> turned(Real half_cos, Real half_sin, const Quaternion<Real>& q) {
   return {half_cos * q[0] - half_sin * q[3], half_cos * q[1] - half_sin * q[2], half_cos * q[2] + half_sin * q[1],
           half_cos * q[3] + half_sin * q[0]};
 }
 
-/// How fast an orientation's components change under an angular velocity on the world's side.
+/// Returns the time derivative of an orientation under an angular velocity in world axes.
 template <class Real>
 inline Quaternion<Real> quaternion_rate(const Vector3<Real>& spin, const Quaternion<Real>& q) {
   const Vector3<Real> axis{q[1], q[2], q[3]};
@@ -76,28 +77,28 @@ inline Quaternion<Real> quaternion_rate(const Vector3<Real>& spin, const Quatern
   return scaled(Quaternion<Real>{Real(0.0f) - dot(spin, axis), v[0], v[1], v[2]}, Real(0.5f));
 }
 
-/// A turn about z, by cosine and sine of its angle, of a vector.
+/// Rotates a vector about z, by cosine and sine of the angle.
 template <class Real>
 inline Vector3<Real> turned(Real cos, Real sin, const Vector3<Real>& v) {
   return {cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]};
 }
 
-/// Cosine and sine of half a turn about z, both times the same.
+/// Cosine and sine of half an angle about z, both times a common factor.
 template <class Real>
 struct LongTurn {
   Real cos;
   Real sin;
 };
 
-/// The half turn about z that brings `from` nearest to `to`, times how near.
+/// Returns the half turn about z that brings `from` nearest to `to`, times their agreement.
 template <class Real>
 inline LongTurn<Real> long_turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
   return {to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3],
           to[3] * from[0] - to[0] * from[3] + to[2] * from[1] - to[1] * from[2]};
 }
 
-/// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and how near: 1 where
-/// they then agree, 0 where no turn about z helps.
+/// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and the agreement: 1 if
+/// they then coincide, 0 if no rotation about z helps.
 template <class Real>
 struct HalfTurn {
   Real cos;
@@ -114,14 +115,14 @@ inline HalfTurn<Real> turn_between(const Quaternion<Real>& from, const Quaternio
   return {w * inverse, z * inverse, size};
 }
 
-/// The half turn about z that brings the horizontal part of `from` to the direction of that of `to`.
+/// Returns the half turn about z that aligns the horizontal part of `from` with that of `to`.
 template <class Real>
 inline HalfTurn<Real> turn_between(const Vector3<Real>& from, const Vector3<Real>& to) {
   const Real along = to[0] * from[0] + to[1] * from[1];
   const Real across = to[1] * from[0] - to[0] * from[1];
   const Real size = square_root(along * along + across * across);
   if (!(size > Real(1e-12f))) return {Real(1.0f), Real(0.0f), Real(0.0f)};
-  // Half of an angle: cos² = (1 + cos 2φ)/2, whichever of the two is larger first.
+  // Half of an angle: cos² = (1 + cos 2φ)/2, computing the larger of cosine and sine first.
   const Real cos = along / size, sin = across / size;
   if (cos > Real(0.0f)) {
     const Real half = square_root(Real(0.5f) + Real(0.5f) * cos);
@@ -131,7 +132,7 @@ inline HalfTurn<Real> turn_between(const Vector3<Real>& from, const Vector3<Real
   return {Real(0.5f) * sin / half, half, size};
 }
 
-/// An orientation turned by a Gibbs vector on the world's side.
+/// Rotates an orientation by a Gibbs vector in world axes.
 template <class Real>
 inline Quaternion<Real> rotated(const Vector3<Real>& g, const Quaternion<Real>& q) {
   const Vector3<Real> axis{q[1], q[2], q[3]};

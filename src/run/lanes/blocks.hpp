@@ -6,15 +6,14 @@
 
 #include "run/lanes/lanes.hpp"
 
-// A build for small size steps one block at a time, with the same bits, so that each kernel is compiled once and not
-// twice.
+// Builds for size step one block at a time, with the same bits, so that each kernel is compiled only once.
 #ifndef WISP_BLOCKS_AT_ONCE
 #define WISP_BLOCKS_AT_ONCE 4
 #endif
 
 namespace wisp {
 
-/// The types in which `kBlocks` consecutive blocks are computed.
+/// Types in which `kBlocks` consecutive blocks are computed.
 template <class N, int kBlocks>
 struct PartsOfBlocks {
   using RealPart = typename N::RealPart;
@@ -37,14 +36,14 @@ struct BlockPlaces {
   }
 };
 
-/// Loads one part, one value a lane, from `after` values behind the address in each block.
+/// Loads one part, one value per lane, from `after` values behind the address in each block.
 template <class N, class Part, class Value, int kBlocks>
 inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i, Part& out) {
   const Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
   std::memcpy(static_cast<void*>(&out), static_cast<const void*>(first), sizeof out);
 }
 
-/// Stores one part there.
+/// Stores one part to the same addresses.
 template <class N, class Part, class Value, int kBlocks>
 inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
   Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;

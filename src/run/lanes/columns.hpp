@@ -1,5 +1,5 @@
 #pragma once
-// Transposes rows of tables, one row a lane, to columns that hold one number of every lane, and back.
+// Transposes rows of tables, one row per lane, to columns of one number per lane, and back.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ inline Quad quad_at(const float* row) {
   return quad;
 }
 
-/// Four successive numbers of every lane's row, as columns.
+/// Reads four successive numbers of every lane's row, as columns.
 inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
   const auto row_of = [&](int lane) { return quad_at(row[lane] + first); };
 #ifdef __AVX2__
@@ -47,7 +47,7 @@ inline void columns_part(const float* const* row, std::size_t first, RealPart (&
 #endif
 }
 
-// Four columns, written to every lane's row.
+// Writes four columns to every lane's row.
 inline void rows_part(const RealPart (&column)[4], std::size_t first, float* const* row) {
   const auto put = [&](int lane, const Quad& quad) { std::memcpy(row[lane] + first, &quad, sizeof quad); };
 #ifdef __AVX2__
@@ -83,7 +83,7 @@ inline void rows_part(const RealPart (&column)[4], std::size_t first, float* con
 }
 #endif
 
-/// Four successive numbers, from `first` on, of every lane's row.
+/// Reads four successive numbers, from `first` on, of every lane's row.
 template <class N, class Number>
 inline void columns_of(const Number* const (&row)[N::kLanes], std::size_t first, Reals<N> (&columns)[4]) {
   unrolled<N::kParts>([&](auto i) {
@@ -93,7 +93,7 @@ inline void columns_of(const Number* const (&row)[N::kLanes], std::size_t first,
   });
 }
 
-/// Four columns, written to every lane's row.
+/// Writes four columns to every lane's row.
 template <class N>
 inline void rows_of(const Reals<N> (&columns)[4], std::size_t first, typename N::Real* const (&row)[N::kLanes]) {
   unrolled<N::kParts>([&](auto i) {
@@ -117,12 +117,12 @@ inline void real_parts(const Eight& words, RealPart* parts) {
 }
 #endif
 
-/// Eight successive 16-bit integers of every lane's row, as real numbers in columns.
+/// Reads eight successive 16-bit integers of every lane's row, as real numbers in columns.
 template <class N>
 inline void columns_of(const std::int16_t* const (&row)[N::kLanes], Reals<N> (&columns)[8]) {
 #ifdef WISP_VECTOR_LANES
-  // Rows half of the lanes apart are interleaved. After log2(lanes) rounds, columns stand where rows stood; four lanes
-  // fill half of a vector.
+  // Rows half of the lanes apart are interleaved. After log2(lanes) rounds, columns are in the place of rows; four
+  // lanes fill half of a vector.
   if constexpr (N::kPartLanes > 1) {
     constexpr int kRows = N::kLanes, kHalf = kRows / 2;
     static_assert(kRows == 8 || kRows == 4);

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and words that count the arithmetic done with them. Kernels are instantiated with these types to measure
+// Number and word types that count the arithmetic done with them. Kernels are instantiated with these types to measure
 // their cost.
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace wisp {
 
-/// Operations so far, on this thread.
+/// Number of operations so far, on this thread.
 struct OperationCount {
   std::int64_t numbers = 0;  ///< + − × ÷ √ and the change of sign
   std::int64_t words = 0;    ///< arithmetic, logic and shifts
@@ -58,8 +58,8 @@ inline CountingWord operator+(CountingWord a, CountingWord b) { return counted(a
 inline CountingWord operator-(CountingWord a, CountingWord b) { return counted(a.value - b.value); }
 inline CountingWord operator<<(CountingWord a, int bits) { return counted(a.value << bits); }
 
-// Conversions and comparisons, as lanes.hpp has them for live numbers. They do not count as arithmetic; a signed shift
-// and a wide product do.
+// Conversions and comparisons, as in lanes.hpp for live numbers. They do not count as arithmetic; a signed shift and a
+// wide product do.
 
 inline CountingReal real_of_part(CountingWord word) {
   return CountingReal(static_cast<float>(static_cast<std::int32_t>(word.value)));

@@ -1,10 +1,10 @@
 #pragma once
-// The number types that kernels are templates over, and how many instances go side by side.
+// Number types of kernels, and the number of instances processed in parallel.
 //
-// A block is kLanes instances. Everything that an instance has is laid out as [what][lane], and a kernel does the same
-// operations in the same order in every lane. Lanes are the compilers' vector types, since gcc 12 and clang 14 unroll
-// plain loops over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of
-// the machine's vectors changes no bit.
+// A block is kLanes instances. All its data is laid out as [variable][lane], and a kernel does the same operations in
+// the same order in every lane. Lanes are the compilers' vector types, since gcc 12 and clang 14 unroll plain loops
+// over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of the
+// machine's vectors changes no bit.
 
 #include <bit>
 #include <cfloat>
@@ -35,7 +35,7 @@ inline constexpr int kVectorRegisters = 16;
 inline constexpr int kVectorRegisters = 32;
 #endif
 
-// A part is what the machine computes in one instruction: a vector, or one number.
+// A part is the operand of one machine instruction: a vector, or one number.
 
 #ifdef WISP_VECTOR_LANES
 #ifdef __AVX2__
@@ -151,7 +151,7 @@ inline LongWords product(LongWords a, std::uint32_t b) {
 #endif
 #endif
 
-/// The numbers of a live bank.
+/// Number types of a live bank.
 struct LiveNumbers {
   using Real = float;
   using Word = std::uint32_t;
@@ -168,7 +168,7 @@ struct OnePart : N {
   static constexpr int kParts = 1;
 };
 
-/// The same numbers in packs as wide as the machine's vectors. Where vectors have one lane, a pack is a block's, whose
+/// The same types in packs as wide as the machine's vectors. If vectors have one lane, a pack is a block's, whose
 /// functions are compiled anyway.
 template <class N>
 using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
@@ -180,19 +180,18 @@ using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 #define WISP_UNROLLED
 #endif
 
-/// Calls function(0), …, function(count − 1) with constants, so that an array which the loop indexes stays in
-/// registers.
+/// Calls function(0), …, function(count − 1) with constants, so that an array indexed by the loop stays in registers.
 template <int count, class Function>
 WISP_UNROLLED inline void unrolled(Function function) {
 #ifdef __wasm__
-  for (int k = 0; k < count; ++k) function(k);  // a page must fetch the code before it runs: small before fast
+  for (int k = 0; k < count; ++k) function(k);  // a web page must download the code: prefer small to fast
 #else
   [&]<int... k>(std::integer_sequence<int, k...>) WISP_UNROLLED { (function(std::integral_constant<int, k>()), ...); }
   (std::make_integer_sequence<int, count>());
 #endif
 }
 
-/// Values side by side, one a lane. Arithmetic is lane by lane.
+/// Values side by side, one per lane. Arithmetic is lane by lane.
 template <class Part, int kParts>
 struct Pack {
   Part part[kParts];
@@ -243,7 +242,7 @@ inline auto operator<<(const Pack<Part, kParts>& a, int bits) {
   return each([bits](const Part& x) { return x << bits; }, a);
 }
 
-/// The same value in every lane.
+/// Returns one value in every lane.
 template <class Packed, class Value>
 inline Packed all(Value value) {
   Packed out;
@@ -251,7 +250,7 @@ inline Packed all(Value value) {
   return out;
 }
 
-/// Load and store: one value a lane, in order.
+/// Load and store: one value per lane, in order.
 template <class Packed, class Value>
 inline Packed load(const Value* values) {
   Packed out;
@@ -270,7 +269,7 @@ inline void store(const Packed& packed, Value* values) {
   });
 }
 
-/// Keeps a loaded value in a register, where the compiler would load it again for every use.
+/// Keeps a loaded value in a register, where the compiler would otherwise reload it for every use.
 template <class Part>
 inline void hold_in_register([[maybe_unused]] Part& part) {
 #if defined(WISP_LONG_WORDS) && !defined(__wasm__)
@@ -287,19 +286,19 @@ inline auto real_of_bits(const Pack<Part, kParts>& bits) {
   return each([](const Part& x) { return real_of_bits_part(x); }, bits);
 }
 
-/// Words as signed numbers, rounded to nearest.
+/// Converts words, as signed integers, to numbers, rounded to nearest.
 template <class Part, int kParts>
 inline auto real_of(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return real_of_part(x); }, words);
 }
 
-/// Non-negative integers as words. Precondition: they are in [0, 2³¹).
+/// Converts non-negative integers to words. Precondition: they are in [0, 2³¹).
 template <class Part, int kParts>
 inline auto whole(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return whole_part(x); }, reals);
 }
 
-/// The next integers. Advancing to the next row of a table does not count as arithmetic, as indexing does not.
+/// Returns the next integers. Advancing to the next row of a table does not count as arithmetic, like indexing.
 template <class Part, int kParts>
 inline auto next_of(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return next_part(x); }, reals);
@@ -311,7 +310,7 @@ inline auto signed_shift(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return signed_shift_part<bits>(x); }, words);
 }
 
-/// All ones where two numbers differ, zeros elsewhere.
+/// Returns all ones where two numbers differ, zeros elsewhere.
 template <class Part, int kParts>
 inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
@@ -323,7 +322,7 @@ inline auto magnitude(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return magnitude_part(x); }, reals);
 }
 
-/// Whether any bit of any lane of a part is set.
+/// Returns whether any bit of any lane of a part is set.
 template <class Part>
 inline bool any_part(const Part& set) {
   std::uint32_t lanes[sizeof set / sizeof(std::uint32_t)], any = 0;
@@ -339,7 +338,7 @@ inline bool any_part(const WordPart& set) {
 }
 #endif
 
-/// Whether any bit of any lane is set.
+/// Returns whether any bit of any lane is set.
 template <class Part, int kParts>
 inline bool any(const Pack<Part, kParts>& words) {
   Part set = words.part[0];
@@ -352,14 +351,14 @@ inline auto square_root(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return square_root_part(x); }, reals);
 }
 
-/// The first value where the mask is above 0, else the second.
+/// Selects the first value where the mask is above 0, else the second.
 template <class Part, int kParts>
 inline auto chosen(const Pack<Part, kParts>& mask, const Pack<Part, kParts>& yes, const Pack<Part, kParts>& no) {
   return each([](const Part& m, const Part& zero, const Part& x, const Part& y) { return m > zero ? x : y; }, mask,
               all<Pack<Part, kParts>>(0.0f), yes, no);
 }
 
-/// The larger and the smaller of two numbers; the second where the first is not a number.
+/// Return the larger and the smaller of two numbers; the second if the first is NaN.
 template <class Part, int kParts>
 inline auto larger(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return x > y ? x : y; }, a, b);
@@ -369,13 +368,13 @@ inline auto smaller(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return x < y ? x : y; }, a, b);
 }
 
-/// Clamped to [low, high].
+/// Clamps to [low, high].
 template <class Part, int kParts>
 inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low, const Pack<Part, kParts>& high) {
   return smaller(larger(value, low), high);
 }
 
-/// The value, or `other` where it is NaN.
+/// Returns the value, or `other` where it is NaN.
 template <class Part, int kParts>
 inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>& other) {
   return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
@@ -383,7 +382,7 @@ inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>&
 
 /// State closer to zero than this is set to zero, so that an engine that flushes denormals gets the same numbers. State
 /// is in units of a power of two near the channel's range, and coefficients below kMinCoefficient are zero too; so
-/// products are multiples of 2^−123 and their sums can't be denormal.
+/// products are multiples of 2^−123 and their sums cannot be denormal.
 inline constexpr float kMinState = 1e-20f;
 inline constexpr float kMinCoefficient = 1e-10f;
 

@@ -10,7 +10,7 @@ namespace wisp {
 
 inline constexpr int kPhiloxRounds = 7;
 
-/// The round keys derived from a seed.
+/// Round keys derived from a seed.
 using RandomKeys = std::array<std::array<std::uint32_t, 2>, kPhiloxRounds>;
 
 inline RandomKeys random_keys(std::uint64_t seed) {
@@ -27,7 +27,7 @@ inline RandomKeys random_keys(std::uint64_t seed) {
 
 inline constexpr std::uint32_t kPhiloxFactors[] = {0xD2511F53U, 0xCD9E8D57U};
 
-/// Philox4x32: turns four counters a lane into four random words a lane.
+/// Philox4x32: converts four counters per lane to four random words per lane.
 template <class Part>
 inline void philox_part(const RandomKeys& keys, Part& w0, Part& w1, Part& w2, Part& w3) {
   for (const auto& key : keys) {
@@ -62,14 +62,14 @@ inline void philox(const RandomKeys& keys, Pack<Part, kParts> (&words)[4]) {
       [&](auto i) { philox_part(keys, words[0].part[i], words[1].part[i], words[2].part[i], words[3].part[i]); });
 }
 
-/// What distinguishes the lanes' random numbers: the instance's stream, and how many steps it has lived.
+/// Counters that distinguish the lanes' random numbers: the instance's stream, and its age in steps.
 struct LaneCounters {
   const std::uint64_t* stream;
-  const std::uint64_t* born;  ///< the bank's step when the life began
+  const std::uint64_t* born;  ///< the bank's step at which the instance was spawned
   std::uint64_t step;         ///< the bank's step now
 };
 
-/// The lanes' counters, for group 0.
+/// Returns the lanes' counters, for group 0.
 template <class N>
 inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
   std::uint32_t counters[4][N::kLanes];
@@ -86,7 +86,7 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
 /// Number of channels whose deviates come from one group of words.
 inline constexpr int kGroupChannels = 8;
 
-/// Random words of one group.
+/// Draws the random words of one group.
 template <class N>
 inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
                          Words<N> (&words)[4]) {
@@ -95,13 +95,13 @@ inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], 
   philox(keys, words);
 }
 
-/// Two standard normal deviates a lane.
+/// Two standard normal deviates per lane.
 template <class Values>
 struct NormalPair {
   Values first, second;
 };
 
-/// c[0] + x (c[1] + x (c[2] + …)).
+/// Evaluates c[0] + x (c[1] + x (c[2] + …)).
 template <class Values, std::size_t count>
 WISP_UNROLLED inline Values polynomial(const Values& x, const float (&c)[count]) {
   auto sum = all<Values>(c[count - 1]);
@@ -109,11 +109,11 @@ WISP_UNROLLED inline Values polynomial(const Values& x, const float (&c)[count])
   return sum;
 }
 
-/// Two independent normal deviates of one word a lane, by the polar form: a point in the plane in a direction without
-/// preference, √(−2 ln u) from its middle. Of the word, bits 0 to 19 are u, (k + ½) / 2²⁰; 21 to 31 a direction of the
-/// right half plane, π (k + ½) / 2¹¹ with k from −1024 to 1023; bit 20 turns it about. For −2 ln, sine and cosine stand
-/// the polynomials of their degrees with the least largest error, 3.0e-6, 5.9e-7 and 6.7e-6; each deviate is within
-/// 4e-5 of what it stands for, and their distribution within 1e-5.
+/// Converts one word per lane to two independent normal deviates, by the polar form: a point in the plane in a
+/// uniformly random direction, at distance √(−2 ln u) from the origin. Of the word, bits 0 to 19 are u, (k + ½) / 2²⁰;
+/// 21 to 31 a direction of the right half plane, π (k + ½) / 2¹¹ with k from −1024 to 1023; bit 20 inverts it. −2 ln,
+/// sine and cosine are replaced by the minimax polynomials of their degrees, with errors up to 3.0e-6, 5.9e-7 and
+/// 6.7e-6; each deviate is within 4e-5 of the exact one, and their distribution within 1e-5.
 ///
 /// Source: G. E. P. Box & M. E. Muller, A note on the generation of random normal deviates, Annals of Mathematical
 /// Statistics 29, 1958.
@@ -122,7 +122,7 @@ WISP_UNROLLED inline auto normal_lanes(const Pack<Word, kParts>& words) {
   using Bits = Pack<Word, kParts>;
   const auto whole = real_of(words & all<Bits>(0xfffffU));
   using Values = std::remove_const_t<decltype(whole)>;
-  // The octave of u, from √½ to √2, and the place in it.
+  // Octave of u, from √½ to √2, and position in it.
   constexpr std::uint32_t kMiddle = 0x3f3504f3U;  // the bits of √½
   const auto bits = bits_of(whole + all<Values>(0.5f)) - all<Bits>(kMiddle + (20U << 23));
   const auto octave = real_of(signed_shift<23>(bits));

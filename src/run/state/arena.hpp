@@ -1,5 +1,5 @@
 #pragma once
-// Lays arrays out in one piece of memory. An arena without memory only adds up their sizes, so that measuring and
+// Allocates arrays in one piece of memory. An arena without memory only adds up their sizes, so that measuring and
 // allocating share one code.
 
 #include <cassert>
@@ -11,21 +11,21 @@
 
 namespace wisp {
 
-/// Every array starts on a cache line, and so at a multiple of the widest vector.
+/// Alignment of every array: a cache line, and so a multiple of the widest vector.
 inline constexpr std::size_t kArenaAlignment = 64;
 
 class Arena {
  public:
-  /// An arena that only measures.
+  /// Creates an arena that only measures.
   Arena() = default;
 
-  /// An arena that lays out in `memory`.
+  /// Creates an arena that allocates in `memory`.
   explicit Arena(std::span<std::byte> memory)
       : start_(memory.data()), used_(padding(memory.data())), size_(memory.size()) {}
 
   bool measures() const { return start_ == nullptr; }
 
-  /// An array of `count` zeros. Empty while measuring.
+  /// Returns an array of `count` zeros, empty while measuring.
   ///
   /// Precondition: there is memory for it.
   template <class T>
@@ -40,7 +40,7 @@ class Arena {
     return {first, count};
   }
 
-  /// Bytes taken, with what alignment of the start may cost.
+  /// Returns the number of bytes taken, including the possible cost of aligning the start.
   std::size_t bytes() const { return measures() ? used_ + kArenaAlignment : used_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// The common part of the steppers of ARX kinds: histories whose samples are a model's channels (outputs, then
-// regressors), and how they are read.
+// Common part of the steppers of ARX kinds: histories whose samples are a model's channels (outputs, then regressors),
+// and their reading.
 
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 
 namespace wisp {
 
-/// A stepper, but for how the newest sample is made.
+/// A stepper without the computation of the newest sample.
 template <class N>
 class ChannelHistory {
  public:
@@ -21,21 +21,21 @@ class ChannelHistory {
   ChannelHistory(const Program& program, const Channels& channels, int blocks, Arena& arena)
       : channels_(channels), ring_(blocks, program.depth, program.outputs + program.regressors, arena) {}
 
-  /// Moves every block's history on by `samples`; the newest is then to be made.
+  /// Advances every block's history by `samples`; the newest is then to be computed.
   void turn(int samples = 1) { ring_.turn(samples); }
 
-  /// Whether blocks are prefetched before they are stepped: where caches do not hold them all.
+  /// Returns whether blocks are prefetched before they are stepped: if caches do not hold them all.
   bool is_far() const { return ring_.bytes() > kNearBytes; }
   void fetch(int block) const { ring_.fetch(block); }
 
-  /// Where the regressors of the step are written: [regressor][lane].
+  /// Returns the address of the step's regressors: [regressor][lane].
   Real* regressors(int block) { return ring_.sample(block, 0) + channels_.outputs.size() * kLanes; }
 
   /// Outputs of the last step, and of the one before: [output][lane].
   const Real* newest(int block) const { return ring_.sample(block, 0); }
   const Real* previous(int block) const { return ring_.sample(block, 1); }
 
-  /// Outputs of kBlocks consecutive blocks: the newest samples, or a `share` of the way to them from the samples
+  /// Reads the outputs of kBlocks consecutive blocks: the newest samples, or interpolated by `share` from the samples
   /// before.
   template <int kBlocks = 1>
   void show(int block, Real* out) const {
@@ -52,7 +52,7 @@ class ChannelHistory {
     });
   }
 
-  /// What a frame reads, for counting its cost: half-way between two steps, since games have frame rates of their own.
+  /// Reads a frame for counting its cost: half-way between two steps, since games have frame rates of their own.
   void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
 
  protected:
@@ -70,13 +70,13 @@ class ChannelHistory {
     }
   }
 
-  /// Count of the numbers of one lane's history.
+  /// Returns the number of state variables in one lane's history.
   std::size_t history_values() const {
     return static_cast<std::size_t>(ring_.depth()) * (channels_.outputs.size() + channels_.regressors.size());
   }
 
-  /// Calls visit(value, low, high) for each number of a lane's history, newest first. The order does not depend on the
-  /// position in the ring.
+  /// Calls visit(value, low, high) for each number of a lane's history, newest first, independent of the position in
+  /// the ring.
   template <class Visit>
   void visit_history(int block, int lane, Visit visit) {
     for (int lag = 0; lag < ring_.depth(); ++lag) {

@@ -1,7 +1,7 @@
 #pragma once
-// A model's inputs and outputs as the kernels see them: deviations from the operating point, in units near the
-// channel's range, so that "too small to matter" means the same for every model. The unit is the channel's own where
-// its range is within a factor of some hundred of 1, else a power of two, so that scaling is exact.
+// A model's inputs and outputs in the kernels: deviations from the operating point, in units near the channel's range,
+// so that "negligible" means the same for every model. The unit is the channel's own if its range is within a factor of
+// some hundred of 1, else a power of two, so that scaling is exact.
 
 #include <cstdint>
 #include <span>
@@ -22,29 +22,29 @@ struct OutputChannel {
   float high;
   float lowest;
   float highest;
-  float start;  ///< z of a newborn instance: the operating point
+  float start;  ///< z of a new instance: the operating point
 };
 
-/// How a regressor is made from its input: as it is, or from its size. Of a wind vector: from its length, or from that
-/// times the x or the z of its direction.
+/// Part of an input from which a regressor is computed: the whole, or its magnitude. Of a wind vector: its length, or
+/// the length times the x or the z of its direction.
 enum class RegressorPart : std::uint8_t { kWhole, kSize, kLength, kAlong, kAcross };
 
-/// The power of a part that a regressor is; that of a whole input has its sign.
+/// Power of a part that a regressor takes; that of a whole input has its sign.
 enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
 
-/// A regressor of an input.
+/// Part and power of an input's regressor.
 struct RegressorForm {
   RegressorPart part;
   RegressorPower power = RegressorPower::kOne;
 };
 
-/// The regressors that an input of that shape makes, in their order.
+/// Returns the regressors of an input of that shape, in order.
 std::span<const RegressorForm> regressor_forms(InputShape shape);
 
 /// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. A power is
 /// power(part(u) · inverse_scale) − mean · inverse_scale, so that a square can't overflow.
 struct RegressorChannel {
-  std::int32_t input;  ///< of a vector the first of two
+  std::int32_t input;  ///< index of the input; of a vector its first component
   RegressorPart part;
   RegressorPower power;
   float low;
@@ -60,20 +60,20 @@ struct Channels {
   std::span<RegressorChannel> regressors;
 };
 
-/// The power of two in which a channel's deviations are measured; 1 where its range is 1/128 to 128, or 0.
+/// Returns the power of two in which a channel's deviations are measured; 1 if its range is 1/128 to 128, or 0.
 double channel_scale(double lowest, double highest);
 
-/// The unit in which the deviations of a power of an input are measured.
+/// Returns the unit in which the deviations of a power of an input are measured.
 double regressor_unit(const Input& input, RegressorPower power);
 
-/// The unit of a regressor, by its index among all of a model's.
+/// Returns the unit of a regressor, by its index among all of a model's.
 double regressor_scale(const Model& model, int regressor);
 
-/// Ranges of the variables that the dynamics move: the components of an outline's shape where there are some, else the
+/// Returns the ranges of the dynamics' variables: the components of an outline's shape if there are some, else the
 /// outputs.
 std::vector<ValueRange> moved_ranges(const Model& model);
 
-/// The operating point of each channel, as the dynamics know it.
+/// The operating point of each channel, in the dynamics.
 struct OperatingPoint {
   std::span<const double> outputs;
   std::span<const double> regressors;
@@ -82,13 +82,13 @@ struct OperatingPoint {
 /// Lays the channels out and, unless the arena measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
-/// Errors: a range or a mean that single precision can't hold with room to compute.
+/// Errors: a range or a mean too large or small for computation in single precision.
 Result<void> check_channels(const Model& model, const OperatingPoint& point);
 
-/// A hash of the channels, over a hash of what came before.
+/// Hashes the channels, continuing from the hash `before`.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// A power of the sizes of inputs.
+/// Returns a power of the inputs' magnitudes.
 template <class N>
 inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
@@ -103,7 +103,7 @@ inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   return part;
 }
 
-/// The values of a regressor from its inputs; NaN counts as 0.
+/// Returns the values of a regressor from its inputs; NaN counts as 0.
 template <class N>
 inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -121,14 +121,14 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   return settle(part);
 }
 
-/// A level vector by its length, which is clamped, and its direction. Where z is 0, both are those of x to the bit.
+/// A horizontal vector by its length, which is clamped, and its direction. If z is 0, both equal those of x to the bit.
 template <class N>
 struct LevelVector {
   LevelVector(const Reals<N>& along, const Reals<N>& across, float most) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), high = all<Reals<N>>(most);
     const auto clamped = [&](const Reals<N>& part) { return settle(hold(number_or(part, zero), zero - high, high)); };
     x = clamped(along), z = clamped(across);
-    // By the larger part, so that no square is too small or too large.
+    // Scaled by the larger component, so that no square overflows or underflows.
     const auto least_one = [](const auto& a, const auto& none, const auto& b) { return a > none ? a : b; };
     const auto scale = larger(magnitude(x), magnitude(z)), divisor = each(least_one, scale, zero, one);
     x = x / divisor, z = z / divisor;
@@ -140,7 +140,7 @@ struct LevelVector {
   Reals<N> length, x, z;
 };
 
-/// Makes regressors of a block's inputs, lanes_of(input): each vector is taken apart once for all of its regressors.
+/// Computes regressors of a block's inputs, lanes_of(input): each vector is decomposed once for all of its regressors.
 template <class N, class LanesOf>
 class Regressing {
  public:
@@ -167,7 +167,7 @@ class Regressing {
   Reals<N> power_[3], x_, z_;
 };
 
-/// Converts an output's deviations to its own unit. Holds its constants, so that they are loaded once for many values.
+/// Converts an output's deviations to its own unit. Keeps its constants loaded for many values.
 template <class Values>
 class Presentation {
  public:
@@ -185,7 +185,7 @@ class Presentation {
   bool scales_;
 };
 
-/// One part of the values of consecutive blocks, `after` numbers from the beginning of each.
+/// Loads one part of the values of consecutive blocks, `after` numbers from the beginning of each.
 template <class N, class Value, int kBlocks>
 inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
   Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, 1> one;
@@ -193,7 +193,7 @@ inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t aft
   return one;
 }
 
-/// The readable outputs of consecutive blocks, [output][lane] each, where z(after, i) is part i of an output's
+/// Computes the readable outputs of consecutive blocks, [output][lane] each, where z(after, i) is part i of an output's
 /// deviations. Part by part, since narrow machines have few registers.
 template <class N, int kBlocks, class Deviation>
 inline void show_blocks(std::span<const OutputChannel> outputs, typename N::Real* out, Deviation z) {

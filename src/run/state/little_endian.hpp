@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as little-endian bytes, whatever the machine.
+// Numbers as little-endian bytes on any machine.
 
 #include <bit>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace wisp {
 
-/// Writes numbers one after the other.
+/// Writes consecutive numbers.
 ///
 /// Precondition: there is room.
 class ByteWriter {
@@ -26,7 +26,7 @@ class ByteWriter {
   std::byte* at_;
 };
 
-/// Reads them back.
+/// Reads consecutive numbers.
 ///
 /// Precondition: there are as many.
 class ByteReader {

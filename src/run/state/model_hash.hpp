@@ -1,5 +1,5 @@
 #pragma once
-// Hashes of a compiled model, the same on every machine. They tell whether a saved bank belongs to this model.
+// Hashes of a compiled model, equal on every machine. They determine whether a saved bank belongs to the model.
 
 #include <cstdint>
 #include <initializer_list>

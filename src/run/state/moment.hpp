@@ -1,5 +1,5 @@
 #pragma once
-// What a step needs to know besides the state, for every kind of dynamics.
+// Inputs of a step besides the state, for every kind of dynamics.
 
 #include "run/lanes/random_lanes.hpp"
 
@@ -8,14 +8,14 @@ namespace wisp {
 template <class N>
 struct Moment {
   const RandomKeys* keys = nullptr;
-  LaneCounters counters{};           ///< of the block
+  LaneCounters counters{};           ///< counters of the block
   std::uint32_t* clamped = nullptr;  ///< per lane: set to nonzero where an output was clamped
   int used = N::kLanes;              ///< number of lanes in use from the block's first on, later blocks included
 
-  /// Number of the block's lanes that are in use: code that works lane by lane skips the others.
+  /// Returns the number of the block's lanes in use: code that works lane by lane skips the others.
   int lanes() const { return used < N::kLanes ? used : N::kLanes; }
 
-  /// The moment for the block that lies `blocks` after this one.
+  /// Returns the moment for the block that lies `blocks` after this one.
   Moment later(int blocks) const {
     Moment of = *this;
     of.counters.stream += blocks * N::kLanes;

@@ -1,5 +1,5 @@
 #pragma once
-// The last samples of every instance, in a ring whose position is common to the whole bank, so that looking back takes
+// The last samples of every instance, in a ring whose position is common to the whole bank, so that reading a lag takes
 // no modulo.
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class SampleRing {
 
   SampleRing() = default;
 
-  /// `depth` samples of `channels` numbers for each lane of each block. Precondition: depth > 0.
+  /// Allocates `depth` samples of `channels` numbers for each lane of each block. Precondition: depth > 0.
   SampleRing(int blocks, int depth, int channels, Arena& arena)
       : depth_(depth), row_(static_cast<std::size_t>(channels) * N::kLanes) {
     const auto samples = static_cast<std::size_t>(depth);
@@ -47,19 +47,18 @@ class SampleRing {
   /// Distance, in numbers, from a sample of one block to the same sample of the next.
   std::size_t stride() const { return static_cast<std::size_t>(depth_) * row_; }
 
-  /// The address of a block's numbers, and the offsets of its samples: the sample of `lag` steps ago lies at
-  /// back()[lag].
+  /// Address of a block's numbers, and offsets of its samples: the sample of `lag` steps ago is at back()[lag].
   const Real* begin(int block) const { return values_.data() + static_cast<std::size_t>(block) * stride(); }
   const std::uint32_t* back() const { return lag_row_.data() + (depth_ - place_); }
 
-  /// Moves the ring on by `samples`; the newest sample is then to be made.
+  /// Advances the ring by `samples`; the newest sample is then to be computed.
   void turn(int samples = 1) {
     place_ += samples < depth_ ? samples : samples % depth_;
     if (place_ >= depth_) place_ -= depth_;
   }
 
-  /// The sample of `lag` steps ago, [channel][lane]. The table of offsets is stored twice in succession, so that
-  /// position plus lag needs no modulo. Precondition: lag < depth().
+  /// Returns the sample of `lag` steps ago, [channel][lane]. The table of offsets is stored twice in succession, so
+  /// that position plus lag needs no modulo. Precondition: lag < depth().
   const Real* sample(int block, std::uint32_t lag) const { return begin(block) + back()[lag]; }
   Real* sample(int block, std::uint32_t lag) { return const_cast<Real*>(std::as_const(*this).sample(block, lag)); }
 
