@@ -32,7 +32,7 @@ struct ArxProgram {
   std::size_t shocks = 0;  ///< number of shocks added; known while measuring, when all arrays are empty
   std::span<TapRun> runs;
   std::span<std::uint32_t> row_end;    ///< per output, one past its last run
-  std::span<std::uint32_t> twin;       ///< per output, its number of taps if the next has the same taps, else 0
+  std::span<std::uint32_t> twin;       ///< per output, number of taps if equal to the next but for coefficients, else 0
   std::span<float> coefficients;       ///< taps × modes; those of A are negated: a step only adds
   std::span<float> constant;           ///< outputs × modes
   std::span<std::uint32_t> shock;      ///< per shock, index of its standard normal number
