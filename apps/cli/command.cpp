@@ -16,7 +16,7 @@ double Arguments::number(std::string_view flag) const { return std::strtod(text(
 
 namespace {
 
-// Whether quotes and brackets are balanced; a comma within them is part of a name.
+// Whether quotes and brackets are balanced; commas inside them are part of a name.
 bool is_balanced(std::string_view text) {
   int depth = 0;
   for (char c : text) {
@@ -75,7 +75,7 @@ std::string help_of(const Flag& flag) {
     words += (words.empty() ? "" : ", ") + word;
     signs += (signs.empty() ? "" : "|") + word;
   }
-  // Some flags list their words in `value`.
+  // The words of some flags are listed in `value`.
   if (words.empty() || flag.value == signs || flag.kind != Kind::kChoice) return flag.help;
   return flag.help + " (one of " + words + ")";
 }
@@ -99,7 +99,7 @@ const std::vector<Flag>& common_flags() {
 
 namespace {
 
-// Flags whose values may name input files; a wind is a word or a file.
+// Names of input files given by flags; --wind is a word or a file.
 std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
   std::vector<std::string> files = arguments.positionals();
   for (const Flag& flag : command.flags) {
@@ -126,7 +126,7 @@ bool would_destroy(const std::filesystem::path& written, const std::string& inpu
   return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
 }
 
-// The kind of file of an extension; empty: any.
+// Kind of file by its extension; empty: any.
 std::string kind_of(const std::filesystem::path& name) {
   static const std::map<std::string, std::string> kinds = {
       {".csv", "table"}, {".wisp", "model"},  {".html", "page"},   {".json", "document"},
@@ -142,7 +142,7 @@ bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
   return !expected.empty() && !found.empty() && expected != found;
 }
 
-// A table of figures and a model name what they were made of, a line each.
+// Rejects file names with a line break: tables and models store the names of their sources, one per line.
 Result<void> check_names(const Command& command, const Arguments& arguments) {
   std::vector<std::pair<std::string, std::string>> names;
   for (const std::string& name : arguments.positionals()) names.push_back({"", name});

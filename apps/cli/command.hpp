@@ -1,5 +1,5 @@
 #pragma once
-// A command of the program: an entry of the table from which parser, help and docs/reference/cli.md are made.
+// A command of the program: an entry of the table from which parser, help and docs/reference/cli.md are generated.
 
 #include <functional>
 #include <limits>
@@ -16,44 +16,44 @@ namespace wisp::cli {
 
 class Terminal;
 
-/// The type of a flag's value, by which wrong usage is found before any work.
+/// Type of a flag's value; the parser rejects wrong values before any work.
 enum class Kind {
   kSwitch,         ///< no value
   kText,           ///< any text
   kPath,           ///< a file or folder name
-  kOutput,         ///< a file or folder that is written; never one that is read
+  kOutput,         ///< a file or folder to write; must differ from every input
   kInteger,        ///< a whole number, not negative
   kNumber,         ///< a finite number
   kChoice,         ///< one of the words in `words`
   kIntegerOrWord,  ///< a whole number, or one of the words
-  kNames,          ///< names, separated by commas; those within quotes or brackets belong to a name
+  kNames,          ///< names separated by commas; commas inside quotes or brackets belong to a name
   kSamples,        ///< a range A:B of samples, 1-based, inclusive
 };
 
 /// One flag of a command.
 struct Flag {
-  std::string name;  ///< without the dashes
+  std::string name;  ///< name without the dashes
   Kind kind = Kind::kSwitch;
-  std::string value;     ///< name of its value in the help
-  std::string fallback;  ///< its default as text; empty: none
+  std::string value;     ///< placeholder of its value in the help
+  std::string fallback;  ///< default as text; empty: none
   std::string help;
   std::vector<std::string> words{};
   bool required = false;
   std::vector<std::string> unless{};  ///< flags that make this one optional
-  /// Further files of an output: extensions that replace its own or, for a folder, names in it.
+  /// Names of additional files of an output: extensions that replace its own or, for a folder, names in it.
   std::vector<std::string> brings{};
-  std::string with{};  ///< the flag without which this one does nothing
-  /// What its number may be, both included.
+  std::string with{};  ///< another flag, without which this one has no effect
+  /// Range of the number, both ends included.
   double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
 };
 
-/// A flag whose number is in a range, which its help says.
+/// A flag with a numeric range, which its help states.
 Flag ranged(Flag flag, double lowest, double highest);
 
-/// The flag's help, with the words that it accepts.
+/// The flag's help, with the accepted words.
 std::string help_of(const Flag& flag);
 
-/// Arguments without dashes.
+/// A positional argument.
 struct Positional {
   std::string name;
   std::string help;
@@ -66,16 +66,16 @@ struct Example {
   std::string what;
 };
 
-/// 1-based and inclusive, as in identification literature.
+/// A range of samples, 1-based and inclusive, as in identification literature.
 struct SampleRange {
   std::size_t first = 1;
   std::size_t last = 0;
 };
 
-/// Whether a text is one: A:B with 1 <= A <= B.
+/// Whether a text is a sample range A:B with 1 <= A <= B.
 bool is_sample_range(const std::string& text);
 
-/// The user's values and the defaults. The parser has checked values against their Kind.
+/// Values of the arguments, given by the user or defaults; the parser has checked them against their Kind.
 class Arguments {
  public:
   bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
@@ -109,24 +109,24 @@ struct Command {
 /// All commands, in the order of help and manual.
 const std::vector<Command>& commands();
 
-/// Flags that every command has.
+/// Flags common to all commands.
 const std::vector<Flag>& common_flags();
 
-/// What the program says of itself, made from the table, in the form `markdown` (docs/reference/cli.md), `man`, `bash`,
-/// `zsh` or `fish`; nothing for another word.
+/// The program's manual, generated from the table, in the form `markdown` (docs/reference/cli.md), `man`, `bash`, `zsh`
+/// or `fish`; empty for another word.
 std::optional<std::string> manual(const std::string& form);
 
-/// What to type first.
+/// A short text with the first commands to try.
 std::string first_steps();
 
-/// Help about the command or the group of commands that these words name, else about the program.
+/// Help for the command or group of commands with these words, else for the program.
 std::string help(std::string words);
 
-/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known
-/// and something else is wrong.
+/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known,
+/// so that something else is wrong.
 std::string wrong_words(std::span<const std::string> words);
 
-/// Errors: an output or one of its further files is also an input, or its extension is of another kind of file.
+/// Errors: an output or one of its additional files is also an input, or its extension is of another kind of file.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -1,6 +1,6 @@
 // The program `wisp`: parses the command line and runs one command of the table.
 //
-// Exit status: 0 done, 1 the data or a file was bad, 2 wrong usage.
+// Exit status: 0 success, 1 bad data or a bad file, 2 wrong usage.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -39,7 +39,7 @@ std::string words_of(const Flag& flag) {
   return all;
 }
 
-// Returns what is wrong with the kind of a flag's value; empty if nothing.
+// Describes what is wrong with the type of a flag's value; empty if nothing.
 std::string complaint_of_kind(const Flag& flag, const std::string& text) {
   const std::string found = "found \"" + text + "\", expected ";
   switch (flag.kind) {
@@ -65,7 +65,7 @@ std::string complaint_of_kind(const Flag& flag, const std::string& text) {
   return {};
 }
 
-// Returns what is wrong with a flag's value; empty if nothing.
+// Describes what is wrong with a flag's value; empty if nothing.
 std::string complaint(const Flag& flag, const std::string& text) {
   const bool numeric = flag.kind == Kind::kInteger || flag.kind == Kind::kNumber || flag.kind == Kind::kIntegerOrWord;
   std::string wrong = complaint_of_kind(flag, text);
@@ -105,7 +105,7 @@ void add_flag(Wired& wired, const Flag& flag) {
   if (flag.required && flag.unless.empty()) option->required();
 }
 
-// Checks flags that are required unless another one is given, or that do nothing without another one.
+// Checks that flags required unless another one is given are present, and that flags have the other flag they need.
 void check_required(const Wired& wired) {
   const auto given = [&](const std::string& other) { return wired.app->count("--" + other) > 0; };
   for (const Flag& flag : wired.command->flags) {
@@ -167,7 +167,7 @@ Arguments arguments_of(const Wired& wired) {
 }
 
 int flush_output() {
-  std::cout.flush();  // what CLI11 writes to
+  std::cout.flush();  // stream that CLI11 writes to
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return kDone;
   std::fputs("wisp: standard output cannot be written; the result is lost\n", stderr);
   return kBadData;
@@ -181,16 +181,14 @@ int run_command(const Wired& wired) {
   if (!outcome) {
     const std::string& message = outcome.error().message;
     terminal.fail(message);
-    // Prefixes an error about a flag's value with the flag's name. Used where the value passed the type check and the
-    // command
-    // rejected it.
+    // An error that begins with a flag's name is about its value: the command rejected what passed the type check.
     return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();
   return flush_output();
 }
 
-// The words before the first flag, joined.
+// Words before the first flag, joined.
 std::string leading(const std::vector<std::string>& words) {
   std::string all;
   for (const std::string& word : words) {
@@ -200,14 +198,14 @@ std::string leading(const std::vector<std::string>& words) {
   return all;
 }
 
-// The command or group of commands that the first words name.
+// The command or group of commands named by the first words.
 std::string command_in(const std::vector<std::string>& words) {
   std::string name = leading(words);
   while (!name.empty() && !is_command(name) && !is_group(name)) name.erase(std::min(name.size(), name.rfind(' ')));
   return name;
 }
 
-// Prints what `wisp` alone or `wisp help WORDS` asks for and returns the exit status; nothing for any other arguments.
+// Answers `wisp` without arguments and `wisp help WORDS`. Returns the exit status; empty for other arguments.
 std::optional<int> answer_help(std::vector<std::string> words) {
   if (words.empty()) {
     std::fputs(first_steps().c_str(), stderr);
@@ -242,7 +240,7 @@ int run_program(int argc, char** argv) {
     std::fputs(help(command_in(words)).c_str(), stdout);
     return flush_output();
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return root.exit(error), flush_output();  // the version
+    if (error.get_exit_code() == 0) return root.exit(error), flush_output();  // prints the version
     std::string wrong = wrong_words(words);
     if (wrong.empty()) wrong = std::string("wisp: ") + error.what() + "; more: wisp " + command_in(words) + " --help";
     std::fprintf(stderr, "%s\n", wrong.c_str());

@@ -1,4 +1,4 @@
-// What the program says of itself, from the table of commands: help, docs/reference/cli.md, a man page, completion.
+// The program's manual, generated from the table of commands: help, docs/reference/cli.md, man page, completion.
 
 #include <algorithm>
 #include <numeric>
@@ -11,8 +11,8 @@
 namespace wisp::cli {
 namespace {
 
-constexpr std::size_t kWidth = 100;  // letters of a line of help
-constexpr std::size_t kColumn = 26;  // at which explanations begin
+constexpr std::size_t kWidth = 100;  // width of a line of help, characters
+constexpr std::size_t kColumn = 26;  // column at which explanations begin
 
 std::string usage(const Command& command) {
   std::string line = "wisp " + command.name;
@@ -52,12 +52,12 @@ std::string section(const Command& command) {
   return text;
 }
 
-// Letters that are seen, of UTF-8.
+// Number of characters of UTF-8 text.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-// A word or flag on the left, what it means on the right, in lines of kWidth.
+// An entry with a word or flag on the left and its meaning on the right, in lines of kWidth.
 std::string entry(const std::string& left, const std::string& right) {
   std::string line = "  " + left, text;
   if (width_of(line) + 2 > kColumn) {
@@ -102,7 +102,7 @@ bool begins_with(const Command& command, const std::string& words) {
   return command.name == words || command.name.starts_with(words + " ");
 }
 
-// Text as troff reads it.
+// Escapes text for troff.
 std::string troff(const std::string& text) {
   const std::string safe = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
@@ -260,7 +260,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// Ends the sentence, with a suggestion where a word is near enough for a typing error.
+// Ends the sentence, with a suggestion where a known word is near enough for a typing error.
 std::string nearest(const std::string& word, const std::vector<std::string>& known, const std::string& before) {
   const auto nearer = [&](const std::string& a, const std::string& b) { return distance(word, a) < distance(word, b); };
   const auto best = std::min_element(known.begin(), known.end(), nearer);
@@ -274,7 +274,7 @@ std::string listed(const std::vector<std::string>& words) {
   return all;
 }
 
-// Words allowed first, or second in commands of two words.
+// Words allowed in first place, or in second place after `first`.
 std::vector<std::string> next_words(const std::string& first) {
   std::vector<std::string> words;
   for (const Command& command : commands()) {

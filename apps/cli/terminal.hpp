@@ -18,15 +18,14 @@ class Terminal {
   };
   explicit Terminal(Options options);
 
-  /// A bar on standard error while something long runs: `done` in [0, 1], or negative where the length is not known.
-  /// Only drawn on a terminal.
+  /// Draws a progress bar on standard error: `done` in [0, 1], or negative for an unknown length. Only on a terminal.
   void progress(std::string_view what, double done);
 
   /// The progress bar as the library's callback.
   Progress progress();
 
-  /// A report as the command's result: as text at once, or as part of the JSON document at the end. Its warnings go to
-  /// standard error too.
+  /// Shows a report as the command's result: as text immediately, or as part of the JSON document at the end. Its
+  /// warnings are also written to standard error.
   void show(const Report& report);
 
   /// Adds a figure to the JSON result only.
@@ -38,14 +37,14 @@ class Terminal {
   /// Prints the verdict of an intermediate result, for people.
   void verdict(const std::string& of, const Report& report);
 
-  /// Prints a warning, one line on standard error; the command goes on.
+  /// Prints a warning, one line on standard error; the command continues.
   void warn(std::string_view text);
 
   /// Prints one line of the result for people; silent with --json.
   void say(std::string_view text);
 
-  /// The result so far, which finish() prints as one JSON document with --json. A command of several steps takes each
-  /// step's result out and puts the whole in.
+  /// The result so far, which finish() prints as one JSON document with --json. A command of several steps removes each
+  /// step's result and adds the whole.
   Report& result() { return result_; }
 
   /// Ends the progress bar, and prints the JSON document with --json.
@@ -63,7 +62,7 @@ class Terminal {
   bool terminal_ = false;
   bool bar_shown_ = false;
   int last_percent_ = -1;
-  std::chrono::steady_clock::time_point begun_{};  // what is shown
+  std::chrono::steady_clock::time_point begun_{};  // start of the operation in the progress bar
   std::string last_what_;
   Report result_;
 };

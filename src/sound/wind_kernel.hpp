@@ -39,7 +39,7 @@ struct Observation {
   T band_power = T(0.0F);      ///< mean square of the level band
   T clipped = T(0.0F);         ///< share of samples at full scale
   T loudness_db = T(-120.0F);  ///< as in Features, at the frame's end
-  T likeness = T(0.0F);        ///< probability-like, 0 to 1, of blowing rather than talking, independent of strength
+  T likeness = T(0.0F);        ///< probability from 0 to 1 of blowing rather than talking, whatever its strength
   T likeness_now = T(0.0F);    ///< likeness of the newest hop alone, without a gust's tail
 };
 
@@ -139,7 +139,7 @@ class Kernel {
   /// Declares that the stream begins during an unknown sound.
   void begin_unknown() { sudden_.begin_unknown(); }
 
-  /// A channel's voice band in the hop that has just ended, differenced, at the rate of voices.
+  /// One channel's differenced voice band over the last hop, at the rate of the voicing analysis.
   std::span<const T> voice_hop(std::size_t channel) const {
     return {channels_[channel].history.hop(), static_cast<std::size_t>(d_.hop / d_.voice_step)};
   }
@@ -158,7 +158,7 @@ class Kernel {
     return x > 8.0F ? 8.0F : x;
   }
 
-  // Powers below this (−240 dB) are none: some machines flush such small numbers and some do not.
+  // Flushes powers below −240 dB to 0, as some machines flush denormal numbers and some do not.
   static T audible_power(T power) { return power < T(1e-24F) ? T(0.0F) : power; }
 
   static T root(T x) {
@@ -173,7 +173,7 @@ class Kernel {
     return channel.decimator.push(x);
   }
 
-  // Sums of a few samples first, then their sum: a second of 192 kHz keeps its digits in single precision.
+  // Sums in two stages, so that a second at 192 kHz keeps its digits in single precision.
   void gather() {
     power_ = power_ + group_power_;
     group_power_ = T(0.0F);
@@ -184,9 +184,8 @@ class Kernel {
     for (auto& channel : channels_) {
       const T voice = channel.bands.push(channel.decimator.value());
       channel.history.push(voice);
-      // The level's band is the voice band, raised above 300 Hz: more of its falling spectrum then counts, and a
-      // frame's level scatters less. What lies below counts as it is, or a microphone that favours it hears no hard
-      // blow.
+      // The level's band is the voice band with a rise above 300 Hz, which flattens its falling spectrum and so reduces
+      // the variance of a frame's level. Below 300 Hz it is flat, for microphones that pass mainly low frequencies.
       const T levelled = voice - T(d_.level_zero) * channel.before;
       channel.before = voice;
       frame_band_ = frame_band_ + levelled * levelled;
@@ -219,13 +218,13 @@ class Kernel {
     likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
   }
 
-  /// Whether there is a sound to judge, and one older than two hops: a voice needs as long to show its period.
+  /// Whether there is sound that began more than two hops ago: a voice takes as long to show its period.
   bool judged(T voice_sum) const {
     const T newest = T(d_.power_approach) * voice_sum * per_hop_;
     return T(kMinJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
   }
 
-  /// A hop's power over the 50 ms mean that it is part of, at most 1.
+  /// Power of a hop over its 50 ms mean, at most 1.
   T fresh(T voice_sum) const {
     const T power = voice_sum * per_hop_;
     return power < mean_.voice ? power / mean_.voice : T(1.0F);
@@ -256,8 +255,8 @@ class Kernel {
     features_.peaked = peaked;
   }
 
-  static constexpr float kMinJudged = 1e-11F;  // −110 dB: nothing is heard
-  static constexpr float kFullScale = 0.999F;  // 16-bit clipping leaves 32767 or, after an encoder, a little less
+  static constexpr float kMinJudged = 1e-11F;  // −110 dB: below, the sound counts as silent
+  static constexpr float kFullScale = 0.999F;  // 16-bit clipping gives 32767 or, after an encoder, slightly less
 
   Design d_;
   std::vector<Channel> channels_;

@@ -1,5 +1,5 @@
 #pragma once
-// All of the live estimator but the clock: sound in, frames out when told, over any number type.
+// The live estimator without its clock: takes samples, returns frames on request, over any number type.
 
 #include <cstdint>
 
@@ -42,7 +42,7 @@ class Listener {
     return frame;
   }
 
-  /// Takes the coming frames for what was asked for.
+  /// Uses the coming frames for a guided calibration with the requested kind of wind.
   void calibrate(WindAsk ask, int frames) {
     ask_ = ask;
     asked_frames_ = frames;
@@ -69,8 +69,8 @@ class Listener {
   }
 
   static constexpr float kGustConfidence = 0.8F;
-  static constexpr float kSureLikeness = 0.65F;  ///< of one frame: strong wind is believed
-  static constexpr float kFirstGusts = 0.6F;     ///< what the level of wind 1 weighs before any was heard
+  static constexpr float kSureLikeness = 0.65F;  ///< likeness of a frame from which strong wind is accepted
+  static constexpr float kFirstGusts = 0.6F;     ///< weight of the initial level of wind 1, in gusts
 
   Design d_;
   Kernel<T> kernel_;
@@ -78,7 +78,7 @@ class Listener {
   Reference<T> reference_;
   LiveBridge<T> bridge_;
   Sustained<T> sustained_;
-  GustLevel<T> asked_;  ///< what is heard of what a guided calibration asked for
+  GustLevel<T> asked_;  ///< level heard during a guided calibration
   WindAsk ask_ = WindAsk::kBreatheGently;
   int asked_frames_ = 0;
   bool heard_ask_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// The few functions beyond + − × ÷ √ that hearing wind needs, made of nothing else, so that they give the same bits
+// Functions of the wind estimator beyond + − × ÷ √, made of these operations only, so that results are the same bits
 // with every compiler and C library.
 
 #include <bit>
@@ -8,10 +8,10 @@
 namespace wisp::wind {
 
 // The kernel is a template over its number type: float in the product, a counting type where its cost is measured.
-// Only these two functions look inside a number; a counting type overloads them.
+// Only these two functions access a number's value; a counting type overloads them.
 inline float plain(float x) { return x; }
 
-/// x as m · 2^e with m in [1/√2, √2). For finite x >= 2^-126.
+/// Decomposition of x as m · 2^e with m in [1/√2, √2). For finite x >= 2^-126.
 struct Split {
   float mantissa;
   int exponent;
@@ -28,8 +28,8 @@ inline Split split(float x) {
 /// 2^n for n in −126 … 127.
 inline float power_of_two(int n) { return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23); }
 
-/// Base-2 logarithm, from the series of artanh((m−1)/(m+1)) cut after its fourth term (remainder below 4.2e-8);
-/// absolute error below 2e-7 for |log2 x| < 1, else one rounding of the result more. For finite x >= 2^-126.
+/// Base-2 logarithm, from the series of artanh((m−1)/(m+1)) truncated after its fourth term (remainder below 4.2e-8);
+/// absolute error below 2e-7 for |log2 x| < 1, else one more rounding. For finite x >= 2^-126.
 template <class T>
 T log2_of(T x) {
   const Split parts = split(plain(x));
@@ -40,8 +40,8 @@ T log2_of(T x) {
   return T(static_cast<float>(parts.exponent)) + s * series;
 }
 
-/// 2 to the power x, from the power series of 2^f, |f| <= 1/2, cut after f^6 (remainder below 1.3e-7 of the value);
-/// relative error below 4e-7. x is held to −125 … 125.
+/// 2 to the power x, from the power series of 2^f, |f| <= 1/2, truncated after f^6 (relative remainder below 1.3e-7);
+/// relative error below 4e-7. x is clamped to −125 … 125.
 template <class T>
 T exp2_of(T x) {
   if (x < T(-125.0F)) x = T(-125.0F);
@@ -62,13 +62,13 @@ T decibels(T power) {
   return T(3.0102999566F) * log2_of(power);
 }
 
-/// The power ratio of decibels.
+/// Power ratio of a number of decibels.
 template <class T>
 T from_decibels(T db) {
   return exp2_of(db * T(0.3321928095F));
 }
 
-/// 1 / (1 + e^−x).
+/// Logistic function 1 / (1 + e^−x).
 template <class T>
 T sigmoid(T x) {
   return T(1.0F) / (T(1.0F) + exp2_of(x * T(-1.4426950409F)));

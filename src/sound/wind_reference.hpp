@@ -1,9 +1,9 @@
 #pragma once
-// The gust level of this microphone: the level of wind 1.
+// Gust level of a microphone: the level that equals wind 1.
 //
 // A gust must not be its own reference: a person who blows hard from the start would calibrate the estimator to hard
-// blowing. So the level begins with a usual value for microphones at arm's length, is constant during a gust, and moves
-// after each gust, towards the level by which the gust was a soft breath or a hard blow, whichever is likelier.
+// blowing. So the level starts at a typical value for microphones at arm's length, is constant during a gust, and moves
+// after each gust to the level at which the gust was a soft breath or a hard blow, whichever is likelier.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace wisp::wind {
 
-/// The level of one gust, as a histogram over decibels.
+/// Level of one gust, as a histogram over decibels.
 template <class T>
 class GustLevel {
  public:
@@ -32,7 +32,7 @@ class GustLevel {
 
   int frames() const { return frames_; }
 
-  /// The 80th percentile, dB: a gust's ends are soft.
+  /// 80th percentile, dB, since a gust is soft at its ends.
   T high_db() const {
     int above = frames_ / 5;
     std::size_t bin = counts_.size() - 1;
@@ -52,14 +52,14 @@ class GustLevel {
 template <class T>
 class Reference {
  public:
-  /// Starts with a level that has the weight of `gusts` gusts.
+  /// Starts with a level `db` that has the weight of `gusts` gusts.
   void start(T db, float gusts) {
     first_db_ = level_db_ = db;
     learned_ = gusts;
     end();
   }
 
-  /// Takes a frame: whether it surely blows, and its level, dB.
+  /// Takes a frame: whether it certainly blows, and its level in dB.
   void hear(bool blows, T db, const Design& d) {
     if (blows) {
       rest_frames_ = 0;
@@ -71,8 +71,8 @@ class Reference {
     end();
   }
 
-  /// What a guided calibration heard: breath that is surely soft, or hard blowing. It sets the level: half-way where
-  /// both are known and far enough apart, else by the breath, which must not put a flame out. Learning goes on there.
+  /// A guided calibration heard certainly soft breath, or hard blowing. It sets the level: halfway where both are known
+  /// and far enough apart, else by the breath, which must not extinguish a flame. Adaptation continues from there.
   void set_soft(T gust_db) {
     soft_db_ = gust_db + T(kSoftDb);
     knows_soft_ = true;
@@ -89,13 +89,13 @@ class Reference {
   static constexpr float kKnownGusts = 3;  ///< weight of a given or calibrated level, in gusts
 
  private:
-  static constexpr float kHardDb = 17;     ///< a hard blow over wind 1,
-  static constexpr float kSoftDb = 4;      ///< a soft breath under it,
-  static constexpr float kSpreadDb = 6;    ///< and how far either scatters
-  static constexpr float kNeither = 0.1F;  ///< likelihood of a gust that is neither; it moves little
-  static constexpr float kMaxGusts = 6;    ///< memory
-  static constexpr float kFallDb = 8;      ///< as far below the beginning,
-  static constexpr float kRiseDb = 12;     ///< and above it, as microphones differ
+  static constexpr float kHardDb = 17;     ///< level of a hard blow above wind 1,
+  static constexpr float kSoftDb = 4;      ///< level of a soft breath below it,
+  static constexpr float kSpreadDb = 6;    ///< and the standard deviation of either
+  static constexpr float kNeither = 0.1F;  ///< likelihood of a gust of neither kind, which hardly moves the level
+  static constexpr float kMaxGusts = 6;    ///< memory, in gusts
+  static constexpr float kFallDb = 8;      ///< maximum fall below the initial level,
+  static constexpr float kRiseDb = 12;     ///< and maximum rise above it, as microphones differ
 
   void learn(T gust_db) {
     const T hard = (gust_db - level_db_ - T(kHardDb)) * T(1 / kSpreadDb);

@@ -11,9 +11,9 @@ namespace {
 constexpr double kWindowSeconds = 0.093;
 constexpr double kLowestHz = 60;
 constexpr double kHighestHz = 1000;
-constexpr double kQuarter = 0.2876820724517809;  // of an exponential's mean: a quarter lies below it
+constexpr double kQuarter = 0.2876820724517809;  // first quartile of an exponential distribution of mean 1
 
-/// A window's worth of one turn's cosine and sine, and the window itself.
+/// One period of cosine and sine over the window's length, and the window.
 struct Tables {
   explicit Tables(std::size_t length) : cosine(length), sine(length), window(length) {
     for (std::size_t i = 0; i < length; ++i) {

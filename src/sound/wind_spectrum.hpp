@@ -1,10 +1,10 @@
 #pragma once
-// The wind of a recording under other sounds, read between a voice's harmonics.
+// Estimates the wind of a recording during other sounds, from the bands between a voice's harmonics.
 //
-// A voice fills few of the narrow bands between 60 and 1000 Hz; wind fills all of them, and each band's power scatters
-// about its mean as an exponential does: a quarter of the bands lie below 0.288 of their means. So where S is the
-// spectrum of wind 1 and N the room's, the wind's power q is that with which a quarter of the bands lie below
-// 0.288 · (q S + N), whatever sounds in the others.
+// A voice occupies few of the narrow bands between 60 and 1000 Hz; wind occupies all of them, with exponentially
+// distributed power: a quarter of the bands are below 0.288 of their means. With S the spectrum of wind 1 and N the
+// room's, the wind's power q is therefore that for which a quarter of the bands are below 0.288 · (q S + N), whatever
+// sounds in the others.
 
 #include <cstddef>
 #include <vector>
@@ -13,17 +13,17 @@
 
 namespace wisp::wind {
 
-/// Powers of narrow bands, a row for each frame.
+/// Powers of narrow bands, one row per frame.
 class Spectra {
  public:
-  /// Of a window of 93 ms about each frame's middle (seconds). `channels`: the voice band of each, levelled, at
-  /// `rate_hz`.
+  /// Computes powers in windows of 93 ms centred at `middles` (seconds). `channels`: levelled voice band of each
+  /// channel, at `rate_hz`.
   Spectra(const std::vector<std::vector<float>>& channels, double rate_hz, const std::vector<double>& middles);
 
   std::size_t bands() const { return bands_; }
   const float* frame(std::size_t k) const { return powers_.data() + k * bands_; }
 
-  /// Adds a frame's powers, `weight` times.
+  /// Adds `weight` times the powers of frame `k` to `sum`.
   void add(std::size_t k, double weight, std::vector<double>& sum) const;
 
  private:
@@ -31,13 +31,13 @@ class Spectra {
   std::vector<float> powers_;
 };
 
-/// Spectra of wind and room in those bands.
+/// Mean spectra of wind and room in those bands.
 struct BandMeans {
-  std::vector<double> wind;  ///< at power 1, less the room's
+  std::vector<double> wind;  ///< at power 1, without the room's
   std::vector<double> room;
 };
 
-/// Power of the wind in a frame, 1 at wind 1.
+/// Power of the wind in a frame, relative to wind 1.
 float power_between(const float* powers, const BandMeans& means);
 
 }  // namespace wisp::wind

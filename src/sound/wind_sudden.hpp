@@ -1,20 +1,20 @@
 #pragma once
-// Gusts begin within a few tenths of a second; cars that pass, the sea, a train swell over seconds.
+// Detects sudden onsets: gusts begin within a few tenths of a second; cars, the sea and trains swell over seconds.
 
 #include "sound/wind_design.hpp"
 #include "sound/wind_math.hpp"
 
 namespace wisp::wind {
 
-constexpr float kNothingDb = -110;  ///< of loudness: below, no sound comes at all (a muted or starting stream)
-constexpr int kWarmHops = 15;       ///< until the 50 ms mean has forgotten its start
+constexpr float kNothingDb = -110;  ///< loudness below which there is no sound at all (a muted or starting stream)
+constexpr int kWarmHops = 15;       ///< hops until the 50 ms mean is settled
 
-/// Whether the sound that is heard began suddenly, whatever it is: what starts under a voice and goes on after it did.
+/// Whether the current sound began suddenly, whatever it is, including sound that began during a voice and outlasts it.
 template <class T>
 class Sudden {
  public:
-  /// The stream begins in the middle of whatever sounds: the first that is heard is taken for the room. A stream that
-  /// gives nothing for half a second is a gated microphone's, whose room is silent.
+  /// Begins in an unknown situation: the first sound heard is taken for the room. A stream that is silent for half a
+  /// second comes from a gated microphone, whose room is silent.
   void begin_unknown() {
     heard_hops_ = 0;
     nothing_hops_ = 0;
@@ -48,11 +48,11 @@ class Sudden {
     slow_db_ = loudness_db;
   }
 
-  // A recording's room is no louder than this before anything was heard, so that a gust that it begins with is one.
+  // Maximum initial loudness of a recording's room, so that a gust at its beginning counts as sudden.
   static constexpr float kRoomDb = -73;
   static constexpr int kGatedHops = 50;
-  static constexpr float kStartDb = 6.5F;  ///< over what it was in the last third of a second
-  static constexpr float kEndDb = 3;       ///< over what it was before the sound
+  static constexpr float kStartDb = 6.5F;  ///< rise over the loudness of the last third of a second
+  static constexpr float kEndDb = 3;       ///< margin over the loudness before the sound
 
   T slow_db_ = T(kRoomDb);
   T before_db_ = T(kRoomDb);

@@ -1,14 +1,14 @@
 #pragma once
-// What is strong must last and sound like blowing all the while: a knock, a sneeze, a spark are as loud as hard blowing
-// for a tenth of a second, and a drum or a plosive sounds like it until the note that follows is known for one.
+// Requires strong wind to last and to sound like blowing throughout: a knock, a sneeze or a spark are as loud as hard
+// blowing for a tenth of a second, and a drum or a plosive resembles it until the following note is recognised.
 
 #include "sound/wind_design.hpp"
 
 namespace wisp::wind {
 
-/// Wind up to 1 passes as it comes; what exceeds it, once there was enough of it: 0.24 s of wind 1, or the less time
-/// the stronger it is (0.15 s of 1.6, 0.08 s of 3.2), and until it has paused for as long. Softer blowing is neither.
-/// Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
+/// Wind up to 1 passes unchanged. The excess passes after sufficient evidence: 0.24 s of wind 1, or less time the
+/// stronger it is (0.15 s of 1.6, 0.08 s of 3.2), until an equally long pause. Softer blowing counts neither as
+/// evidence nor as pause. Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
 template <class T>
 class Sustained {
  public:
@@ -29,7 +29,7 @@ class Sustained {
   }
 
  private:
-  T evidence_ = T(0.0F);  ///< sum of strong wind, less one a frame that does not blow
+  T evidence_ = T(0.0F);  ///< sum of strong wind, minus one per frame without blowing
   bool lasts_ = false;
 };
 

@@ -18,15 +18,15 @@ namespace {
 
 using Seen = std::vector<wind::Observation<float>>;
 
-constexpr float kFloorShare = 0.05F;        // softest frames that tell the floor
-constexpr float kQuietSeconds = 0.25F;      // a stretch without wind lasts at least so long
-constexpr float kSilentDb = -80;            // loudness of a track on which nothing is heard
-constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
-constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
-constexpr double kShortestPuff = 0.1;       // seconds above half of its strongest
+constexpr float kFloorShare = 0.05F;        // share of the softest frames, which define the floor
+constexpr float kQuietSeconds = 0.25F;      // minimum duration of a stretch without wind
+constexpr float kSilentDb = -80;            // loudness below which a track counts as silent
+constexpr float kBlowingConfidence = 0.5F;  // threshold of probable blowing
+constexpr float kWindHeard = 0.05F;         // in wind units: minimum that is reported as wind
+constexpr double kShortestPuff = 0.1;       // minimum seconds above half of a puff's maximum
 
-// A knock rises above `wind` for at most so many seconds, and to at least `peak`: what is far too strong for wind
-// lasts in a room.
+// A knock exceeds `wind` for at most this many seconds and reaches at least `peak`: sound far too strong for wind also
+// rings in a room.
 struct Knock {
   float wind, peak;
   double seconds;
@@ -39,7 +39,7 @@ float percentile(std::vector<float> values, float share) {
   return *at;
 }
 
-/// Loudness of the softest frames in which there is any sound.
+/// Loudness of the softest frames that contain any sound.
 float find_floor(const Seen& seen) {
   std::vector<float> loudness;
   for (const auto& one : seen) {
@@ -88,7 +88,7 @@ Means means_of(const Seen& seen, Choose choose) {
   return means;
 }
 
-/// 95th percentile of the band power while it blows, dB; nothing (−∞ is never returned) where it never does.
+/// Finds the 95th percentile of the band power during blowing, dB. Returns false where there is no blowing.
 bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float& gust_db) {
   std::vector<float> gusts;
   for (const auto& one : seen) {
@@ -101,7 +101,7 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
   return true;
 }
 
-/// Spectra of wind and room, from frames that surely blow and from quiet ones.
+/// Mean spectra of wind and room, from frames with certain blowing and from quiet ones.
 wind::BandMeans band_means(const wind::Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
                            const wind::Surroundings<float>& around) {
   wind::BandMeans means;
@@ -126,8 +126,8 @@ wind::BandMeans band_means(const wind::Spectra& spectra, const Seen& seen, const
   return means;
 }
 
-/// Wind is what was measured where that sounds like wind, and what lies between the harmonics of a voice where it does
-/// not, or where a voice makes it much louder.
+/// Wind of a frame: the measurement where it sounds like wind; the estimate between a voice's harmonics where it does
+/// not, or where a voice raises the measurement far above that.
 float wind_of(float measured, bool foreign, float between) {
   constexpr float kMuch = 1.35F;
   constexpr float kAtLeast = 0.08F;
@@ -149,9 +149,9 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   return frames;
 }
 
-/// A knock on the table is heard as wind, beside hardly any wind as many times the strongest of it. It fades while it
-/// sounds; nobody blows that shortly: the wind is what blew before it or after, whichever is more. `seconds_at` says
-/// when a frame begins.
+/// Removes knocks on the table, which read as wind many times the strongest gust. A knock decays while it sounds,
+/// faster than any blow: it is replaced by the larger of the wind before and after it. `seconds_at` gives the beginning
+/// of a frame.
 template <class SecondsAt>
 void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const SecondsAt& seconds_at) {
   using Place = std::vector<WindFrame>::iterator;
@@ -209,7 +209,7 @@ struct WindTracker::State {
 
   std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
 
-  /// End of the present frame.
+  /// End of the current frame, seconds.
   double end_seconds() const { return seconds_at(seen.size() + 1); }
 
   bool wants_more() const { return times.empty() || seen.size() + 1 < times.size(); }
@@ -240,7 +240,7 @@ struct WindTracker::State {
     }
   }
 
-  /// Beginning of frame k, and end of the one before.
+  /// Beginning of frame k, which is the end of frame k − 1.
   double seconds_at(std::size_t k) const {
     return times.empty() ? static_cast<double>(k) / options.frame_rate_hz : times[k];
   }
@@ -259,11 +259,10 @@ struct WindTracker::State {
   wind::Design design;
   wind::Kernel<float> kernel;
   std::vector<double> times;
-  std::vector<std::vector<float>>
-      bands;  ///< each channel's, kept at 4 kHz for what is read between a voice's harmonics
+  std::vector<std::vector<float>> bands;  ///< voice band of each channel at 4 kHz, for the estimate between harmonics
   Seen seen;
   std::int64_t position = 0;
-  std::int64_t skip = 0;  ///< samples before the first frame
+  std::int64_t skip = 0;  ///< number of samples before the first frame
   std::int64_t next_frame_at = 0;
 };
 

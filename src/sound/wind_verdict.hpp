@@ -9,18 +9,18 @@
 
 namespace wisp::wind {
 
-/// References for observations.
+/// Reference levels for observations.
 template <class T>
 struct Surroundings {
-  T rms = T(0.0F);         ///< of the background
-  T band_power = T(0.0F);  ///< of the background
+  T rms = T(0.0F);         ///< root mean square of the background
+  T band_power = T(0.0F);  ///< band power of the background
   T floor_db = T(0.0F);    ///< loudness of the background
   T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
 constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing is distinguished from the room
-constexpr float kPassedDb = 8;       ///< the same for passing wind, whose background is subtracted
-constexpr float kMinPower = 1e-12F;  ///< of the band: no wind
+constexpr float kPassedDb = 8;       ///< the same threshold for passing wind, whose background is subtracted
+constexpr float kMinPower = 1e-12F;  ///< band power below which there is no wind
 
 /// Confidence, 0 to 1, that loudness exceeds the floor.
 template <class T>
@@ -33,13 +33,13 @@ T confidence_of(const Observation<T>& seen, T floor_db) {
   return seen.likeness * audible(seen.loudness_db - floor_db, kSureDb, 1.5F);
 }
 
-/// Band power above the background's.
+/// Band power in excess of the background's.
 template <class T>
 T power_over(const Observation<T>& seen, T background) {
   return background < seen.band_power ? seen.band_power - background : T(0.0F);
 }
 
-/// Fills all of a frame but its wind.
+/// Fills all fields of a frame except its wind.
 template <class T>
 WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, float power_exponent) {
   using std::sqrt;

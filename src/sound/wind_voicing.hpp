@@ -1,5 +1,5 @@
 #pragma once
-// How periodic the sound is, at the periods of a voice.
+// Periodicity of sound in the range of a voice's pitch.
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace wisp::wind {
 
-/// One channel's voice band at a lower rate (near 4 kHz), differenced (which levels a voice's harmonics): this hop's
-/// samples and as many before as the longest period has.
+/// Buffer of one channel's voice band at a lower rate (near 4 kHz), differenced to equalise a voice's harmonics: this
+/// hop's samples, and before them as many as the longest period has.
 template <class T>
 class VoiceHistory {
  public:
@@ -29,7 +29,7 @@ class VoiceHistory {
     before_ = voice;
   }
 
-  /// The hop's first sample; as many as the longest period are readable before it.
+  /// The hop's first sample; samples of one longest period are readable before it.
   const T* hop() const { return samples_.data() + before_hop_; }
 
   void end_hop() {
@@ -48,11 +48,11 @@ class VoiceHistory {
 
 /// Voicing and tone, from the normalised autocorrelation over periods of 70 to 400 Hz.
 ///
-/// Voicing is its largest value in the last three hops (30 ms). Tone is the largest value of its mean over 150 ms:
-/// noise, however low, averages out, while chords stay, that have no common period short enough for voicing. A peak of
-/// either is held and fades in 300 ms, so that the gaps between syllables and notes do not pass for blowing. Both
-/// change only as new sound comes in place of that which they were found in: what rings on in the powers' 50 ms means
-/// keeps its voicing and tone. The three hops' sums are kept, so that each hop costs only its own products.
+/// Voicing is its maximum in the last three hops (30 ms). Tone is the maximum of its mean over 150 ms: noise, however
+/// low, averages out, while chords remain, whose common period is too long for voicing. Peaks of both are held and
+/// decay in 300 ms, to bridge the gaps between syllables and notes. Both change only in proportion to new sound, so
+/// sound that persists in the 50 ms mean powers keeps its voicing and tone. The three hops' sums are stored, so that
+/// each hop computes only its own products.
 template <class T>
 class Voicing {
  public:
@@ -69,8 +69,7 @@ class Voicing {
     }
   }
 
-  /// Takes a hop of samples, with the longest period readable before it; `fresh` is the hop's power over the 50 ms
-  /// mean, 0 to 1.
+  /// Takes a hop of samples, preceded by one longest period; `fresh` is the hop's power over the 50 ms mean, 0 to 1.
   void end_hop(const T* now, T fresh) {
     slot_ = (slot_ + 1) % window_.size();
     sum(now, window_[slot_]);
@@ -85,7 +84,7 @@ class Voicing {
  private:
   struct Hop {
     T energy = T(0.0F);
-    std::vector<T> products;  ///< with the sound one lag earlier
+    std::vector<T> products;  ///< products with the sound one lag earlier
     std::vector<T> delayed;   ///< energy of the sound one lag earlier
   };
 
@@ -119,7 +118,7 @@ class Voicing {
     return most < T(1.0F) ? most : T(1.0F);
   }
 
-  /// Follows a rise at once and decays in 300 ms.
+  /// Follows a rise immediately and decays in 300 ms.
   void hold(T& held, T now, T fresh) const {
     held = held < now ? now : held + release_ * fresh * (now - held);
     if (held < T(1e-6F)) held = T(0.0F);
@@ -141,7 +140,7 @@ class Voicing {
   }
 
   static constexpr float kMinEnergy = 1e-12F;
-  static constexpr float kMinSquare = 1e-24F;  // below: nothing is heard
+  static constexpr float kMinSquare = 1e-24F;  // energy below which sound counts as silent
 
   int first_lag_;
   int length_;
@@ -150,7 +149,7 @@ class Voicing {
   std::array<Hop, 3> window_;
   std::size_t slot_ = 0;
   T tone_approach_;
-  std::vector<T> means_;  ///< of the normalised autocorrelation, per lag
+  std::vector<T> means_;  ///< mean normalised autocorrelation per lag
   T voicing_ = T(0.0F);
   T tone_ = T(0.0F);
 };

@@ -1,5 +1,5 @@
 // `wisp capture outline`, its preset `wisp capture flame`, `capture brightness`, `capture wind` and `capture fall`:
-// from a clip to a recording.
+// each converts a clip to a recording.
 
 #include <algorithm>
 #include <chrono>
@@ -18,14 +18,14 @@
 namespace wisp::cli {
 namespace {
 
-// Several clips go to a folder, and one where a folder of that name is there: what a wildcard names may be one.
+// Whether output goes to a folder: for several clips, or one clip (a wildcard may match one) where the folder exists.
 bool goes_to_folder(const Arguments& arguments) {
   std::error_code none;
   const std::filesystem::path output(arguments.text("output"));
   return arguments.positionals().size() > 1 || !output.has_filename() || std::filesystem::is_directory(output, none);
 }
 
-// Where each of several clips is written: under its own name in the folder. Errors: two of one name, no folder.
+// Output paths of several clips: their own names in the folder. Errors: two with one name, no folder.
 Result<std::vector<std::filesystem::path>> tables_in(const std::string& folder, const std::vector<std::string>& clips) {
   if (is_table(folder)) {
     return Error{"--output " + folder + " is the name of one recording, expected a folder for those of " +
@@ -71,7 +71,7 @@ Result<void> run_many(const ClipCapture& options, const Arguments& arguments, Te
   return {};
 }
 
-// One film, or with --angles several of one flame.
+// Captures one film or, with --angles, several films of one flame.
 Result<Captured> captured(const ClipCapture& options, const Arguments& arguments, Terminal& terminal) {
   if (!arguments.has("angles")) return capture(arguments.positional(), options, terminal.progress());
   std::vector<double> angles;
@@ -100,8 +100,8 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
-// A lamp's or an amplifier's start: samples at a trace's head, within its first second, that lie below all later ones
-// where the first is less than half of their mean. Returns how many.
+// Number of samples in the start-up of a lamp or an amplifier: samples within the first second below all later ones,
+// where the first is less than half of the later mean.
 std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
   const auto second = std::min(light.size(), static_cast<std::size_t>(std::max(1.0, rate_hz)));
   if (second == light.size() ||
@@ -113,7 +113,7 @@ std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
                                   light.begin());
 }
 
-// A clip's light, or a photodiode's trace, of mean 1.
+// The light of a clip, or a photodiode's trace, normalised to mean 1.
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
   for (const auto& [flag, of_table] : {std::pair{"region", false}, {"frames", false}, {"channel", true}}) {

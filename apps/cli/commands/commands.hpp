@@ -1,5 +1,5 @@
 #pragma once
-// The entries of the table, one a file.
+// Declarations of the table's entries, each defined in its own file.
 
 #include "command.hpp"
 

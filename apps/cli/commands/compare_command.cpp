@@ -1,4 +1,4 @@
-// `wisp compare`: several models on one recording, in one table and one plot.
+// `wisp compare`: compares several models on one recording, in one table and one plot.
 
 #include <algorithm>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxPlots = 4;
 
-// Models by their files' names; by their whole paths where two are alike.
+// Reads models and names them by their files' names, or by whole paths where two names are equal.
 Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& paths) {
   std::vector<NamedModel> models;
   std::vector<std::string> names;
@@ -31,7 +31,7 @@ Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& path
   return models;
 }
 
-// All channels of all models.
+// Inputs and outputs of all models.
 CsvOptions channels_of(const std::vector<NamedModel>& models) {
   CsvOptions all{.rate_hz = models.front().model.rate_hz};
   const auto add = [&](const auto& channels, std::vector<std::string>& names) {
@@ -46,7 +46,7 @@ CsvOptions channels_of(const std::vector<NamedModel>& models) {
   return all;
 }
 
-// One plot an output, the measured line first.
+// One plot per output, with the measured line first.
 PlotSheet sheet_of(const Report& report) {
   PlotSheet sheet{.columns = 1, .plot_width = 800};
   for (const ReportSeries& series : report.sections.front().series) {

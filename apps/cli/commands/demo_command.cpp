@@ -1,4 +1,4 @@
-// `wisp demo`: the whole job, by the commands that would do it by hand.
+// `wisp demo`: capture, learning and validation in one command, by the commands that a user would type.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A step's result as a part of the whole: under its name.
+// A step's report as part of the summary, with its name as prefix.
 Report part_of_whole(const std::string& name, const std::string& line, Report step) {
   step.add("").entries = {{"command", "wisp " + line, "", ""},
                           {"warnings", ReportList(step.warnings.begin(), step.warnings.end()), "", ""}};
@@ -43,7 +43,7 @@ struct Places {
   std::string at(const char* name) const { return (folder / name).string(); }
 };
 
-// A name as a shell takes it.
+// A name quoted for the shell.
 std::string quoted(const std::string& name) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/._-+=:,@%", c) != nullptr;
@@ -54,15 +54,15 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
-// A command with what it is given. Flags that are not given have their defaults.
+// A command with its arguments and flags; other flags have their defaults.
 struct Step {
-  std::string name;  // of its figures in the summary
+  std::string name;  // name of its figures in the summary
   Command command;
   std::vector<std::string> files;
   std::vector<std::pair<std::string, std::string>> flags;
 };
 
-// The line that does a step by hand.
+// The command line that runs a step by hand.
 std::string line_of(const Step& step) {
   std::string line = step.command.name;
   for (const std::string& file : step.files) line += " " + quoted(file);
@@ -88,10 +88,10 @@ Result<void> run(const Step& step, Terminal& terminal) {
   return Error{step.files.front() + ": no flame is learned from it: " + verdict->reason};
 }
 
-// Flags of capture that the demo takes.
+// Flags of capture accepted by the demo.
 constexpr std::array kCaptureFlags{"points", "channel", "flame", "region", "frames", "rate"};
 
-// What the model is learned from, and what it is validated on.
+// The clip to learn from and the one to validate on.
 struct Clips {
   std::string learn;
   std::string validate;
@@ -121,7 +121,7 @@ Result<void> all_steps(const Places& places, const Clips& clips, const Arguments
   for (const std::string flag : kCaptureFlags) {
     if (!arguments.has(flag)) continue;
     capture.flags.push_back({flag, arguments.text(flag)});
-    if (flag != "points") validate.flags.push_back(capture.flags.back());  // the model says how many
+    if (flag != "points") validate.flags.push_back(capture.flags.back());  // validation takes the number from the model
   }
   if (auto ok = run(capture, terminal); !ok) return ok;
   if (auto ok = run({"learn", learn_flame_command(), {recording}, {{"output", path}}}, terminal); !ok) return ok;
@@ -152,7 +152,7 @@ void say_what_next(const Places& places, Terminal& terminal) {
   terminal.say("  script/web serve                      the same in a browser; drop flame.wisp onto the page");
 }
 
-// All of the demo, into a folder that is there.
+// Runs the demo into an existing folder.
 Result<void> fill(const Places& places, const Arguments& arguments, Terminal& terminal) {
   Clips clips;
   if (arguments.positionals().empty()) {
@@ -169,7 +169,7 @@ Result<void> fill(const Places& places, const Arguments& arguments, Terminal& te
   return run({"play", play_command(), {places.at("flame.wisp")}, {}}, terminal);
 }
 
-// The outermost of a folder and those that it lies in that is not there; empty where all are.
+// The outermost missing folder of a path; empty where all exist.
 fs::path first_missing(fs::path folder) {
   fs::path missing;
   std::error_code ignored;
@@ -185,7 +185,7 @@ Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
   auto filled = fill(places, arguments, terminal);
   if (!filled && !missing.empty()) {
-    // What was made for it goes, as long as nothing is in it.
+    // On failure, removes the folders made for it if they are empty.
     for (fs::path folder = places.folder; fs::remove(folder, code) && folder != missing;) folder = folder.parent_path();
   }
   return filled;

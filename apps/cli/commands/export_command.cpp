@@ -1,4 +1,4 @@
-// `wisp export`: a model as a file that another tool opens.
+// `wisp export`: converts a model to a file for another tool.
 
 #include <algorithm>
 #include <cmath>
@@ -40,17 +40,17 @@ void fade_edges(float room, Image& image) {
   }
 }
 
-// What a flipbook shows of a take.
+// Frames of a take in a flipbook, and their size.
 struct Pages {
-  std::vector<std::size_t> frames;  // of the take
-  int height = 0, width = 0;        // of a frame; width 0: as wide as the flame and its halo reach in any of them
+  std::vector<std::size_t> frames;  // indices of frames in the take
+  int height = 0, width = 0;        // size of a frame; width 0: the maximum width of flame and halo
 };
 
 // Errors: the model is no flame; the height is not 16 to 2048.
 Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Pages& pages) {
   const int height = pages.height;
   constexpr int kPoints = 96;
-  constexpr float kHalo = 0.35F;  // margin around the flame, in its heights
+  constexpr float kHalo = 0.35F;  // margin around the flame, in flame heights
   if (!is_flame(model)) {
     return Error{
         "the model is no flame to draw as light; an outline goes into a .json, a body's motion into a .glb, a lamp "
@@ -71,7 +71,7 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Page
       top = std::max(top, points[k + 1]);
     }
   }
-  // A small halo that nearly fits the margin.
+  // A small halo that nearly fits into the margin.
   const FlameStyle style{.glow_reach = 0.25F, .candle = false};
   FlameScene scene;
   const float across = right - left + 2 * kHalo;
@@ -100,7 +100,7 @@ struct Job {
   const Model& model;
   const Arguments& arguments;
   std::string path;
-  std::size_t frames = 0;  // that are written
+  std::size_t frames = 0;  // number of frames to write
 };
 
 int given(const Job& job, const char* flag, int fallback) {
@@ -134,7 +134,7 @@ Result<void> write_pictures(Job& job, const Take& taken) {
   return atlas ? write_atlas(job.path, *book) : write_animation(job.path, *book);
 }
 
-// OUT.vat.png, and OUT.vat.json beside it.
+// Writes OUT.vat.png and OUT.vat.json.
 Result<void> write_vertices(Job& job, const Take& taken) {
   const auto made = vertex_animation(job.model, taken);
   if (!made) return made.error();
@@ -147,7 +147,7 @@ Result<void> write_vertices(Job& job, const Take& taken) {
   return write_file(std::filesystem::path(job.path).replace_extension(".json"), made->json);
 }
 
-// The file, and NAME.h beside NAME.c.
+// Writes the file; for NAME.c also NAME.h.
 Result<void> write_source(const std::string& text, const std::string& declared, const std::string& what, const Job& job,
                           Terminal& terminal) {
   const std::string header = std::filesystem::path(job.path).replace_extension(".h").string();
@@ -161,7 +161,7 @@ Result<void> write_source(const std::string& text, const std::string& declared, 
   return {};
 }
 
-// The model itself: a lamp in fixed point, or a linear system.
+// Writes the model itself as code: a lamp in fixed point, or a linear system.
 Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> language, Terminal& terminal) {
   const std::string name = std::filesystem::path(job.path).stem().string();
   if (language) {
@@ -177,7 +177,7 @@ Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> lan
                       terminal);
 }
 
-// The language of a linear system, by the file's ending. A lamp has no input, a plant has one.
+// Language of a linear system by the file's extension. A plant has inputs, a lamp has none.
 std::optional<PlantLanguage> plant_language(const Model& model, const std::string& extension) {
   const bool plant = std::holds_alternative<ArxModel>(model.dynamics) && !model.inputs.empty() &&
                      std::holds_alternative<PlainView>(model.view);
@@ -187,7 +187,7 @@ std::optional<PlantLanguage> plant_language(const Model& model, const std::strin
   return plant && extension == ".c" ? std::optional(PlantLanguage::kC) : std::nullopt;
 }
 
-// A flag that would change nothing is an error: who gives it expects that it does.
+// Reports flags without effect as errors, since the user expects an effect.
 Result<void> check_flags(const Arguments& arguments, const std::string& extension, bool is_source) {
   const auto refuse = [&](const char* flag, const char* fallback, const std::string& why) -> Result<void> {
     if (!arguments.has(flag) || arguments.text(flag) == fallback) return {};

@@ -1,4 +1,4 @@
-// `wisp info`: what a model file holds, or what is remarkable of a recording.
+// `wisp info`: describes a model file, or remarks on a recording.
 
 #include "commands/commands.hpp"
 #include "flags/recordings.hpp"
@@ -12,7 +12,7 @@
 namespace wisp::cli {
 namespace {
 
-// Every channel over time.
+// Plots every channel over time.
 Result<void> plot_channels(const std::string& path, const Report& report, Terminal& terminal) {
   PlotSheet sheet{.columns = 1, .plot_width = 800};
   for (const ReportSeries& series : report.sections.front().series) {

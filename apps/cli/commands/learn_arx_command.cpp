@@ -1,4 +1,4 @@
-// `wisp learn arx`: an ARX model of any recording.
+// `wisp learn arx`: learns an ARX model from any recording.
 
 #include <algorithm>
 #include <charconv>
@@ -23,7 +23,7 @@
 namespace wisp::cli {
 namespace {
 
-// --part "2/8", the second of eight, of the rows of --range.
+// Parses --part: "2/8" is the second of eight equal parts of the rows of --range.
 Result<TableShare> table_share(const Arguments& arguments) {
   const std::string& text = arguments.text("part");
   const Error bad{"--part: found \"" + text + "\", expected K/N with 1 <= K <= N, such as 2/8"};
@@ -60,7 +60,7 @@ Result<void> take(const std::string& path, const TableShare& share, const Argume
   return part.add(std::filesystem::path(path), *options, share);
 }
 
-// --partial, --part, --merge, --expect.
+// Flags --partial, --part, --merge and --expect.
 std::vector<Flag> arx_part_flags() {
   std::vector<Flag> flags{
       {"partial", Kind::kOutput, "P", "",
@@ -75,9 +75,8 @@ std::vector<Flag> arx_part_flags() {
   return flags;
 }
 
-// A recording, what is held out of it, and the room that reading keeps: up to 46 bytes a sample (measured), beside
-// what the program has anyway.
-// Whether learning from the named recordings at once would take more than --memory.
+// Whether learning from all named recordings at once would exceed --memory: each recording, its held-out part and
+// buffers for reading take up to 46 bytes per sample (measured), besides the program's own memory.
 bool too_large(const Arguments& arguments) {
   constexpr double kMebibyte = 1 << 20, kProgram = 24, kBytesASample = 46;
   const auto channels = static_cast<double>(arguments.names("inputs").size() + arguments.names("outputs").size());
@@ -96,8 +95,8 @@ bool too_large(const Arguments& arguments) {
   return kProgram + kBytesASample * channels * rows / kMebibyte > arguments.integer("memory");
 }
 
-// The named tables, or the share of --part of each, at bounded memory. --range chooses their rows; MATLAB files are
-// read whole; a bad one is the error, or left out with --skip-bad.
+// Takes in the named tables, or the share of --part of each, at bounded memory. --range selects rows; MATLAB files are
+// read whole. A bad table is an error, or is skipped with --skip-bad.
 Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
   const auto share = table_share(arguments);
   if (!share) return share.error();
@@ -111,8 +110,8 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
   return part;
 }
 
-// What the named part files know together. Errors: a file that cannot be read, is not a part, was damaged, or is of
-// another model than the first; each is named.
+// Merges the named part files. Errors, each with the file's name: a file that cannot be read, is not a part, is
+// damaged, or is of another model than the first.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());
@@ -131,7 +130,7 @@ Result<ArxPart> merged_parts(const Arguments& arguments) {
   return whole;
 }
 
-// Writes what the recordings (or, with --merge, the parts) have to say to the file of --partial, whole or not at all.
+// Writes the statistics of the recordings (or, with --merge, of the parts) to the file of --partial, atomically.
 // Errors: as part_of_tables and merged_parts, and where the file cannot be written.
 Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
   const auto part = arguments.on("merge") ? merged_parts(arguments) : part_of_tables(recipe, arguments, terminal);
@@ -154,7 +153,7 @@ Error bad_grid(std::string_view text) {
   return {"--search: found \"" + std::string(text) + "\", expected such as na=1:10,nb=1:10,nk=0:3, up to 4096"};
 }
 
-// "1:10" or "3".
+// Parses a range of orders: "1:10" or "3".
 Result<OrderRange> parse_range(std::string_view text, std::string_view whole) {
   OrderRange range;
   const char* const end = text.data() + text.size();
@@ -173,7 +172,7 @@ Result<OrderRange> parse_range(std::string_view text, std::string_view whole) {
 Result<ArxSearch> parse_grid(const Arguments& arguments) {
   ArxSearch search;
   const std::string& whole = arguments.text("search");
-  // What the grid leaves out has one value, that of the flag.
+  // Orders without a range in the grid have the single value of their flag.
   for (const auto& [flag, range] : {std::pair{"na", &search.na}, {"nb", &search.nb}, {"nk", &search.nk}}) {
     const auto alone = parse_range(arguments.text(flag), whole);
     if (!alone && whole.find(std::string(flag) + "=") == std::string::npos) {
@@ -193,7 +192,7 @@ Result<ArxSearch> parse_grid(const Arguments& arguments) {
   return search;
 }
 
-// --search, --by, --validate, --steps.
+// Flags --search, --by, --validate and --steps.
 std::vector<Flag> search_flags() {
   std::vector<Flag> flags{
       {"search", Kind::kNames, "GRID", "",
@@ -212,7 +211,7 @@ std::vector<Flag> search_flags() {
   return flags;
 }
 
-// The search that they ask for. `whole` are the recordings before --range was taken, from which --validate takes its
+// Options of the search from the flags. `whole` are the recordings before --range, from which --validate selects its
 // rows.
 Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments& arguments) {
   auto search = parse_grid(arguments);
@@ -261,7 +260,7 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   return {};
 }
 
-// What the flags say but for the search, which needs the recordings.
+// The recipe from the flags, except for the search, which needs the recordings.
 Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   ArxRecipe recipe;
   if (auto ok = read_recipe(arguments, recipe); !ok) return ok.error();
@@ -318,7 +317,7 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
     if (!merged) return merged.error();
     return merged->finish(recipe, terminal.progress());
   }
-  // A search, a preparation, open delays and free runs need the recordings in memory, however large they are.
+  // A search, a preparation, open delays and free runs need all recordings in memory.
   const bool whole = arguments.has("search") || arguments.has("prepare") || !recipe.nk;
   if (whole || recipe.focus == ArxFocus::kSimulation || !too_large(arguments)) {
     return learned_from_memory(recipe, arguments, terminal);
@@ -341,7 +340,7 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   }
   const std::string output = model_path(arguments);
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
-  // Only --keep-unstable leads here: the report is complete, so the status is 0 although no model is written.
+  // Reached with --keep-unstable only: the report is complete, so the exit status is 0 although no model is written.
   terminal.show(fit->report);
   terminal.add("output", {});
   if (output.empty()) return {};

@@ -1,4 +1,4 @@
-// `wisp learn chain` and its preset `wisp learn leaf`: a segment chain from recordings of something that moves.
+// `wisp learn chain` and its preset `wisp learn leaf`: learn a segment chain from recorded motion.
 
 #include <chrono>
 #include <filesystem>
@@ -14,7 +14,7 @@
 namespace wisp::cli {
 namespace {
 
-// The rows of --range of falls; a pair stays whole, since its gusts have as many clones each.
+// Rows of --range of falls; pairs stay whole, as every gust needs all of its clones.
 Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
   for (Recording& recording : recordings) {
     if (find_attribute(recording, "pair")) continue;
@@ -25,7 +25,7 @@ Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings,
   return recordings;
 }
 
-// With --skip-bad, recordings that tell no motion are left out here; else learning says what is wrong with them.
+// Reads recordings. With --skip-bad those without valid motion are skipped; otherwise learning reports the error.
 Result<std::vector<Recording>> read_motions(const Arguments& arguments, Terminal& terminal) {
   auto recordings = read_tables(arguments.positionals(), arguments, terminal, motion_table(arguments));
   if (!recordings || !arguments.on("skip-bad")) return recordings;

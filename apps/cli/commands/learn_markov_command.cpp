@@ -1,5 +1,5 @@
-// `wisp learn switched`: several ARX modes that a Markov chain switches; and `wisp learn flicker`: the light of a flame
-// by them, for lamps.
+// `wisp learn switched` learns several ARX modes switched by a Markov chain; `wisp learn flicker` learns such a model
+// of a flame's light, for lamps.
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-// `wisp learn outline` and its preset `wisp learn flame`: a model of an outline, from clips or recordings.
+// `wisp learn outline` and its preset `wisp learn flame`: learn a model of an outline, from clips or recordings.
 
 #include <chrono>
 #include <cstdlib>
@@ -47,7 +47,7 @@ Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   return hand_over(*fit, path, start, terminal);
 }
 
-// What differs between the presets.
+// Properties in which the presets differ.
 struct Preset {
   const char* extinction;
   const char* flame;

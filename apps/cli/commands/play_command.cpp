@@ -1,4 +1,4 @@
-// `wisp play`: a model, live, in a window.
+// `wisp play`: plays a model live in a window.
 
 #include <algorithm>
 #include <csignal>
@@ -26,10 +26,10 @@ using window::PlayOptions;
 using window::PlayReport;
 using window::SceneKind;
 
-// The first flame is that of the default recipe, as on the page.
+// File of the first flame: the one with the default recipe, as on the page.
 constexpr const char* kFirst = "flame.wisp";
 
-// Order of the list: the first flame, other kinds, then flames of other orders.
+// Rank in the list: the first flame, other kinds, then flames of other orders.
 int rank(const fs::path& path, const View& view) {
   if (path.filename() == kFirst) return 0;
   if (std::holds_alternative<PlainView>(view)) return 3;
@@ -51,8 +51,8 @@ std::vector<fs::path> models_in(const fs::path& folder) {
   return paths;
 }
 
-// Folders searched, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the source tree that
-// it was built from; out/demo, where `wisp demo` leaves its model.
+// Folders searched, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the source tree of the
+// build; out/demo, where `wisp demo` writes its model.
 std::vector<fs::path> model_folders() {
   std::vector<fs::path> folders;
   if (const char* named = std::getenv("WISP_MODELS")) folders.emplace_back(named);
@@ -64,8 +64,8 @@ std::vector<fs::path> model_folders() {
   return folders;
 }
 
-// The models of the first folder that has any: flames, falling things, others, each by name. Skips files that are no
-// models.
+// Models of the first folder that has any: flames, falling things, others, each sorted by name. Other files are
+// skipped.
 std::vector<fs::path> shipped_models() {
   for (const fs::path& folder : model_folders()) {
     if (auto models = models_in(folder); !models.empty()) return models;
@@ -73,7 +73,7 @@ std::vector<fs::path> shipped_models() {
   return {};
 }
 
-// Asked to end by a signal: the frame is finished first, so that no picture is left half written.
+// Set by a signal: the current frame is finished first, so that no picture is written in part.
 volatile int interrupted = 0;
 
 void interrupt(int signal) { interrupted = signal; }
@@ -96,7 +96,7 @@ std::optional<SceneKind> scene_of(const Arguments& arguments) {
   return word == "candle" ? SceneKind::kCandle : word == "cake" ? SceneKind::kCake : SceneKind::kLeaves;
 }
 
-// Models that come with Wisp, beginning with the first that the scene can show.
+// Models that come with Wisp; the first is one that the scene can show.
 Result<std::vector<std::filesystem::path>> models_of_our_own(std::optional<SceneKind> scene) {
   auto models = shipped_models();
   if (models.empty()) {
@@ -176,7 +176,7 @@ Result<void> run_play(const Arguments& arguments, Terminal& terminal) {
   for (const std::string& line : report->said) terminal.warn(line);
   tell(*report, *options, terminal);
   if (interrupted == 0 || options->frames == 0) return {};
-  // Not all of the frames were drawn that were to be: whoever waits for them is told as by any other program.
+  // Not all requested frames were drawn: the exit status reports the signal, as in other programs.
   terminal.finish();
   std::fflush(stdout);
   std::signal(interrupted, SIG_DFL);

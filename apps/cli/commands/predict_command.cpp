@@ -1,4 +1,4 @@
-// `wisp predict`: what a model says of a recording, row by row.
+// `wisp predict`: predictions of a model on a recording, row by row.
 
 #include "commands/commands.hpp"
 #include "flags/arx_flags.hpp"
@@ -12,7 +12,7 @@
 namespace wisp::cli {
 namespace {
 
-// An outline's channels have the names of the model's own accord.
+// The recording with the model's channels; those of an outline need no flags for their names.
 Result<Recording> recording_for(const Model& model, const std::string& path, const Arguments& arguments) {
   if (!std::holds_alternative<OutlineView>(model.view)) return table_for(model, path, arguments);
   auto whole = read_table(path, arguments, {.rate_hz = model.rate_hz});

@@ -1,4 +1,4 @@
-// `wisp report`: a model, and how it stands up to recordings, as one page.
+// `wisp report`: a model and its validation on recordings, as one page.
 
 #include <algorithm>
 #include <cstddef>
@@ -24,7 +24,7 @@
 namespace wisp::cli {
 namespace {
 
-// A heading, a report, and pictures below it (.svg and .png files).
+// A part of the page: heading, report, and pictures below it (.svg and .png files).
 struct PagePart {
   std::string title;
   Report report;
@@ -44,7 +44,7 @@ th { font-weight: 500; } .figures td:last-child { color: #666; }
 img { max-width: 100%; display: block; margin: 1rem 0; }
 )";
 
-// RFC 4648, section 4.
+// Base64 encoding, RFC 4648, section 4.
 std::string base64(std::span<const std::byte> bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -60,7 +60,7 @@ std::string base64(std::span<const std::byte> bytes) {
   return out;
 }
 
-// Embeds a picture as its own document, so that ids of two pictures do not collide.
+// Embeds a picture as a separate document, so that ids of two pictures do not collide.
 Result<std::string> picture_of(const std::filesystem::path& path) {
   const auto bytes = read_file(path);
   if (!bytes) return bytes.error();
@@ -69,7 +69,7 @@ Result<std::string> picture_of(const std::filesystem::path& path) {
          "\">\n";
 }
 
-// The page as HTML, its pictures within it. Errors: a picture that cannot be read.
+// The page as HTML with embedded pictures. Errors: a picture that cannot be read.
 Result<std::string> report_page(const std::string& title, const std::vector<PagePart>& parts) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
@@ -104,7 +104,7 @@ class Scratch {
   fs::path path_;
 };
 
-// Plots are vectors; of what has no vectors, as a film strip, the pixels.
+// Pictures of a folder: vector graphics, and pixels where there are none, as for a film strip.
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> pictures;
   std::error_code error;
@@ -118,7 +118,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return pictures;
 }
 
-// What `wisp validate` says of a recording, and its pictures in a folder.
+// The report of `wisp validate` on a recording, with its pictures in a folder.
 Result<PagePart> judged(const Model& model, const std::string& recording, const fs::path& folder,
                         const Arguments& arguments) {
   Arguments asked = arguments;
@@ -170,7 +170,7 @@ Command report_command() {
   std::vector<Flag> flags = {
       {"output", Kind::kOutput, "REPORT.html", "", "the page to write", {}, true},
   };
-  // What is said of a recording is what `validate` says, asked in the same way.
+  // Recordings are judged as by `validate`, with the same flags.
   for (Flag& flag : validate_command().flags) {
     if (flag.kind != Kind::kOutput) flags.push_back(std::move(flag));
   }

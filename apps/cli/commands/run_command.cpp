@@ -1,4 +1,4 @@
-// `wisp run`: what a model does, as numbers, as a picture, or as a film.
+// `wisp run`: plays a model as numbers, as a picture, or as a film.
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +26,9 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kReach = 4;  // deviations of walks that are not steered: beyond it steering has nothing to choose from
+constexpr double kReach = 4;  // standard deviations of free walks beyond which steering finds no successors
 
-// X,Y,Z@S.
+// Parses a target: X,Y,Z@S.
 Result<SteerTarget> target_from(const std::string& text) {
   SteerTarget target;
   double seconds = 0;
@@ -45,8 +45,8 @@ Result<SteerTarget> target_from(const std::string& text) {
   return target;
 }
 
-// Where --steer says that a walk is to be.
-// Errors: it is given for another kind of model, or a number is out of its range.
+// Target of the walk from --steer.
+// Errors: a model that cannot be steered, or a number out of range.
 Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const Arguments& arguments) {
   if (!arguments.has("steer")) return std::optional<SteerTarget>();
   const auto* chain = std::get_if<ChainModel>(&model.dynamics);
@@ -58,7 +58,7 @@ Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const A
   return std::optional(*target);
 }
 
-// Warns of a target that hardly any walk comes to, however it is steered.
+// Warns of a target that is hardly reachable, however the walk is steered.
 void warn_of_target(const Model& model, const std::optional<SteerTarget>& target, Terminal& terminal) {
   if (!target) return;
   const ChainDrift& drift = *std::get<ChainModel>(model.dynamics).drift;
@@ -74,32 +74,32 @@ void warn_of_target(const Model& model, const std::optional<SteerTarget>& target
                 " m, and within " + shown(reach_ground, 2) + " m over ground; what is out of reach is not reached");
 }
 
-// Steers every instance that lives to a target, if there is one.
+// Steers every living instance to the target, if there is one.
 void steer_all(const std::optional<SteerTarget>& target, Bank& bank) {
   ChainFacet* chain = bank.chain();
   if (!chain || !target) return;
   for (int slot = 0; slot < bank.slots(); ++slot) chain->steer(bank.at(slot), *target);
 }
 
-constexpr double kMaxNumbers = 5e8;  // 4 GB while they are held
+constexpr double kMaxNumbers = 5e8;  // 4 GB in memory
 
 struct Play {
   Model model;
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
-  Camera camera;                   // of a model in the round
-  double orbit = 0;                // seconds in which the camera goes once round; 0: it stands
-  double toward = 0;               // degrees, of the wind
-  std::vector<std::size_t> relit;  // frames before which everything that is out is lit again, ascending
+  Camera camera;                   // camera of a model of bodies
+  double orbit = 0;                // seconds per revolution of the camera; 0: fixed
+  double toward = 0;               // wind direction, degrees
+  std::vector<std::size_t> relit;  // frames before which all extinguished instances are lit again, ascending
 };
 
-// A bank that is played frame by frame.
+// Plays a bank frame by frame.
 class Player {
  public:
   Player(const Play& play, Bank& bank) : play_(play), bank_(bank), burnt_(bank.size(), true) {}
 
-  // One step. Returns the inputs that drove it.
+  // Steps the bank. Returns the inputs of the step.
   std::vector<float> step() {
     ExtinctionFacet* extinction = bank_.extinction();
     if (extinction && std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
@@ -115,7 +115,7 @@ class Player {
 
   bool burns(int slot) const { return burnt_[slot]; }
 
-  // The wind that carries smoke: of the input that blows flames out.
+  // Wind that carries smoke: the input of the extinction rule.
   float wind(const std::vector<float>& inputs) const {
     const auto& rule = play_.model.extinction;
     if (!rule) return 0.0F;
@@ -128,11 +128,11 @@ class Player {
     return camera;
   }
 
-  // When instances went out, for programs.
+  // Extinctions of instances, for programs.
   const ReportTable& deaths() const { return deaths_; }
 
  private:
-  // A wind that is one number blows towards --wind-direction, by default to the right in the picture.
+  // Scalar wind blows towards --wind-direction, by default to the right in the picture.
   std::vector<float> turned(std::vector<float> inputs) const {
     if (inputs.size() != 1 || bank_.input_count() != 2) return inputs;
     const double angle = play_.toward * 3.14159265358979323846 / 180;
@@ -220,7 +220,7 @@ Result<void> write_falls(const Play& play, const Bank& bank, Player& player, con
                          Terminal& terminal) {
   const auto& pose = std::get<PoseView>(play.model.view);
   LeafFilmOptions film{.max_seconds = static_cast<double>(play.frames) / play.model.rate_hz};
-  // A leaf's long axis is the body's x, across which the pose has its half width.
+  // A leaf's long axis is the body's x axis; the pose has the half width across it.
   if (pose.half_width > 0) film.style.length = static_cast<float>(2 * pose.half_width);
   if (pose.half_length > 0) film.style.width = static_cast<float>(2 * pose.half_length);
   return write_leaf_film(path, falls(play, bank, player), film, terminal);
@@ -242,7 +242,7 @@ Result<void> write_run(const Play& play, const Bank& bank, Player& player, const
   return write_film(play, bank, player, path, terminal);
 }
 
-// The frames of --relight.
+// Frames of --relight.
 Result<std::vector<std::size_t>> relit_frames(const Model& model, const Arguments& arguments) {
   std::vector<std::size_t> frames;
   if (!arguments.has("relight")) return frames;
@@ -260,7 +260,7 @@ Result<std::vector<std::size_t>> relit_frames(const Model& model, const Argument
   return frames;
 }
 
-// A model without inputs is driven by nothing.
+// Checks that a model without inputs gets none.
 Result<void> check_drive(const Model& model, const Arguments& arguments) {
   if (!model.inputs.empty()) return {};
   for (const char* flag : {"input", "wind"}) {
@@ -272,7 +272,7 @@ Result<void> check_drive(const Model& model, const Arguments& arguments) {
   return {};
 }
 
-// what blows harder than any wind that a chain was learned in: it is clamped to that and half of it more.
+// Warns of wind above the range of a chain's training: it is clamped to 1.5 times that range.
 void warn_of_wind(const Play& play, Terminal& terminal) {
   if (!std::holds_alternative<ChainModel>(play.model.dynamics)) return;
   std::vector<float> most(play.model.inputs.size());
@@ -290,7 +290,7 @@ void warn_of_wind(const Play& play, Terminal& terminal) {
   }
 }
 
-// What a run holds until it is written.
+// Checks the size of the data that a run holds until it is written.
 Result<void> check_size(const Play& play, int instances) {
   const double columns =
       static_cast<double>(play.model.inputs.size()) + static_cast<double>(play.model.outputs.size()) * instances;
@@ -300,7 +300,7 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// What --camera, --orbit and --toward ask for: the model in the round.
+// Applies --camera, --orbit and --toward, for models of bodies.
 Result<void> go_round(const Arguments& arguments, Play& play) {
   if (!arguments.has("camera") && arguments.number("orbit") == 0) return {};
   auto round = in_the_round(play.model);

@@ -1,4 +1,4 @@
-// `wisp simulate candle`: a clip with sound from physics, and the truth beside it.
+// `wisp simulate candle`: simulates a clip with sound from physics, with its ground truth.
 
 #include <algorithm>
 #include <chrono>
@@ -35,17 +35,16 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   return options;
 }
 
-// CLIP.truth.csv for CLIP.mp4.
+// Path of the ground truth: CLIP.truth.csv for CLIP.mp4.
 std::filesystem::path truth_path(std::filesystem::path clip) { return clip.replace_extension(".truth.csv"); }
 
-// Simulates, encodes as it goes, and writes clip and truth, each whole or not at all. Returns the truth.
+// Simulates and encodes frame by frame; writes clip and ground truth, each atomically. Returns the ground truth.
 Result<Recording> write_clip(const std::filesystem::path& path, const CandleClipOptions& options, Terminal& terminal) {
-  auto film =
-      VideoWriter::create(path, {.width = options.camera.width,
-                                 .height = options.camera.height,
-                                 .rate_hz = options.rig.rate_hz,
-                                 .crf = 12,  // keeps the sensor's noise, so that a calm flame is not a still picture
-                                 .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
+  auto film = VideoWriter::create(path, {.width = options.camera.width,
+                                         .height = options.camera.height,
+                                         .rate_hz = options.rig.rate_hz,
+                                         .crf = 12,  // keeps the sensor's noise, so that frames of a calm flame differ
+                                         .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
   if (!film) return film.error();
   CandleClipOutputs outputs;
   outputs.on_frame = [&](const CandleFrame& frame) {

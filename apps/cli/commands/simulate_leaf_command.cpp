@@ -1,4 +1,4 @@
-// `wisp simulate leaf`: many falls of one leaf as a recording, or gusts and their calm twins as two.
+// `wisp simulate leaf`: simulates many falls of one leaf as a recording, or gusts with their calm twins as two.
 
 #include <algorithm>
 #include <array>
@@ -17,10 +17,10 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
-constexpr double kMaxJitter = 0.01;      // of a step of a wind's time
+constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, ± a fifth, and part of the gust
+constexpr double kMaxJitter = 0.01;      // maximum deviation of a time step of the wind, as a share of it
 
-// A wind's column of time, where there is one, must go on evenly: rows are taken at the recording's rate.
+// Checks that a wind's time column, if there is one, has equal steps, as rows are taken at the recording's rate.
 Result<void> check_time(const Recording& recording) {
   const double step = 1 / recording.rate_hz;
   for (const char* name : kTimeColumns) {
@@ -38,7 +38,7 @@ Result<void> check_time(const Recording& recording) {
   return {};
 }
 
-// A recording's wind.x, wind.y and wind.z (what it has of them), or its only input, which blows along x.
+// Wind from a recording: those of wind.x, wind.y and wind.z that it has, or its only input, which blows along x.
 Result<MeasuredWind> track_from(const std::string& path) {
   const auto recording = read_csv(path, {});
   if (!recording) return recording.error();
@@ -73,7 +73,7 @@ Result<MeasuredWind> track_from(const std::string& path) {
   return track;
 }
 
-// A gust has to have begun before the recording ends.
+// Checks that a gust begins before the recording ends.
 Result<void> check_pairs(const Arguments& arguments) {
   if (!arguments.on("pairs") || arguments.number("seconds") >= kMinPairSeconds) return {};
   return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kMinPairSeconds) +
@@ -107,7 +107,7 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
   return options;
 }
 
-// REC.calm.csv for REC.csv.
+// Path of the calm twin: REC.calm.csv for REC.csv.
 std::filesystem::path calm_path(std::filesystem::path path) { return path.replace_extension(".calm.csv"); }
 
 Result<Recording> write_drops(const std::filesystem::path& path, const LeafPairsOptions& options) {
@@ -135,7 +135,7 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".csv")
     return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
-  // Found before the falls, not after them.
+  // Checked before the simulation, which takes long.
   if (auto good = check_writable(path.string()); !good) return good;
   if (arguments.has("video"))
     if (auto good = check_film_name(arguments.text("video")); !good) return good;

@@ -1,4 +1,4 @@
-// `wisp validate`: a model judged on a recording or a clip.
+// `wisp validate`: judges a model on a recording or a clip.
 
 #include <algorithm>
 #include <filesystem>
@@ -270,7 +270,7 @@ Command validate_command() {
   };
   for (Flag& flag : motion_flags()) flags.push_back(std::move(flag));
   for (Flag& flag : capture_flags("1")) {
-    if (flag.name != "points") flags.push_back(std::move(flag));  // the model says how many
+    if (flag.name != "points") flags.push_back(std::move(flag));  // the model determines the number
   }
   return {
       "validate",

@@ -12,12 +12,12 @@ namespace wisp::cli {
 
 class CandlePictures {
  public:
-  /// Sized for the living instances of the model's bank.
+  /// Pictures sized for the living instances of the model's bank.
   ///
   /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
   CandlePictures(const Model& model, const Bank& bank);
 
-  /// Sized for `count` outlines of `points` points, without a bank.
+  /// Pictures sized for `count` outlines of `points` points, without a bank.
   ///
   /// Precondition: the view is an outline, count > 0 and points >= 2.
   CandlePictures(const Model& model, int count, int points);
@@ -25,13 +25,13 @@ class CandlePictures {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Takes the wind of one step of the bank, in the model's units, which carries the smoke.
+  /// Takes the wind of one step, in the model's units; it carries the smoke.
   void blow(const Bank& bank, float wind);
 
-  /// Draws the bank's present state, bodies as the camera sees them. The picture is valid until the next call.
+  /// Draws the bank's current state, bodies as the camera sees them. The picture is valid until the next call.
   const Image& draw(const Bank& bank, const Camera& camera = {});
 
-  /// Draws burning flames from outlines one after the other, count × points × (x, y).
+  /// Draws burning flames from consecutive outlines, count × points × (x, y).
   const Image& draw(std::span<const float> outlines);
 
  private:
@@ -43,7 +43,7 @@ class CandlePictures {
   std::vector<SmokeDrift> drifts_;
   std::vector<float> polylines_;
   std::vector<Point> points_;
-  std::optional<LiveFlames> candles_;  // unset: plain shapes are drawn
+  std::optional<LiveFlames> candles_;  // empty: draws plain shapes
   Image image_;
 };
 

@@ -7,24 +7,24 @@
 namespace wisp::cli {
 namespace {
 
-// The table of the flame's colours. Height is relative to the outline's own height, since a stretched flame stretches
-// its colours; depth is in mean flame heights, since the widths of glow and edge depend on the camera.
+// Size of the table of the flame's colours. Height is relative to the outline's own height, since a stretched flame
+// stretches its colours; depth is in mean flame heights, since the widths of glow and edge depend on the camera.
 constexpr int kHeights = 40;
 constexpr float kTop = 1.6F;
 constexpr int kDepths = 48;
 constexpr float kOutside = -0.30F, kInside = 0.18F;
 
-// Beyond this distance outside, the surroundings are shown without glow.
+// Depths between which the glow fades: none beyond kGlowEnds, full from kGlowWhole inwards.
 constexpr float kGlowEnds = -0.26F, kGlowWhole = -0.10F;
 
-// Below kUnder the picture is taken as still; up to kFootEnds (mean flame heights) only pixels of low variance are,
-// such as the wick.
+// Heights in mean flame heights: below kUnder the picture counts as still; up to kFootEnds only pixels of low variance
+// do, such as the wick.
 constexpr float kUnder = -0.04F, kFootBegins = 0.05F, kFootEnds = 0.22F;
 
-// Standard deviations, in codes, of a pixel that is still and of one that is not.
+// Standard deviations, in codes, of still and of moving pixels.
 constexpr float kStill = 6, kMoves = 18;
 
-// 0 at `low` and beyond, 1 at `high`; `high` may be the smaller.
+// Smooth step: 0 at `low` and beyond, 1 at `high`; `high` may be below `low`.
 float smooth(float low, float high, float value) {
   const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
@@ -32,10 +32,10 @@ float smooth(float low, float high, float value) {
 
 float square(float value) { return value * value; }
 
-// An edge of an outline, prepared for computing distances.
+// An edge of an outline, prepared for the computation of distances.
 struct Edge {
-  Point from, along;  // `along` to its other end
-  float inverse = 0;  // of its squared length
+  Point from, along;  // `along`: vector to its other end
+  float inverse = 0;  // inverse of its squared length
 
   float square_distance(Point p) const {
     const float x = p.x - from.x, y = p.y - from.y;
@@ -58,7 +58,7 @@ class Depths {
     }
   }
 
-  // Positive inside, in pixels; not below −`reach`, and where it is deeper inside than that it is `reach`.
+  // Depth in pixels, positive inside, clamped to ±`reach`.
   float at(float x) const {
     float nearest = square(reach_);
     for (const Edge& edge : near_) nearest = std::min(nearest, edge.square_distance({x, y_}));
@@ -69,13 +69,13 @@ class Depths {
  private:
   float y_, reach_;
   std::vector<Edge> near_;
-  std::vector<float> crossings_;  // x, where the outline crosses the row
+  std::vector<float> crossings_;  // x at which the outline crosses the row
 };
 
 // Position of a pixel relative to an outline.
 struct FlamePlace {
   float height = 0;  // 0 at the base, 1 at the outline's top
-  float depth = 0;   // inside the outline, mean flame heights
+  float depth = 0;   // distance inside the outline, mean flame heights
 };
 
 // Positions of the pixels of one row.
@@ -103,7 +103,7 @@ class Places {
   float reach_;
   Depths depths_;
   float left_ = 0, right_ = 0, height_ = 0;
-  bool above_ = false;  // far above the flame
+  bool above_ = false;  // whether the row is far above the flame
 };
 
 float height_index(float height) { return std::clamp(height / kTop, 0.0F, 1.0F) * (kHeights - 1); }
@@ -199,7 +199,7 @@ std::vector<FilmLook::Sum> FilmLook::flame_colours() const {
   return table;
 }
 
-// Pixels always behind the flame are interpolated from both sides.
+// Colours of the surroundings. Pixels always behind the flame are interpolated from both sides.
 std::vector<FilmLook::Sum> FilmLook::surroundings() const {
   std::vector<Sum> plate(around_.size());
   std::ranges::transform(around_, plate.begin(), [](const Sum& sum) { return mean(sum); });

@@ -10,12 +10,12 @@
 
 namespace wisp::cli {
 
-/// Pixels of a view that is cut from the clip about the flame's base.
+/// A view of the clip around the flame's base, in pixels.
 struct FilmView {
   int width = 0;
   int height = 0;
-  float unit = 1;  ///< pixels of the mean flame height
-  Point base{};    ///< the middle of the flame's base
+  float unit = 1;  ///< mean flame height in pixels
+  Point base{};    ///< middle of the flame's base
 };
 
 class FilmLook {
@@ -37,7 +37,7 @@ class FilmLook {
   Image draw(std::span<const Point> outline) const;
 
  private:
-  using Sum = std::array<float, 4>;  // of red, green and blue codes, and how many
+  using Sum = std::array<float, 4>;  // sums of red, green and blue codes, and their count
 
   float stillness(std::size_t pixel, float height) const;
 
@@ -46,10 +46,10 @@ class FilmLook {
 
   FilmView view_;
   int frames_ = 0;
-  std::vector<Sum> flame_;      // by height in the flame and by depth inside its outline
-  std::vector<Sum> around_;     // by pixel, of frames whose flame was elsewhere
-  std::vector<Sum> still_;      // by pixel, of all frames: wick and wax
-  std::vector<float> squares_;  // by pixel, of all frames: of the sum of its codes
+  std::vector<Sum> flame_;      // by height in the flame and depth inside its outline
+  std::vector<Sum> around_;     // per pixel, over frames with the flame elsewhere
+  std::vector<Sum> still_;      // per pixel, over all frames: wick and wax
+  std::vector<float> squares_;  // per pixel, over all frames: squared sum of its codes
 };
 
 }  // namespace wisp::cli

@@ -16,13 +16,13 @@ namespace wisp::cli {
 namespace {
 
 constexpr double kMaxFramesASecond = 60;
-constexpr double kRestSeconds = 2.2;     // rest on the floor
-constexpr double kFadeSeconds = 0.6;     // fade at the end of the rest
+constexpr double kRestSeconds = 2.2;     // time at rest on the floor
+constexpr double kFadeSeconds = 0.6;     // fade at the end of that time
 constexpr double kSettleSeconds = 0.12;  // transition from the landing pose to lying flat
 constexpr double kTrailSeconds = 0.9;
-constexpr double kRounding = 1e-6;        // rows
-constexpr float kShownLarger = 1.8F;      // a leaf in a room is a few pixels
-constexpr double kStaggerSeconds = 0.45;  // between the first falls of two leaves
+constexpr double kRounding = 1e-6;        // rows: tolerance for rounding
+constexpr float kShownLarger = 1.8F;      // magnification: a leaf in a room is only a few pixels
+constexpr double kStaggerSeconds = 0.45;  // delay between the first falls of two leaves
 
 using PoseColumns = std::array<const std::vector<double>*, 7>;
 
@@ -44,7 +44,7 @@ LeafPose pose_at(const PoseColumns& columns, std::size_t row) {
   return {{at(0), at(1), at(2)}, {at(3), at(4), at(5), at(6)}};
 }
 
-// Flat on the floor, with the same side up and the same heading of the midrib.
+// A landed pose laid flat on the floor, with the same side up and the same heading of the midrib.
 LeafPose lying(const LeafPose& landed) {
   const auto& q = landed.attitude;
   const bool face_up = 1 - 2 * (q[1] * q[1] + q[2] * q[2]) >= 0;
@@ -55,7 +55,7 @@ LeafPose lying(const LeafPose& landed) {
   return pose;
 }
 
-// Interpolates between two attitudes by the shorter way.
+// Interpolates between two attitudes along the shorter rotation.
 LeafPose between(const LeafPose& a, const LeafPose& b, float share) {
   float along = 0;
   for (std::size_t k = 0; k < 4; ++k) along += a.attitude[k] * b.attitude[k];
@@ -65,11 +65,11 @@ LeafPose between(const LeafPose& a, const LeafPose& b, float share) {
   return pose;
 }
 
-// One fall from the top to the floor: rows of an episode, and its shift into the room.
+// One fall from the top to the floor: a range of rows of an episode, and its shift into the room.
 struct Fall {
-  std::size_t first = 0, last = 0;  // row of the start, row of the landing (or the episode's last)
+  std::size_t first = 0, last = 0;  // rows of the start and of the landing (or the episode's last)
   bool lands = false;
-  double begins = 0;  // seconds of the video
+  double begins = 0;  // start in the video, seconds
   std::array<float, 3> shift{};
 };
 
@@ -89,15 +89,15 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
     }
     fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
     falls.push_back(fall);
-    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // at rest from then on
+    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // at rest from this time on
     row = fall.last + 1;
   }
   return falls;
 }
 
-constexpr float kSideways = 0.38F;  // metres: the sideways extent of most falls
+constexpr float kSideways = 0.38F;  // metres: sideways extent of most falls
 
-// Largest distance of a start from the middle, such that most falls stay in the picture.
+// Maximum distance of a start from the middle that keeps most falls in the picture.
 float reach_of(const LeafFilmOptions& options) {
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   return std::max(0.0F, 0.55F * options.fall_metres * aspect - kSideways);
@@ -111,7 +111,7 @@ class Film {
     const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_leaves));
     for (std::size_t k = 0; k < count; ++k) {
       const float across = count > 1 ? 2 * static_cast<float>(k) / static_cast<float>(count - 1) - 1 : 0;
-      // Neighbours start at different times and at three depths.
+      // Neighbours start at different times and at one of three depths.
       const Point place{reach_of(options) * across, 0.16F * static_cast<float>(static_cast<int>(k * 2 % 3) - 1)};
       const double begins = kStaggerSeconds * static_cast<double>(k * 3 % count);
       for (const Fall& fall : falls_of(columns, all[k], rate_, options.fall_metres, place, begins))
@@ -119,7 +119,7 @@ class Film {
     }
   }
 
-  // The leaves that are in the air or on the floor at a time of the video.
+  // Leaves in the air or on the floor at a time of the video.
   std::vector<FlockLeaf> at(double seconds) {
     trails_.clear();
     trails_.reserve(falls_.size());
@@ -142,7 +142,7 @@ class Film {
   }
 
   FlockLeaf flying(const Fall& fall, double since) {
-    // A tolerance for rounding, without which a row could be shown twice and the next one skipped.
+    // Without the tolerance, rounding could show a row twice and skip the next one.
     const auto row = std::min(fall.last, fall.first + static_cast<std::size_t>(since * rate_ + kRounding));
     const auto back = static_cast<std::size_t>(kTrailSeconds * rate_);
     std::vector<LeafPose> trail;
@@ -172,7 +172,7 @@ double longest_episode(const Recording& recording) {
   return static_cast<double>(rows) / recording.rate_hz;
 }
 
-// One side of a film: the room from its camera, and the leaves.
+// One panel of a film: the room from its camera, and the leaves.
 class Side {
  public:
   Side(const LeafPanel& panel, const PoseColumns& columns, const LeafFilmOptions& options)
@@ -186,7 +186,7 @@ class Side {
   Side& operator=(const Side&) = delete;
 
   void draw(double seconds, Image& frame, int left) {
-    painter_.draw(twice_, film_.at(seconds));  // edges of leaves are as hard as pixels
+    painter_.draw(twice_, film_.at(seconds));  // drawn at twice the size, as edges of leaves are not antialiased
     Image image = resized(twice_, options_.width, options_.height);
     if (!caption_.empty()) draw_label(image, caption_, Corner::kTopLeft);
     for (int y = 0; y < image.height(); ++y) std::ranges::copy(image.row(y), frame.row(y).begin() + left);
@@ -201,7 +201,7 @@ class Side {
   Film film_;  // refers to options_ and columns_
 };
 
-// Draws a line between two sides.
+// Draws a line between two panels.
 void divide(Image& image, int x) {
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y).begin() + x - 1, 2, 0xFFFFFFFFU);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A recording of poses as a video of leaves that fall to the floor.
+// Renders a recording of poses as a video of leaves that fall to the floor.
 
 #include <filesystem>
 #include <span>
@@ -14,9 +14,9 @@ namespace wisp::cli {
 struct LeafFilmOptions {
   int width = 1280;  ///< pixels
   int height = 720;
-  double max_seconds = 20;    ///< of the video
-  int max_leaves = 7;         ///< episodes shown at once
-  float fall_metres = 1.45F;  ///< height of a fall; the next one begins at the row after it
+  double max_seconds = 20;    ///< length of the video
+  int max_leaves = 7;         ///< number of episodes shown at once
+  float fall_metres = 1.45F;  ///< height of a fall; the next fall begins at the next row
   LeafStyle style{};
 };
 
@@ -24,19 +24,19 @@ struct LeafFilmOptions {
 /// Errors: the name does not end in .mp4, or its folder is missing or not writable.
 Result<void> check_film_name(const std::string& path);
 
-/// Draws the recording's episodes, a leaf each, and encodes them; whole or not at all.
+/// Draws the recording's episodes, one leaf each, and encodes them atomically.
 /// Errors: the recording has no outputs `pos.x pos.y pos.z q.w q.x q.y q.z`, or the video cannot be written.
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
                              const LeafFilmOptions& options, Terminal& terminal);
 
-/// One side of a film.
+/// One panel of a film.
 struct LeafPanel {
   const Recording* recording = nullptr;
   std::string caption{};  ///< empty: none
 };
 
-/// The same with several recordings side by side, in equal shares of the width, with as many leaves as fit. Errors: as
-/// write_leaf_film(); rates that differ.
+/// Writes a film with several recordings side by side, in equal shares of the width, with as many leaves as fit.
+/// Errors: as write_leaf_film(); rates that differ.
 ///
 /// Precondition: !panels.empty().
 Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const LeafPanel> panels,

@@ -10,7 +10,7 @@
 namespace wisp::cli {
 namespace {
 
-// Flags that contradict a loop, which is a steady play.
+// Rejects flags that contradict a loop, which has constant conditions.
 Result<void> check_flags(const Arguments& arguments) {
   for (const char* flag : {"frames", "input", "relight", "steer"}) {
     if (arguments.has(flag)) {

@@ -16,7 +16,7 @@
 namespace wisp::cli {
 namespace {
 
-constexpr int kStripCellHeight = 220;  // pixels on the strip; frames are drawn at twice this size
+constexpr int kStripCellHeight = 220;  // cell height on the strip, pixels; frames are drawn at twice this size
 
 // Visits the clip's frames that have a row in the recording, up to `last_row`.
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
@@ -38,7 +38,7 @@ Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
   }
 }
 
-// A small clip is enlarged, so that lines and letters have room.
+// Minimum height of an overlay: smaller clips are enlarged, so that lines and letters have room.
 constexpr int kMinOverlayHeight = 480;
 int enlargement(int height) { return std::max(1, (kMinOverlayHeight + height - 1) / height); }
 
@@ -53,13 +53,13 @@ std::vector<Point> enlarged(const Outline& outline, int times) {
   return points;
 }
 
-// How an overlay is laid out.
+// Layout of an overlay.
 struct Layout {
   int times = 1;  // enlargement of the clip
   Corner legend = Corner::kTopLeft;
 };
 
-// The upper corner farther from the outlines on average.
+// The upper corner with the larger mean distance from the outlines.
 Corner roomier_corner(const OutlineRows& captured, int width) {
   double across = 0;
   for (const Outline& outline : captured) {
@@ -118,7 +118,7 @@ Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const Ov
   return film.finish();
 }
 
-// The middle of an outline's base, pixels.
+// Position of an outline's base (its middle), pixels.
 struct Place {
   double x = 0;
   double y = 0;
@@ -128,7 +128,7 @@ Place base_of(const Outline& outline) {
   return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
 }
 
-// An outline in the model's units: about its base, y up.
+// An outline in the model's units: origin at its base, y up.
 Outline in_units(Outline outline, double pixels_per_unit) {
   if (outline.empty()) return outline;
   const Place base = base_of(outline);
@@ -146,8 +146,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Where a film strip's view of a frame is centred: on the median base for a fixed camera, whose base varies only by
-// threshold noise, and on each row's base where camera or candle moves.
+// Centre of a film strip's view of a frame: the median base for a fixed camera, whose base varies only by threshold
+// noise, and each row's base where camera or candle moves.
 class Bases {
  public:
   Bases(const OutlineRows& captured, double unit) {
@@ -171,7 +171,7 @@ class Bases {
   bool stands_ = true;
 };
 
-// Size of a film strip's view, in the clip's pixels: large enough for all flames, within the clip.
+// Size of a film strip's view, in the clip's pixels: contains all flames, within the clip.
 struct Cell {
   double width = 0;
   double height = 0;
@@ -203,7 +203,7 @@ Cell cell_of(const StripContent& content, const Bases& bases) {
   return {std::clamp(room.width, 2.1 * widest * unit, 2.6 * widest * unit), above + below, below};
 }
 
-// A strip's layout and look.
+// Layout and colours of a strip.
 struct Strip {
   const StripContent& content;
   Bases bases;
@@ -223,7 +223,7 @@ Strip strip_of(const StripContent& content) {
   return {content, bases, cell, view, FilmLook(view)};
 }
 
-// An outline in model units, in pixels of the view.
+// Converts an outline from model units to pixels of the view.
 std::vector<Point> in_view(const Outline& units, const FilmView& view) {
   std::vector<Point> points;
   for (const auto& [x, y] : units) {
@@ -233,7 +233,7 @@ std::vector<Point> in_view(const Outline& units, const FilmView& view) {
   return points;
 }
 
-// A captured outline (pixels of the clip) in pixels of the view.
+// Converts a captured outline from pixels of the clip to pixels of the view.
 std::vector<Point> captured_in_view(const Outline& outline, const Strip& strip) {
   const Place base = strip.bases.at(outline);
   Outline units = outline;
@@ -243,7 +243,7 @@ std::vector<Point> captured_in_view(const Outline& outline, const Strip& strip) 
   return in_view(units, strip.view);
 }
 
-// The cartoon of a flame or the plain shape of another outline, as large as the view.
+// Draws a flame as a cartoon, or another outline as a plain shape, at the view's size.
 Image cartoon(const Outline& pixels, const Strip& strip) {
   Image image(strip.view.width, strip.view.height);
   std::vector<Point> outline;
@@ -279,7 +279,7 @@ Image filmed(const Outline& outline, const Image& frame, const Strip& strip) {
   return resized(crop(frame, {left, top, width, height}), strip.view.width, strip.view.height);
 }
 
-// Rows whose frames the look is learned from: those shown, and others of the clip's first minute.
+// Rows whose frames the look is learned from: the rows shown, and others in the clip's first minute.
 std::vector<std::size_t> lesson_of(const StripContent& content) {
   constexpr std::size_t kLessons = 48, kLast = 1800;
   std::vector<std::size_t> rows = content.rows;

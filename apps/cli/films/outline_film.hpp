@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a model beside its recording: the overlay on the clip, and the film strip.
+// Pictures of a model beside its recording: overlay on the clip, and film strip.
 
 #include <filesystem>
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace wisp::cli {
 
-/// Outlines of an overlay, row by row.
+/// Outlines of an overlay, per row.
 struct OverlayContent {
   const OutlineRows& captured;
   const OutlineRows& simulated;
   std::string simulated_label;  ///< "simulated from the wind", "predicted 5 frames ahead"
 };
 
-/// The clip that a recording was captured from: its frames are row after row from `first_frame` (0-based).
+/// The clip that a recording was captured from; its frames from `first_frame` (0-based) on are the rows.
 struct ClipFrames {
-  std::filesystem::path path;  ///< empty: there is no clip, pictures are black
+  std::filesystem::path path;  ///< empty: no clip, pictures are black
   double rate_hz = 0;          ///< for a folder of images; 0 otherwise
   std::size_t first_frame = 0;
 };
@@ -32,18 +32,18 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
 
 /// Contents of a film strip: moments of the recording above, the same moments of the synthesized play below.
 struct StripContent {
-  std::vector<std::size_t> rows;   ///< one a column
-  double rate_hz = 0;              ///< of both
+  std::vector<std::size_t> rows;   ///< one per column
+  double rate_hz = 0;              ///< rate of both recordings
   const OutlineRows& captured;     ///< all rows, in pixels
-  const OutlineRows& synthesized;  ///< likewise
+  const OutlineRows& synthesized;  ///< all rows, in pixels
   double pixels_per_unit = 1;
-  int clip_width = 0, clip_height = 0;  ///< pixels; 0: not known
-  bool flame = true;                    ///< drawn as a flame; else as a plain shape
+  int clip_width = 0, clip_height = 0;  ///< pixels; 0: unknown
+  bool flame = true;                    ///< draw a flame; false: a plain shape
   std::string synthesized_caption;
 };
 
-/// Writes the strip: filmed frames above (drawn from the captured outline where there is no clip), below the
-/// synthesized ones in the clip's own crop, colours and exposure. Errors: as write_overlay().
+/// Writes the strip: filmed frames above (drawn from the captured outline without a clip), synthesized frames below in
+/// the clip's own crop, colours and exposure. Errors: as write_overlay().
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content);
 
 }  // namespace wisp::cli

@@ -20,18 +20,18 @@
 namespace wisp::cli {
 namespace {
 
-// The plots of `wisp validate --figures` for outlines.
+// ---- Plots of `wisp validate --figures` for outlines ----
 
 namespace fs = std::filesystem;
 
-// The residual standard deviation of a channel; the middle of its interval where the training does not state it.
+// Residual standard deviation of a channel; the middle of its interval where the training record lacks it.
 double residual_sd(const Model& model, std::size_t channel) {
   if (!model.training.residual_sd.empty()) return model.training.residual_sd[channel];
   const auto& interval = std::get<ArxModel>(model.dynamics).noise.sd_ci95[channel];
   return (interval[0] + interval[1]) / 2;
 }
 
-// One coordinate's residual standard deviation over the control points, with its interval.
+// Residual standard deviation of one coordinate over the control points, with its interval.
 PlotSeries residual_series(const Model& model, std::size_t coordinate, const std::string& label, Dash dash) {
   const auto& intervals = std::get<ArxModel>(model.dynamics).noise.sd_ci95;
   PlotSeries series{.label = label, .dash = dash, .marker = Marker::kDot};
@@ -54,7 +54,7 @@ PlotSheet residual_sheet(const Model& model) {
   return {.plots = {std::move(plot)}};
 }
 
-// A plot for every section with series whose ids begin with `prefix`.
+// One plot for every section that has series with ids beginning with `prefix`.
 std::vector<Plot> plots_of(const Report& report, std::string_view prefix) {
   std::vector<Plot> plots;
   for (const ReportSection& section : report.sections) {
@@ -83,8 +83,8 @@ PlotSheet spectrum_sheet(const Report& report) {
 }
 
 // Writes residual standard deviations per control point with their 95 % intervals, and the series of the report of
-// validate_outline(): the tip and the inputs over time, spectra of the tip. Into a folder (made where it is missing),
-// each as PNG and SVG.
+// validate_outline(): tip and inputs over time, spectra of the tip; each as PNG and SVG, into a folder that is created
+// if missing.
 // Errors: a file cannot be written.
 Result<void> write_validation_figures(const fs::path& folder, const Model& model, const Report& report) {
   if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
@@ -94,14 +94,14 @@ Result<void> write_validation_figures(const fs::path& folder, const Model& model
 
 constexpr std::size_t kColumns = 12;
 
-// The tip's distance aside of the base; NaN where there is no outline.
+// Horizontal distance of the tip from the base; NaN without an outline.
 double lean_of(const std::vector<std::array<double, 2>>& outline) {
   if (outline.empty()) return std::numeric_limits<double>::quiet_NaN();
   return outline[outline.size() / 2][0] - (outline.front()[0] + outline.back()[0]) / 2;
 }
 
-// Rows of a film strip: twelve moments an eighth of a second apart, where the captured tip moves most among stretches
-// with an outline in every moment. Fewer where the recording is shorter.
+// Rows of a film strip: twelve moments, an eighth of a second apart, in the stretch with complete outlines in which the
+// captured tip moves most. Fewer where the recording is shorter.
 std::vector<std::size_t> liveliest_rows(const OutlineRows& captured, double rate_hz) {
   const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rate_hz / 8)));
   const std::size_t count = std::min(kColumns, (captured.size() + apart - 1) / apart);
@@ -111,14 +111,14 @@ std::vector<std::size_t> liveliest_rows(const OutlineRows& captured, double rate
     double motion = 0;
     for (std::size_t k = 1; k < count; ++k)
       motion += std::abs(lean_of(captured[begin + k * apart]) - lean_of(captured[begin + (k - 1) * apart]));
-    if (motion > most) best = begin, most = motion;  // NaN is not more
+    if (motion > most) best = begin, most = motion;  // false for NaN
   }
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < count; ++k) rows.push_back(best + k * apart);
   return rows;
 }
 
-// Pixels of the clip that a recording was captured from; 0 where it does not say.
+// Width or height of the clip that a recording was captured from, pixels; 0 where it is not recorded.
 int clip_size(const Recording& recording, const char* side) {
   const auto value = numbers_attribute(recording, side);
   return value && *value && (*value)->size() == 1 ? static_cast<int>((**value)[0]) : 0;

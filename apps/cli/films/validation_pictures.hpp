@@ -1,5 +1,5 @@
 #pragma once
-// All pictures of an outline's validation.
+// Draws all pictures of an outline's validation.
 
 #include <optional>
 #include <string>
@@ -17,14 +17,14 @@ namespace wisp::cli {
 struct ValidationSubject {
   Recording recording{};
   ClipFrames clip{};
-  std::optional<Report> captured{};  ///< report of capture(), if it was captured just now
+  std::optional<Report> captured{};  ///< report of capture(), if the clip was captured by this command
 };
 
-/// Paths of the pictures; empty: not written.
+/// Paths of the pictures to write; empty: not written.
 struct ValidationPictures {
   std::string overlay;
   std::string film_strip;
-  std::string figures;  ///< a folder
+  std::string figures;  ///< folder
 };
 
 /// Errors: a clip cannot be read, a file cannot be written.

@@ -1,5 +1,5 @@
 #pragma once
-// --na, --nb and --nk as recipes have them; how far ahead is predicted, and where a free run starts.
+// Flags --na, --nb and --nk as in recipes; number of steps ahead, and start of a free run.
 
 #include <string>
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace wisp::cli {
 
-/// What their help says besides.
+/// Additions to the help of the order flags.
 struct OrderHelp {
-  const char* fallback;    ///< of --na and --nb
-  const char* of_a = "";   ///< what A belongs to
-  const char* delay = "";  ///< what --nk may be besides
+  const char* fallback;    ///< default of --na and --nb
+  const char* of_a = "";   ///< object that A describes
+  const char* delay = "";  ///< further values of --nk
 };
 
-/// The flags.
+/// The flags --na, --nb and --nk.
 std::vector<Flag> order_flags(const OrderHelp& help);
 
-/// What --na, --nb or --nk says: a number for all pairs of channels, or a matrix, '4,2;3,4' (rows by semicolons), of a
-/// row for each of --outputs and a column for each of --outputs (--na) or --inputs.
-/// Errors: text that cannot be understood or has not that shape, with what was found and expected.
+/// Value of --na, --nb or --nk: a number for all pairs of channels, or a matrix such as '4,2;3,4' (rows separated by
+/// semicolons) with a row for each of --outputs and a column for each of --outputs (--na) or --inputs.
+/// Errors: text that cannot be parsed or has another shape, with what was found and expected.
 Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& flag);
 
-/// All of --steps: numbers of steps ahead, or `inf` for kFreeRun. Errors: one is neither.
+/// All values of --steps: numbers of steps ahead, or `inf` for kFreeRun. Errors: a value of another form.
 Result<std::vector<int>> steps_in(const Arguments& arguments);
 
 Flag initial_flag();

@@ -57,7 +57,7 @@ std::vector<Flag> capture_flags(const std::string& flame) {
 
 Result<ClipCapture> capture_options(const Arguments& arguments) {
   ClipCapture options;
-  // What measures light only has none of these.
+  // Commands that measure light alone lack these flags.
   if (arguments.has("points")) options.points = arguments.integer("points");
   if (arguments.has("channel")) options.channel = channel_from_name(arguments.text("channel"));
   options.dark = arguments.on("dark");

@@ -1,5 +1,5 @@
 #pragma once
-// How commands turn a clip into a recording: flags to options.
+// Flags that control the conversion of a clip to a recording.
 
 #include <filesystem>
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace wisp::cli {
 
-/// --points, --channel, --dark, --region, --frames, --rate, --wind-measure.
+/// Flags --points, --channel, --dark, --region, --frames, --rate and --wind-measure.
 std::vector<Flag> capture_flags(const std::string& flame);
 
-/// What they say.
-/// Errors: a value that does not fit.
+/// Capture options from these flags.
+/// Errors: a value out of range.
 Result<ClipCapture> capture_options(const Arguments& arguments);
 
-/// Recordings of outlines: tables are read, everything else is captured, with the curve of the first. A bad one is the
-/// error, or is left out and listed with --skip-bad.
+/// Recordings of outlines: tables are read, other files are captured, with the curve shape of the first. A bad one is
+/// an error or, with --skip-bad, skipped and listed.
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal);
 

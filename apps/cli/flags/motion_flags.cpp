@@ -12,7 +12,7 @@ constexpr std::array<const char*, 3> kPosition = {"pos.x", "pos.y", "pos.z"};
 constexpr std::array<const char*, 4> kOrientation = {"q.w", "q.x", "q.y", "q.z"};
 constexpr std::array<const char*, 3> kWind = {"wind.x", "wind.y", "wind.z"};
 
-// Gives columns that a flag names the names that learning looks for.
+// Renames columns named by a flag to the names that learning expects.
 template <std::size_t kSize>
 Result<void> rename(const Arguments& arguments, const char* flag, const std::array<const char*, kSize>& names,
                     Recording& recording) {

@@ -1,5 +1,5 @@
 #pragma once
-// How a recording of motion is to be understood whose names are another program's.
+// Flags for recordings of motion with other column names.
 
 #include <string>
 #include <vector>
@@ -10,22 +10,22 @@
 
 namespace wisp::cli {
 
-/// --position and --orientation.
+/// Flags --position and --orientation.
 std::vector<Flag> motion_flags();
 
-/// The columns that --position and --orientation name; none where they are not given.
-/// Errors: not three of the one, or four of the other.
+/// Columns named by --position and --orientation; empty where these are not given.
+/// Errors: not three positions, or not four orientations.
 Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 
-/// How a plain table of motion is to be understood: the names that learning looks for need no flag, where none gives
-/// others, nor does the rate, where one is given. A column of time is kept, so that uneven time is found.
+/// Options for reading a plain table of motion. Names that learning expects need no flag unless flags give others; the
+/// same holds for the rate. A time column is kept, so that uneven time is detected.
 CsvOptions motion_table(const Arguments& arguments, double rate_hz = 0);
 
-/// The recording with the names that learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z. Where none of the flags is
-/// given it is as it was.
-/// Errors: a column that is not there.
+/// Renames the columns of a recording to those that learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z.
+/// Unchanged where none of the flags is given.
+/// Errors: a missing column.
 ///
-/// Precondition: motion_columns() has none.
+/// Precondition: motion_columns() has no error.
 Result<Recording> as_motion(Recording recording, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Flags of `wisp learn`, and the recipe that they say, from a recipe's table of fields.
+// Flags of `wisp learn` and their conversion to a recipe, from the recipe's table of fields.
 
 #include <algorithm>
 #include <concepts>
@@ -21,7 +21,7 @@ template <class Value>
 concept FlagValue = std::is_enum_v<Value> || std::is_arithmetic_v<Value> ||
     OneOf<Value, std::string, std::vector<std::string>, std::optional<int>, EventSpec>;
 
-/// The flag of a field whose default is `value`.
+/// Flag of a field with default `value`.
 template <FlagValue Value>
 Flag flag_of(const Value& value, const FieldTraits& traits, const char* help) {
   Flag flag{traits.flag, Kind::kText, traits.sign, "", help};
@@ -49,8 +49,8 @@ Flag flag_of(const Value& value, const FieldTraits& traits, const char* help) {
   return flag;
 }
 
-/// Sets a field as its flag says.
-/// Errors: an event of another form.
+/// Sets a field from its flag.
+/// Errors: an event of the wrong form.
 template <FlagValue Value>
 Result<void> read_flag(const Arguments& arguments, const FieldTraits& traits, Value& value) {
   if (!arguments.has(traits.flag)) return {};
@@ -77,7 +77,7 @@ Result<void> read_flag(const Arguments& arguments, const FieldTraits& traits, Va
   return {};
 }
 
-/// The flags of a recipe's fields that have one, in the order of the table; defaults are the recipe's.
+/// Flags of a recipe's fields that have one, in the order of the table; defaults are the recipe's.
 template <class Recipe>
 std::vector<Flag> recipe_flags(const Recipe& defaults) {
   std::vector<Flag> flags;
@@ -90,12 +90,12 @@ std::vector<Flag> recipe_flags(const Recipe& defaults) {
   return flags;
 }
 
-/// One of the flags.
+/// The flag with that name.
 inline Flag& flag_named(std::vector<Flag>& flags, std::string_view name) {
   return *std::find_if(flags.begin(), flags.end(), [&](const Flag& flag) { return flag.name == name; });
 }
 
-/// Sets the fields that have flags, whose words and ranges the parser has checked.
+/// Sets all fields that have flags; the parser has checked words and ranges.
 /// Errors: as read_flag().
 template <class Recipe>
 Result<void> read_recipe(const Arguments& arguments, Recipe& recipe) {

@@ -41,7 +41,7 @@ Result<Preparation> preparation_of(const Arguments& arguments) {
 
 namespace {
 
-// Samples a second of what is recorded of things that move: once in eleven days to a radio's.
+// Hz: range of sampling rates for recordings of moving things, from once in eleven days to a radio's.
 constexpr double kMinRate = 1e-6, kMaxRate = 1e7;
 
 std::string extension_of(const std::filesystem::path& path) {
@@ -60,7 +60,7 @@ bool is_table(const std::filesystem::path& path) {
 bool is_matlab(const std::filesystem::path& path) { return extension_of(path) == ".mat"; }
 
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
-  options.usual_rate_hz = std::exchange(options.rate_hz, 0);  // a table's time knows better
+  options.usual_rate_hz = std::exchange(options.rate_hz, 0);  // a table's time takes precedence
   if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
   if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
   const auto motion = motion_columns(arguments);
@@ -84,7 +84,7 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
 
 namespace {
 
-// A rate that is only otherwise the one gives way to what the file says.
+// Reads a MATLAB file. A rate given only by `otherwise` is a default, which yields to the file's own rate.
 Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOptions& options, const Arguments& arguments,
                               const CsvOptions& otherwise) {
   if (!options.columns.empty()) {

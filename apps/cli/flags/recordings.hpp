@@ -1,5 +1,5 @@
 #pragma once
-// Recordings as commands take them: files by name, read by what they are.
+// Reads recordings named by commands, by their kind of file.
 
 #include <filesystem>
 #include <string>
@@ -13,40 +13,40 @@
 
 namespace wisp::cli {
 
-/// Flags of every command that reads a table: --columns, --rate, --dt.
+/// Flags --columns, --rate and --dt of every command that reads a table.
 std::vector<Flag> table_flags();
 
-/// Those, and --skip-bad of commands that read many.
+/// table_flags(), and --skip-bad of commands that read several recordings.
 std::vector<Flag> recording_flags();
 
-/// --prepare, and what it says. Errors: as parse_preparation().
+/// The flag --prepare and its value. Errors: as parse_preparation().
 Flag prepare_flag();
 Result<Preparation> preparation_of(const Arguments& arguments);
 
-/// Whether a name is that of a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than of a clip.
+/// Whether a file is a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// Whether it is that of a MATLAB file.
+/// Whether a file is a MATLAB file.
 bool is_matlab(const std::filesystem::path& path);
 
-/// How --inputs, --outputs, --columns, --rate and --dt say a table is to be understood, and `otherwise` where they do
-/// not. Errors: --dt that is not above 0.
+/// Options for reading a table from --inputs, --outputs, --columns, --rate and --dt, with `otherwise` for flags not
+/// given. Errors: --dt that is not above 0.
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
-/// Reads one table, understood as csv_options() says.
+/// Reads one table with the options of csv_options().
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise = {});
 
-/// What becomes of a bad recording: with --skip-bad it is left out, with a warning and an entry of `skipped` in the
-/// result. Returns whether it is left out.
+/// Handles a bad recording: with --skip-bad it is skipped, with a warning and an entry of `skipped` in the result.
+/// Returns whether it is skipped.
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal);
 
-/// Reads all of them. A bad one is the error, or, with --skip-bad, a warning and an entry of `skipped` in the result.
-/// Errors: also where none is left.
+/// Reads all tables. A bad one is an error or, with --skip-bad, a warning and an entry of `skipped` in the result.
+/// Errors: also where none remains.
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
                                            Terminal& terminal, const CsvOptions& otherwise = {});
 
-/// Rows of --range (1-based, inclusive), or all of them where the flag is not given.
+/// Rows of --range (1-based, inclusive), or all rows where the flag is not given.
 /// Errors: the range reaches beyond the recording.
 Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
 Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments);

@@ -30,7 +30,7 @@ std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, d
 
 namespace {
 
-// What of the sound drives an input: by its name, as captures call it; an input of another name is a wind like any.
+// Measure of the sound that drives an input, by the names used in captures; other names use the wind.
 WindMeasure measure_of(const Input& input) {
   for (const WindMeasure measure : {WindMeasure::kHeard, WindMeasure::kRms}) {
     if (input.name == wind_channel_name(measure)) return measure;
@@ -38,7 +38,7 @@ WindMeasure measure_of(const Input& input) {
   return WindMeasure::kSpeed;
 }
 
-// The value of an input's channel that is 1 in the model. Speeds have it from the sound itself.
+// Value of an input's channel that equals 1 in the model. Speeds are scaled by the sound itself.
 Result<double> scale_of(const Model& model, std::size_t input) {
   if (measure_of(model.inputs[input]) != WindMeasure::kRms) return 1.0;
   if (input < model.training.inputs.size()) return model.training.inputs[input].scale;
@@ -46,7 +46,7 @@ Result<double> scale_of(const Model& model, std::size_t input) {
                " was in recordings, expected a model that was learned from some; learn it with this program"};
 }
 
-// Columns that are the model's inputs: --inputs, in its order, or those of its own names.
+// Columns of the model's inputs: those of --inputs in order, or those with the model's names.
 Result<std::vector<std::string>> input_names(const Model& model, const Arguments& arguments) {
   std::vector<std::string> names = arguments.names("inputs");
   if (names.empty()) {

@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxOutputs = 4;
-constexpr std::size_t kMaxRows = 1000;       // a picture of more rows than it has pixels shows nothing
-constexpr std::size_t kPredictedRows = 200;  // few enough that the interval's width can be seen
-constexpr double kFar = 1.5;  // a zero farther from 0 would make the unit circle a dot: it is left to the numbers
+constexpr std::size_t kMaxRows = 1000;       // maximum rows of a plot: more rows than pixels are illegible
+constexpr std::size_t kPredictedRows = 200;  // few enough to show the interval's width
+constexpr double kFar = 1.5;                 // larger zeros would shrink the unit circle to a dot, and are only listed
 
-// A report's series by their ids.
+// Series of a report, by their ids.
 class Figures {
  public:
   Figures(const Model& model, const Report& report) : model_(model), report_(report) {}
@@ -40,7 +40,7 @@ class Figures {
   std::size_t outputs() const { return std::min(model_.outputs.size(), kMaxOutputs); }
   std::size_t inputs() const { return model_.inputs.size(); }
 
-  // Suffix of a figure's name where each output has its own.
+  // Suffix of a figure's name where every output has its own figure.
   std::string of_output(std::size_t output) const {
     return model_.outputs.size() == 1 ? "" : "-" + model_.outputs[output].name;
   }
@@ -62,7 +62,7 @@ PlotSeries unit_circle() {
   return circle;
 }
 
-// A pole is a cross, by convention, a zero a ring.
+// Marks of a pole (a cross, by convention) or a zero (a ring).
 PlotSeries crosses(const ReportSeries& places) {
   constexpr double kArm = 0.04;
   PlotSeries series{.label = "poles ×", .width = 1.6};
@@ -104,7 +104,7 @@ PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
       sheet.plots.push_back(pole_plot(zeros ? zeros->label : "Poles", own ? *own : poles, zeros));
     }
   }
-  double reach = 1.1;  // of all panels, so that they can be compared
+  double reach = 1.1;  // common to all panels, so that they are comparable
   for (const Plot& plot : sheet.plots) {
     for (std::size_t z = 0; plot.series.size() > 2 && z < plot.series[2].x.size(); ++z) {
       reach = std::max({reach, 1.1 * std::abs(plot.series[2].x[z]), 1.1 * std::abs(plot.series[2].y[z])});
@@ -117,7 +117,7 @@ PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
   return sheet;
 }
 
-// A curve with its band, if it has one.
+// A curve with its band, if there is one.
 PlotSeries curve_of(const Figures& figures, const ReportSeries& series, const std::string& band) {
   PlotSeries curve{.x = series.x, .y = series.y};
   const ReportSeries* low = figures.find(series.id + ".low");
@@ -214,7 +214,7 @@ PlotSeries rows_of(PlotSeries series, std::size_t first, std::size_t rows) {
   return series;
 }
 
-// Measured and simulated, or measured and predicted, outputs.
+// Sheet of measured and simulated, or measured and predicted, outputs.
 PlotSheet tracking_sheet(const Figures& figures, const char* id) {
   PlotSheet sheet{.columns = 1, .plot_width = 900, .plot_height = 260};
   const bool simulated = std::string_view(id) == "simulated";
@@ -247,7 +247,7 @@ PlotSheet tracking_sheet(const Figures& figures, const char* id) {
   return sheet;
 }
 
-// The paper's figure of prediction: error against the number of steps, with the error that the model expects.
+// Sheet of the error against the number of steps (the paper's figure of prediction), with the model's own expectation.
 PlotSheet error_sheet(const Figures& figures) {
   PlotSheet sheet{.columns = static_cast<int>(std::min<std::size_t>(3, figures.outputs()))};
   for (std::size_t i = 0; i < figures.outputs(); ++i) {

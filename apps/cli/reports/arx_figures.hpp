@@ -11,9 +11,9 @@
 
 namespace wisp::cli {
 
-/// Writes what the report has series for into a folder (made where it is missing), each as PNG and SVG: `poles-zeros`,
-/// per output `step` and `frequency`, `residuals`, and of a validation `simulation`, `prediction` and
-/// `prediction-error`. Models of more than four outputs have those of the first four, with a note.
+/// Writes plots of the report's series into a folder (created if missing), each as PNG and SVG: `poles-zeros`, per
+/// output `step` and `frequency`, `residuals`, and for a validation `simulation`, `prediction` and `prediction-error`.
+/// For models of more than four outputs, only those of the first four, with a note.
 /// Errors: a file cannot be written.
 Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report,
                                Terminal& terminal);

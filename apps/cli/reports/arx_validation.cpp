@@ -17,7 +17,7 @@ struct Renamed {
   std::string name;
 };
 
-// Matches the model's channels to the table's: those that the flag names, or those of the same names.
+// Matches the model's channels to the table's: those named by the flag, or those with equal names.
 Result<void> find_renamed(const Recording& recording, const std::vector<std::string>& given,
                           const std::vector<std::string>& own, const std::string& flag, std::vector<Renamed>& renamed) {
   if (!given.empty() && given.size() != own.size()) {
@@ -27,7 +27,7 @@ Result<void> find_renamed(const Recording& recording, const std::vector<std::str
   for (std::size_t k = 0; k < own.size(); ++k) {
     const std::string& name = given.empty() ? own[k] : given[k];
     const auto channel = find_channel(recording, name);
-    if (!channel && given.empty()) continue;  // validate() reports it
+    if (!channel && given.empty()) continue;  // validate() reports the missing channel
     if (!channel) return Error{recording.source + ": has no channel " + name + ", which --" + flag + " names"};
     for (const Renamed& one : renamed) {
       if (one.channel != *channel) continue;

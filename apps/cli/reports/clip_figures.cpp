@@ -34,7 +34,7 @@ PlotSheet histogram_sheet(const Report& captured) {
   return sheet;
 }
 
-// The envelope of a sound: the lowest and highest sample of every few milliseconds.
+// Envelope of a sound: the lowest and highest sample of every few milliseconds.
 class Envelope {
  public:
   void feed(const SoundInfo& info, std::span<const float> samples) {

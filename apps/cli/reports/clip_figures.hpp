@@ -8,13 +8,12 @@
 
 namespace wisp::cli {
 
-/// Writes plots of a captured clip into a folder: the brightness histogram with the threshold and, if the
-/// clip has sound, its waveform and its root mean square a frame. Errors: the clip's sound cannot be read, a file
-/// cannot be written.
+/// Writes plots of a captured clip into a folder: the brightness histogram with the threshold and, if the clip has
+/// sound, its waveform and its RMS per frame. Errors: the clip's sound cannot be read, a file cannot be written.
 Result<void> write_clip_figures(const std::filesystem::path& folder, const std::filesystem::path& clip,
                                 const Report& captured);
 
-/// Writes a sheet as NAME.png and NAME.svg into a folder, which is made where it is missing.
+/// Writes a sheet as NAME.png and NAME.svg into a folder, which is created if missing.
 Result<void> write_figure(const std::filesystem::path& folder, const std::string& name, const PlotSheet& sheet);
 
 }  // namespace wisp::cli

@@ -33,7 +33,7 @@ Result<void> check_writable(const std::string& path) {
   if (path.empty()) return {};
   auto pending = PendingFile::create(path);
   if (!pending) return pending.error();
-  // Some folders report write permission and refuse it.
+  // Tries to write, as some folders report write permission and refuse it.
   if (std::ofstream(pending->path())) return {};
   return Error{path + ": cannot be written: no file can be made in its folder"};
 }

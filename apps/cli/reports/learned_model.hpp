@@ -15,11 +15,11 @@ namespace wisp::cli {
 /// `-o` of a command that learns: required unless one of these flags or --json is given.
 Flag output_flag(std::vector<std::string> unless = {});
 
-/// The path of the model, empty for none, and the model's name.
+/// Path of the model (empty: none) and name of the model.
 std::string model_path(const Arguments& arguments);
 std::string model_name(const Arguments& arguments);
 
-/// Checks that a file of that name can be written, before long work; an empty name is fine. Errors: as write_file().
+/// Checks before long work that a file of that name can be written; an empty name is accepted. Errors: as write_file().
 Result<void> check_writable(const std::string& path);
 
 /// Shows the report, and writes the model if `path` is not empty. Reports the path and the time since `start`.
