@@ -27,7 +27,7 @@ Error file_error(const fs::path& path, const std::string& what) { return {path_t
 std::string reason() { return std::strerror(errno); }
 
 fs::path pending_name(const fs::path& path) {
-  // Two threads may write the same name at once; the process number alone would let them share a pending file.
+  // Two threads may write the same name at once; with the process number alone they would share a pending file.
   static std::atomic<unsigned> counter{0};
   fs::path name = fs::path(".");
   name += path.stem();
@@ -36,9 +36,9 @@ fs::path pending_name(const fs::path& path) {
   return path.parent_path() / name;
 }
 
-// What a link leads to in the end, which need not be there.
+// Returns the final target of a link, which need not exist.
 Result<fs::path> follow_links(fs::path path) {
-  constexpr int kMaxLinks = 40;  // as many as Linux follows
+  constexpr int kMaxLinks = 40;  // Linux's limit
   std::error_code code;
   for (int k = 0; k < kMaxLinks; ++k) {
     if (!fs::is_symlink(path, code)) return path;
@@ -48,7 +48,7 @@ Result<fs::path> follow_links(fs::path path) {
   return file_error(path, "cannot be written: it is a link that leads nowhere; remove it");
 }
 
-// A private file's new contents are not for others to read while they are being written.
+// Copies the permissions: others must not read a private file's new contents while they are written.
 void make_alike(const fs::path& pending, const fs::path& old) {
   std::error_code code;
   const fs::file_status status = fs::status(old, code);
@@ -58,11 +58,11 @@ void make_alike(const fs::path& pending, const fs::path& old) {
   }
 }
 
-// Names of pending files as a signal handler may read them: it can neither lock nor allocate. More files at once than
-// there are places are left behind by an interruption, and by nothing else.
+// Names of pending files in a form that a signal handler may read: it can neither lock nor allocate. If there are more
+// files at once than entries, an interruption leaves the excess behind.
 constexpr std::size_t kMaxListed = 32, kMaxName = 4096;
 struct Listed {
-  std::atomic<int> state{0};  // 0 free, 1 being written, 2 a name
+  std::atomic<int> state{0};  // 0 free, 1 being written, 2 holds a name
   std::array<fs::path::value_type, kMaxName> name{};
 };
 std::array<Listed, kMaxListed> listed_files;
@@ -101,7 +101,7 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
   if (!file) return file_error(path, "cannot be opened: " + reason());
 
   std::vector<std::byte> bytes;
-  // Where addresses have 32 bits, less can be held than files may have.
+  // With 32-bit addresses, memory is smaller than the largest file.
   max_bytes = std::min<std::uint64_t>(max_bytes, bytes.max_size() / 2);
   const std::uintmax_t size = fs::file_size(path, code);
   if (!code) {
@@ -168,7 +168,7 @@ void PendingFile::discard() {
 
 Result<PendingFile> PendingFile::create(const fs::path& given) {
   std::error_code code;
-  // A link stays a link: what it points to is written.
+  // A link stays a link: its target is written.
   const auto target = follow_links(given);
   if (!target) return target.error();
   const fs::path& path = *target;

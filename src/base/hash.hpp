@@ -1,5 +1,5 @@
 #pragma once
-// A 64-bit hash that finds damage: FNV-1a. It promises nothing against malice.
+// A 64-bit hash that detects damage: FNV-1a. It gives no protection against manipulation.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace wisp {
 
-/// The hash of `bytes`; with `before`, the hash of a previous piece, that of the two joined. A change of any single
-/// byte changes it.
+/// Returns the hash of `bytes`; with `before`, the hash of a previous piece, that of the two concatenated. A change of
+/// any single byte changes it.
 std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325U);
 
 }  // namespace wisp

@@ -1,6 +1,6 @@
 #pragma once
-// JSON as it is written down: objects, lists and values in their order, numbers as the shortest text that reads back as
-// the same number. For documents of a fixed shape, whose keys need no escape.
+// Writer of JSON text: objects, lists and values in order, numbers as the shortest text that reads back as the same
+// number. For documents of a fixed shape, whose keys need no escape.
 
 #include <charconv>
 #include <concepts>
@@ -43,7 +43,7 @@ class JsonText {
   }
   JsonText& value(const char* words, std::string_view key) { return value(std::string_view(words), key); }
 
-  /// A list of numbers, or of what else value() takes.
+  /// Adds a list of values of any type that value() accepts.
   template <class Values>
   JsonText& values(const Values& all, std::string_view key = {}) {
     list(key);

@@ -1,6 +1,6 @@
 #pragma once
-// A path as text for messages: UTF-8 everywhere. path::string() is in the code page of the machine on Windows, in which
-// a name may have no text.
+// A path as text for messages, in UTF-8 on every platform. On Windows path::string() is in the machine's code page, in
+// which a name may have no representation.
 
 #include <filesystem>
 #include <string>

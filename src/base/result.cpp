@@ -10,7 +10,7 @@ namespace wisp {
 namespace {
 
 #ifdef __EMSCRIPTEN__
-// A trap ends the call with its stack; printing would be a tenth of a page's module.
+// A trap ends the call with its stack; printing would take a tenth of a page's module.
 [[noreturn]] void print_and_end(const char*) { __builtin_trap(); }
 #else
 [[noreturn]] void print_and_end(const char* sentence) {
@@ -31,7 +31,7 @@ void report_misuse(const char* sentence) { handler_of_misuse.load()(sentence); }
 
 void end_on_misuse(const char* sentence) {
   report_misuse(sentence);
-  print_and_end(sentence);  // where the handler returned
+  print_and_end(sentence);  // if the handler returned
 }
 
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more) {

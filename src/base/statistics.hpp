@@ -1,5 +1,5 @@
 #pragma once
-// Location and spread of samples, once for the whole house.
+// Location and spread of samples, for all layers.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// The sample of the nearest rank to `share` (0 smallest, 0.5 median, 1 largest), reordering `values`; 0 of none.
+/// Returns the nearest-rank sample at `share` (0 smallest, 0.5 median, 1 largest), reordering `values`; 0 for none.
 ///
 /// `share` in [0, 1]; no sample is NaN.
 template <class T>
@@ -21,13 +21,13 @@ T quantile_in_place(std::span<T> values, double share) {
   return *at;
 }
 
-/// As quantile_in_place(), of a copy.
+/// Like quantile_in_place(), on a copy.
 template <class T>
 T quantile(std::vector<T> values, double share) {
   return quantile_in_place(std::span<T>(values), share);
 }
 
-/// The middle sample, the upper one of an even number of samples; 0 of none.
+/// Returns the middle sample, the upper one of an even number of samples; 0 for none.
 template <class T>
 T median(std::vector<T> values) {
   if (values.empty()) return T(0);
@@ -36,13 +36,13 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
-/// The arithmetic mean; 0 of none.
+/// Returns the arithmetic mean; 0 for none.
 inline double mean(std::span<const double> values) {
   if (values.empty()) return 0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// The standard deviation about the mean, divided by the number of samples; 0 of none.
+/// Returns the standard deviation about the mean, divided by the number of samples; 0 for none.
 inline double deviation(std::span<const double> values) {
   if (values.empty()) return 0;
   const double middle = mean(values);

@@ -46,7 +46,7 @@ bool may_write_into(const std::filesystem::path& folder) { return ::access(folde
 bool bring_to_disk(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
-  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // not every file system can
+  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // not supported by every file system
   ::close(file);
   return done;
 }

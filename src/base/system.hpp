@@ -1,22 +1,22 @@
 #pragma once
-// What base asks the operating system about files beyond the C++ standard library: one set of functions, POSIX and
-// Windows. Nothing above base sees it.
+// File functions of the operating system beyond the C++ standard library: one interface, for POSIX and Windows. Used by
+// base alone.
 
 #include <cstdio>
 #include <filesystem>
 
 namespace wisp::system {
 
-/// As std::fopen(), for names in any script. `mode` is "rb" or "wb".
+/// Like std::fopen(), for names in any script. `mode` is "rb" or "wb".
 std::FILE* open_file(const std::filesystem::path& path, const char* mode);
 
-/// Number of this process.
+/// Returns the number of this process.
 long process_number();
 
-/// Whether files can be made in a folder; errno says why not.
+/// Returns whether files can be created in a folder; errno has the reason if not.
 bool may_write_into(const std::filesystem::path& folder);
 
-/// Waits until a file is on the disk. Returns false, and errno says why, where it can't be brought there.
+/// Waits until a file is on the disk. Returns false, with the reason in errno, if that fails.
 bool bring_to_disk(const std::filesystem::path& path);
 
 /// Removes a file by its native name; safe in a signal handler.

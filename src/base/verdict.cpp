@@ -11,7 +11,7 @@ std::string number_text(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
   std::string out = text;
-  // A comma is some locales' decimal point.
+  // Some locales' decimal point is a comma.
   std::replace(out.begin(), out.end(), ',', '.');
   return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Common to the C ABI: the types behind its handles, error messages, structs of other sizes, no exceptions.
+// Common parts of the C ABI: the types behind its handles, error messages, structs of other sizes, no exceptions.
 
 #include <algorithm>
 #include <cstddef>
@@ -57,7 +57,7 @@ bool index_is_right(const char* function, std::uint32_t index, std::size_t count
 /// Checks the size field of a struct; stores an error otherwise.
 bool size_is_right(const char* function, std::uint32_t size);
 
-/// The same of what a function is given: a handle and a struct, neither null.
+/// Checks that a handle and a struct are not null, and the struct's size; stores an error otherwise.
 template <class Handle, class Struct>
 bool struct_is_right(const char* function, const Handle* handle, const Struct* given) {
   if (handle && given) return size_is_right(function, given->size);
@@ -65,8 +65,7 @@ bool struct_is_right(const char* function, const Handle* handle, const Struct* g
   return false;
 }
 
-/// Runs a function that may throw for lack of memory, and for nothing else. Without exceptions, lack of memory ends the
-/// program.
+/// Runs a function that may throw for lack of memory only. Without exceptions, lack of memory ends the program.
 template <class Work>
 wisp_status guarded(const char* function, Work work) {
 #ifdef __cpp_exceptions
@@ -83,7 +82,7 @@ wisp_status guarded(const char* function, Work work) {
 #endif
 }
 
-/// Fills a struct of a caller compiled against an older or newer version of it; returns that this is fine.
+/// Fills a struct of a caller compiled against an older or newer version of it; returns WISP_OK.
 template <class Struct>
 wisp_status hand_out(Struct filled, Struct* out) {
   filled.size = out->size;

@@ -58,7 +58,7 @@ std::uint32_t kind_of(const wisp::ArxModel&) { return WISP_DYNAMICS_ARX; }
 std::uint32_t kind_of(const wisp::ChainModel&) { return WISP_DYNAMICS_CHAIN; }
 std::uint32_t kind_of(const wisp::SwitchedArxModel&) { return WISP_DYNAMICS_SWITCHED; }
 
-// Calls use(dynamics) of a model whose dynamics are of that kind; what it returns is the outcome.
+// Calls use(dynamics) if the model's dynamics are of that kind, and returns its result.
 template <class Kind, class Use>
 wisp_status on_dynamics(const char* function, const wisp_model* model, Use use) {
   if (!model) return null_argument(function);

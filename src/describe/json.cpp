@@ -37,7 +37,7 @@ Json json_of(const ReportValue& value) {
 Json& field(Json& object, std::string_view id) {
   Json* at = &object;
   std::string name;
-  bool element = false;  // the last token was an element, which is resolved already
+  bool element = false;  // the last token was an element, already resolved
   const auto step = [&] {
     if (!element) at = &(*at)[name];
     name.clear();

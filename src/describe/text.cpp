@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-// Characters as a terminal counts them: bytes that begin a UTF-8 sequence.
+// Returns the number of characters on a terminal: bytes that begin a UTF-8 sequence.
 std::size_t width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }));
@@ -22,7 +22,7 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-// Below this a percentage is of a diverging simulation and is shown as "diverges".
+// A percentage below this comes from a diverging simulation and is shown as "diverges".
 bool diverges(const ReportValue& value, const std::string& unit) {
   constexpr double kRunsAway = -1000;
   const auto* number = std::get_if<double>(static_cast<const ReportValue::Base*>(&value));

@@ -41,7 +41,7 @@ void append(std::vector<std::byte>& bytes, std::uint32_t word, int size = 4) {
 
 class Buffer {
  public:
-  /// Adds numbers, of vertices where kVertices is the target; returns the index of their accessor.
+  /// Adds numbers, of vertices if the target is kVertices; returns the index of their accessor.
   int add(std::span<const float> values, Shape shape, int target = 0) {
     const auto width = static_cast<std::size_t>(shape);
     Accessor accessor{bytes_.size(), values.size() * 4, values.size() / width, shape, target, {}, {}};
@@ -62,7 +62,7 @@ class Buffer {
     return close(std::move(accessor));
   }
 
-  /// Adds a file of another format, a picture. Precondition: it comes after all numbers.
+  /// Adds a file of another format: a picture. Precondition: it comes after all numbers.
   void add_picture(std::span<const std::byte> picture) {
     Accessor accessor{.offset = bytes_.size(), .bytes = picture.size()};
     bytes_.insert(bytes_.end(), picture.begin(), picture.end());
@@ -73,14 +73,14 @@ class Buffer {
   /// Writes "accessors", "bufferViews" and "buffers" into an open object.
   void describe(JsonText& json) const;
 
-  /// The whole file: header, `json` and the numbers.
+  /// Returns the whole file: header, `json` and the numbers.
   std::vector<std::byte> file(std::string json) const;
 
  private:
   struct Accessor {
     std::size_t offset = 0;
     std::size_t bytes = 0;
-    std::size_t count = 0;  // 0: a picture, which has a view of the bytes alone
+    std::size_t count = 0;  // 0: a picture, which has only a view of the bytes
     Shape shape = Shape::kScalar;
     int target = 0;  // glTF buffer target; 0: none
     std::vector<float> lowest, highest;
@@ -115,7 +115,7 @@ void Buffer::describe(JsonText& json) const {
   json.end();
   if (has_picture()) {
     json.list("images").object().value(accessors_.size() - 1, "bufferView").value("image/png", "mimeType").end().end();
-    // Without smaller pictures, which would mix the columns.
+    // Without mipmaps, which would mix the columns.
     json.list("samplers").object().value(kLinear, "magFilter").value(kLinear, "minFilter");
     json.value(kClamped, "wrapS").value(kClamped, "wrapT").end().end();
     json.list("textures").object().value(0, "source").value(0, "sampler").end().end();
@@ -144,7 +144,7 @@ struct Mesh {
   std::vector<int> targets;
   std::vector<double> lowest, highest;  // outputs at which a target's weight is 0 and 1
   std::vector<double> weights;          // at the operating point
-  std::vector<std::string> names;       // of targets
+  std::vector<std::string> names;       // names of the targets
   std::array<double, 4> colour{};
 };
 
@@ -159,9 +159,9 @@ struct Document {
   Buffer buffer;
   Mesh mesh;
   std::vector<Track> tracks;
-  std::array<double, 4> turn{0, 0, 0, 1};  // of the root: x, y, z, w
-  double scale = 1;                        // of the root
-  double apart = 0;                        // between instances, along x
+  std::array<double, 4> turn{0, 0, 0, 1};  // rotation of the root: x, y, z, w
+  double scale = 1;                        // scale of the root
+  double apart = 0;                        // spacing of instances along x
 };
 
 std::size_t key_count(const Take& take) { return take.frames + (take.loop ? 1 : 0); }
@@ -174,11 +174,11 @@ Mesh body_mesh(double half_width, double half_length, Buffer& buffer) {
   return mesh;
 }
 
-// Where and when in its round an instance of a loop begins: apart from the others, so that one leaf at a time leaves
-// the scene below and comes again above, and the scene's last frame is its first.
+// Start of an instance in its loop's period, and its position: starts differ, so that one leaf at a time leaves the
+// scene below and re-enters above, and the scene's last frame equals its first.
 struct Start {
   std::size_t frame = 0;
-  std::array<double, 2> place{};  // metres, level
+  std::array<double, 2> place{};  // horizontal position, metres
 };
 
 Start start_of(const Take& take, std::size_t instance) {
@@ -190,7 +190,7 @@ Start start_of(const Take& take, std::size_t instance) {
   return {std::max<std::size_t>(1, frame), {radius * std::cos(angle), radius * std::sin(angle)}};
 }
 
-// A unit quaternion, x first, of the sign that is nearer to the one before.
+// Returns a unit quaternion, x first, with the sign that is nearer to the previous one.
 std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> before) {
   std::array<float, 4> q{row[4], row[5], row[6], row[3]};
   double size = 0, along = 0;
@@ -203,7 +203,7 @@ std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> 
   return q;
 }
 
-// The keys of a body. Where its round ends before the take does, a key just before is where the round leads to.
+// Computes the keys of a body. If its period ends before the take does, a key just before has the period's end state.
 Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   constexpr double kJustBefore = 0.01;  // steps
   const Start start = start_of(take, instance);
@@ -237,13 +237,13 @@ Document body_document(const Take& take, double half_width, double half_length) 
   return document;
 }
 
-// The weight of a target: the position of its number in the range of the bank, since tools clamp weights to 0 … 1.
+// Weight of a target: the position of its number in the bank's range, since tools clamp weights to 0 … 1.
 double weight_of(const Mesh& mesh, std::size_t target, double value) {
   const double range = mesh.highest[target] - mesh.lowest[target];
   return range > 0 ? std::clamp((value - mesh.lowest[target]) / range, 0.0, 1.0) : 0;
 }
 
-// Of outputs seen from the front, then from the side, where a body goes as far to either side.
+// Sets the ranges of outputs in the front view, then in the side view, where a body's range is symmetric.
 void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   const auto middle = operating_point(model);
   for (std::size_t k = 0; k < sides * model.outputs.size(); ++k) {
@@ -258,16 +258,16 @@ void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   }
 }
 
-// A flame is a few bodies, one in the other, of which each adds some light, so that it is bright where it is thick and
-// has no edge, whether the outermost is drawn first or lies in front; flame.png has a column for each.
+// A flame is several nested bodies, each of which adds some light, so that it is bright where it is thick and has no
+// edge, in any drawing order; flame.png has a column for each.
 constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
-// Rings below the base, a drop around the wick, and one that closes the tip.
+// Rows below the base, a drop around the wick, and one that closes the tip.
 struct MeshRow {
   int ring = 0;
   double width = 1;  // share of the ring
-  double down = 0;   // below it, in its radii
-  double up = 0;     // above it, in distances to the ring two before
+  double down = 0;   // distance below the ring, in its radii
+  double up = 0;     // distance above it, as a share of the distance to the ring two before
 };
 
 std::vector<MeshRow> mesh_rows() {
@@ -277,7 +277,7 @@ std::vector<MeshRow> mesh_rows() {
   return rows;
 }
 
-// Vertices of all shells, or of a change of them: linear in the rings.
+// Computes vertices of all shells, or of a change of them: linear in the rings.
 std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   const float* before = &rings[(kRings - 3) * kRingNumbers];
   std::vector<float> all;
@@ -295,8 +295,8 @@ std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   return ring_places(all, kSegments);
 }
 
-// Where each vertex lies in the flame's picture: rows at their height over the base in the outline at rest.
-constexpr double kFlameDrop = 0.12;  // where the picture begins, in shares of the way from base to tip
+// Each vertex's place in the flame's picture: rows at their height above the base in the outline at rest.
+constexpr double kFlameDrop = 0.12;  // lower edge of the picture, as a share of the distance from base to tip
 
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
   const double base = rest[1], tip = std::max(rest[(kRings - 1) * kRingNumbers + 1] - base, 1e-6);
@@ -325,7 +325,7 @@ std::vector<std::uint16_t> mesh_indices() {
   return indices;
 }
 
-// Shells of a flame, with a morph target for each output, seen from the front and from the side.
+// Builds the shells of a flame, with a morph target for each output, in front view and in side view.
 Mesh outline_mesh(const Model& model, const std::vector<double>& knots, std::size_t sides, Buffer& buffer) {
   Mesh mesh{.colour = {0, 0, 0, 1}};
   set_ranges(model, sides, mesh);
@@ -394,7 +394,7 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
   json.end();
 }
 
-constexpr double kEmissiveStrength = 5;  // of a screen's white; tools/flame_picture.py knows it too
+constexpr double kEmissiveStrength = 5;  // relative to a screen's white; tools/flame_picture.py uses it too
 
 void write_mesh(const Mesh& mesh, JsonText& json) {
   json.list("meshes").object().value("shape", "name").list("primitives").object().object("attributes");

@@ -11,7 +11,7 @@ namespace wisp::exporting {
 namespace {
 
 // A stable linear model driven by periodic shocks has one periodic orbit (W. J. Rugh, Linear System Theory, 2nd ed.,
-// chapter 5). It is the play plus the free response to the mismatch of its ends, summed over all rounds.
+// chapter 5). It is the play plus the free response to the mismatch of its ends, summed over all periods.
 
 // y(t) = Σ weight · y'(t − lag) for one output of one mode.
 struct Tap {
@@ -55,7 +55,7 @@ void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
   }
 }
 
-constexpr int kWalks = 64;       // side by side
+constexpr int kWalks = 64;       // number of walks in parallel
 constexpr double kSeconds = 80;  // of each walk, in addition to the loop
 constexpr double kSettled =
     4;  // seconds until a walk is independent of its start and has reached its response to the wind
@@ -108,7 +108,7 @@ Quaternion product(const Quaternion& p, const Quaternion& q) {
 
 Quaternion conjugate(const Quaternion& q) { return {q[0], -q[1], -q[2], -q[3]}; }
 
-// The rotation by a vector's length about its direction.
+// Returns the rotation about a vector's direction by its length.
 Quaternion rotation(const Vector& by, double share) {
   const double angle = std::hypot(by[0], by[1], by[2]) * share;
   if (std::abs(angle) < 1e-12) return {1, 0, 0, 0};
@@ -129,8 +129,8 @@ Quaternion attitude(const std::vector<float>& rows, std::size_t outputs, std::si
   return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};
 }
 
-// The rotation from frame `a` to frame `b`, about the vertical or in full: of attitudes, or of velocities for positions
-// alone.
+// Returns the rotation from frame `a` to frame `b`, about the vertical or in full: of attitudes, or for positions alone
+// of velocities.
 Vector turn_between(const std::vector<float>& rows, std::size_t outputs, std::size_t a, std::size_t b) {
   if (outputs < 7) {
     const Vector va = velocity(rows, outputs, a), vb = velocity(rows, outputs, b);
@@ -146,13 +146,13 @@ Vector turn_between(const std::vector<float>& rows, std::size_t outputs, std::si
 struct Return {
   const Walk* walk = nullptr;
   std::size_t frame = 0;
-  Vector turn{};  // from the first frame to the returning frame
-  Vector jump{};  // of the velocity after undoing the turn
+  Vector turn{};  // rotation from the first frame to the returning frame
+  Vector jump{};  // change of the velocity after undoing the rotation
   double cost = 0;
 };
 
-// The return with the smallest turn about the vertical among nearly equal ones. Visits of the same row differ, since
-// joins to the neighbouring segments differ.
+// Returns the return with the smallest rotation about the vertical among nearly equal ones. Visits of the same row
+// differ, since joins to the neighbouring segments differ.
 std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t outputs, std::size_t frames) {
   constexpr double kSame = 0.1, kWeight = 20;
   std::optional<Return> best;
@@ -173,7 +173,7 @@ std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t ou
   return best;
 }
 
-// Spreads the remaining turn and jump evenly over the loop.
+// Distributes the remaining rotation and velocity change evenly over the loop.
 WalkLoop loop_of(const Return& found, std::size_t outputs, std::size_t frames) {
   WalkLoop loop;
   const std::vector<float>& rows = found.walk->rows;

@@ -17,7 +17,7 @@ namespace {
 using namespace exporting;
 
 constexpr int kShapeLayer = 4;
-constexpr double kDrop = 0.6;  // tangents of the drop below the base, in widths of it
+constexpr double kDrop = 0.6;  // tangents of the drop below the base, in units of its width
 
 // Position and scale of the outline in the picture.
 struct Frame {
@@ -25,7 +25,7 @@ struct Frame {
   int width = 0, height = 0;
 };
 
-// A picture that contains the range of the model's outputs and a margin.
+// Returns a picture frame that contains the range of the model's outputs and a margin.
 Frame frame_of(const Take& take, int height) {
   constexpr double kRoom = 0.05;
   double low[2] = {1e30, 0}, high[2] = {-1e30, -1e30};
@@ -57,7 +57,7 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   const auto write = [&](const char* key, int step) {
     json.list(key);
     for (std::size_t k = 0; k < points.size(); k += 3) {
-      // Below the base it closes as a drop around the wick: both sides go on in the direction in which they end.
+      // Below the base it closes as a drop around the wick: both sides continue in their final directions.
       const bool closing = step < 0 ? k == 0 : k + 1 == points.size();
       const std::size_t beside = (step < 0) != closing ? k - 1 : k + 1;
       const double share = closing ? -drop / std::max(1e-6, between(points[k], points[beside])) : 1;
@@ -76,8 +76,8 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   json.value(true, "c");
 }
 
-// The path with a key a frame, linear between them. A key has its start and end value, which old players need; the last
-// one only its time.
+// Writes the path with one key per frame, linear between them. A key has its start and end value, for old players; the
+// last one only its time.
 void write_keys(const OutlineView& view, const Take& take, const Frame& frame, JsonText& json) {
   json.object().value("sh", "ty").value("path", "nm").object("ks").value(1, "a").list("k");
   const std::size_t last = take.frames - (take.loop ? 0 : 1);
@@ -101,7 +101,7 @@ void write_fixed(const char* key, const Values& values, JsonText& json) {
   json.object(key).value(0, "a").values(values, "k").end();
 }
 
-// Scales about a place, percent.
+// Writes a scaling about a point, percent.
 void write_transform(JsonText& json, std::array<double, 2> about = {0, 0}, std::array<double, 2> scale = {100, 100}) {
   write_fixed("p", about, json);
   write_fixed("a", about, json);
@@ -109,12 +109,12 @@ void write_transform(JsonText& json, std::array<double, 2> about = {0, 0}, std::
   json.object("r").value(0, "a").value(0, "k").end().object("o").value(0, "a").value(100, "k").end();
 }
 
-// Where in a gradient, sRGB colour, opacity.
+// A gradient stop: position, sRGB colour, opacity.
 struct Stop {
   double at, red, green, blue, opacity;
 };
 
-// A filled outline, scaled about a place.
+// A filled outline, scaled about a point.
 struct Part {
   const char* name;
   bool radial;
@@ -122,7 +122,7 @@ struct Part {
   std::vector<Stop> stops;
 };
 
-// A fill with a gradient: colours of all stops, then their opacities.
+// Writes a gradient fill: colours of all stops, then their opacities.
 void write_gradient(const Part& part, JsonText& json) {
   json.object().value("gf", "ty").value("fill", "nm").value(part.radial ? 2 : 1, "t").value(1, "r");
   json.object("o").value(0, "a").value(100, "k").end();
@@ -137,7 +137,7 @@ void write_gradient(const Part& part, JsonText& json) {
   json.end().end();
 }
 
-// Colours of the flipbook's flame, from below its base to its tip and from its middle outwards: tools/flame_picture.py.
+// Colours of the flipbook's flame, from below its base to its tip and from its centre outwards: tools/flame_picture.py.
 const std::vector<Stop> kBody = {
     {0, 0.248, 0.416, 1, 0.371},     {0.107, 0.248, 0.416, 1, 0.371}, {0.179, 0.547, 0.445, 1, 0.35},
     {0.25, 1, 0.463, 0.353, 0.677},  {0.33, 1, 0.577, 0.154, 0.927},  {0.464, 1, 0.852, 0.52, 0.978},

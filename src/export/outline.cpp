@@ -12,7 +12,7 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// The value of the polar form of the piece between knots[span] and knots[span + 1] at three parameters.
+// Returns the polar form of the piece between knots[span] and knots[span + 1] at three parameters.
 Point blossom(const std::vector<double>& knots, std::span<const float> control, std::size_t span,
               const std::array<double, 3>& at) {
   std::array<Point, 4> points{};

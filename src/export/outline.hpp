@@ -14,10 +14,10 @@
 
 namespace wisp::exporting {
 
-/// Points of the spline at equal steps of its parameter, as x, y, 0.
+/// Returns points of the spline at equal steps of its parameter, as x, y, 0.
 std::vector<float> outline_points(const std::vector<double>& knots, std::span<const double> control, int points);
 
-/// The spline as cubic Bézier curves, one after the other: 3 · curves + 1 points, each curve's last the next one's
+/// Returns the spline as consecutive cubic Bézier curves: 3 · curves + 1 points, each curve's last the next one's
 /// first.
 std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knots, std::span<const float> control);
 
@@ -26,32 +26,32 @@ std::vector<double> operating_point(const Model& model);
 
 inline constexpr int kRings = 12, kSegments = 12;  ///< of an exported flame
 
-/// Rings of a body (wisp/run/body_facet.hpp) from outlines seen from the front and, where it is in the round, from the
-/// side, else an empty one: by rotational symmetry. Linear in both.
+/// Computes the rings of a body (wisp/run/body_facet.hpp) from its outlines in front view and, for a model of a body,
+/// in side view, else an empty one: by rotational symmetry. Linear in both.
 std::vector<float> rings_of(const std::vector<double>& knots, std::span<const float> front,
                             std::span<const float> side);
 
-/// Places of their surface's vertices, and three indices a triangle.
+/// Return the positions of their surface's vertices, and three indices per triangle.
 std::vector<float> ring_places(const std::vector<float>& rings, int segments);
 std::vector<std::uint16_t> ring_corners(int rings, int segments);
 
-/// x, y, z of points, of their normals, and three indices a triangle.
+/// x, y, z of vertices, of their normals, and three indices per triangle.
 struct Surface {
   std::vector<float> places, normals;
   std::vector<std::uint16_t> triangles;
 };
 
-/// A leaf in a body's first two axes, folded along its midrib and bent along it; where its size is not known, a small
-/// one.
+/// Returns a leaf in a body's first two axes, folded along its midrib and bent along it; a small one if its size is
+/// unknown.
 Surface leaf_blade(double half_width, double half_length);
 
-/// Errors: the take has other outputs than the model, or no frames.
+/// Errors: the take's outputs differ from the model's, or it has no frames.
 Result<void> check_take(const Model& model, const Take& take);
 
-/// Replaces rows of an ARX or switched model's outputs by the periodic orbit under the shocks that they contain: adds
-/// to each row the model's free response to the difference of the two ends, summed over all rounds. `rows` begin lags −
-/// 1 rows before the loop's first frame and end with the frame that equals the first; `mode` is the mode of each row
-/// (switched models). Returns false where the sum does not converge.
+/// Replaces rows of an ARX or switched model's outputs by the periodic orbit under their own shocks: adds to each row
+/// the model's free response to the difference of the two ends, summed over all periods. `rows` begin lags − 1 rows
+/// before the loop's first frame and end with the frame that equals the first; `mode` is the mode of each row (switched
+/// models). Returns false if the sum does not converge.
 ///
 /// Precondition: rows.size() == (lags + frames) × outputs, and lags == output_lags(model).
 bool close_orbit(const Model& model, std::span<const std::size_t> mode, std::size_t lags, std::vector<double>& rows);
@@ -64,11 +64,11 @@ struct WalkLoop {
   std::array<double, 3> travel{};
 };
 
-/// Plays banks of one chain until an instance returns to a row of a segment after exactly `frames` steps, and turns its
-/// walk evenly so that the frame after the last one has the attitude and the velocity of the first. Returns nothing
-/// where no walk returns.
+/// Plays banks of one chain until an instance returns to a row of a segment after exactly `frames` steps, and rotates
+/// its walk evenly so that the frame after the last one has the attitude and the velocity of the first. Returns nothing
+/// if no walk returns.
 ///
-/// Precondition: the model is a valid chain that is played as segments; inputs.size() == model.inputs.size().
+/// Precondition: the model is a valid chain with stored segments; inputs.size() == model.inputs.size().
 std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
                                        const std::vector<float>& inputs);
 

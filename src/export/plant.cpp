@@ -24,7 +24,7 @@ std::size_t largest_lag(const ArxOrders& orders, int i) {
   return static_cast<std::size_t>(most);
 }
 
-// Weights of lags 0, 1, 2, … of an output or an input in an output's row of A(q) y = B(q) u, `size` of them.
+// Weights of lags 0, 1, 2, … (`size` of them) of an output or an input in an output's row of A(q) y = B(q) u.
 std::vector<double> lags_of_output(const ArxModel& arx, int i, int j, std::size_t size) {
   std::vector<double> lags{i == j ? 1.0 : 0.0};
   lags.insert(lags.end(), arx.a(i, j).begin(), arx.a(i, j).end());
@@ -107,7 +107,7 @@ std::string names_of(const Channels& channels) {
   return exporting::comment_text(text);
 }
 
-// Words that all languages have.
+// Template words that are common to all languages.
 Words common_words(const Model& model, const ArxModel& arx) {
   const Usable& use = model.training.usable;
   return {{"MODEL", exporting::comment_text(model.name)},
@@ -162,7 +162,7 @@ def continuous_transfer(k):
 
 )";
 
-// Transfer functions of the only output. All of one input's polynomials have one degree.
+// Returns the transfer functions of the only output. All polynomials of one input have equal degrees.
 std::string transfers_of(const ArxModel& arx, bool python) {
   std::string numerators, denominators, leads, pairs;
   for (int k = 0; k < arx.orders.inputs(); ++k) {
@@ -171,7 +171,7 @@ std::string transfers_of(const ArxModel& arx, bool python) {
     const std::size_t size = 1 + std::max(a, nb > 0 ? static_cast<std::size_t>(nk + nb - 1) : 0);
     const std::string num = "[" + list_of(lags_of_input(arx, 0, k, size)) + "]";
     const std::string den = "[" + list_of(lags_of_output(arx, 0, 0, size)) + "]";
-    // One sample of nk is the hold's own.
+    // The zero-order hold contributes one sample of nk.
     const std::string lead = std::to_string(std::min(size - 1 - a, static_cast<std::size_t>(std::max(0, nk - 1))));
     numerators += (k > 0 ? ", " : "") + num;
     denominators += (k > 0 ? ", " : "") + den;
@@ -206,7 +206,7 @@ void add_rows(std::string_view key, const PlantRows& rows, JsonText& json) {
   json.end();
 }
 
-// A and B as lists of polynomials in rising powers of 1/z: A[i][j] begins with 1 or 0, B[i][k] with nk zeros.
+// Returns A and B as lists of polynomials in rising powers of 1/z: A[i][j] begins with 1 or 0, B[i][k] with nk zeros.
 std::string json_text(const Model& model, const ArxModel& arx) {
   JsonText json;
   json.object().value(model.name, "name").value(model.rate_hz, "rate_hz");
@@ -236,7 +236,7 @@ std::string json_text(const Model& model, const ArxModel& arx) {
   return json.end().end().text() + "\n";
 }
 
-// Every output as one C expression on the deviations that plant.h.in declares.
+// Returns every output as a C expression on the deviations that plant.h.in declares.
 std::string c_equations(const ArxModel& arx) {
   std::string out;
   const auto add = [&](double weight, const char* channel, int index, std::size_t lag) {

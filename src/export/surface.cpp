@@ -41,11 +41,11 @@ std::vector<std::uint16_t> ring_corners(int rings, int segments) {
 
 Surface leaf_blade(double half_width, double half_length) {
   constexpr int kRows = 12;
-  constexpr double kFold = 0.3, kBend = 0.18;  // rises of the edges in half widths, and of the ends in half lengths
+  constexpr double kFold = 0.3, kBend = 0.18;  // rise of the edges in half widths, and of the ends in half lengths
   const double width = half_width > 0 ? half_width : 0.03, length = half_length > 0 ? half_length : width;
   Surface leaf;
   for (int row = 0; row <= kRows; ++row) {
-    // Widest below its middle.
+    // The leaf is widest below its middle.
     const double t = 2.0 * row / kRows - 1, across = width * std::cos(std::numbers::pi / 2 * t) * (1 - 0.4 * t) / 1.08;
     for (const int column : {-1, 0, 1}) {
       const double fold = column == 0 ? 0 : kFold * across;

@@ -53,14 +53,14 @@ Error went_out(double seconds) {
           " s in that input; what is exported burns: ask for less"};
 }
 
-// A bank of the requested instances, after settling.
+// Returns a bank of the requested instances, after settling.
 Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
   auto bank = Bank::create(model, {.capacity = options.instances, .seed = options.seed});
   if (!bank) return bank;
   bank->set_noise(options.noise ? 1.0F : 0.0F);
   for (int k = 0; k < options.instances; ++k) bank->spawn();
   bank->set_common_inputs(inputs_of(model, options));
-  // A body's take begins where it starts to fall.
+  // A body's take begins at the start of its fall.
   if (bank->chain()) return bank;
   for (int step = 0; step < kSettle * model.rate_hz; ++step) bank->step();
   return bank;
@@ -93,7 +93,7 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
-// Clamps as a bank does, since the orbit may exceed the range of its play slightly.
+// Clamps like a bank, since the orbit may exceed the range of its play slightly.
 float held_to(const Output& output, double value) {
   const double room = kRangeMargin * (output.highest - output.lowest);
   return static_cast<float>(std::clamp(value, output.lowest - room, output.highest + room));
@@ -132,7 +132,7 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
-// The components of an outline's shape as a model of their own: their dynamics are linear, the shape's clamps are not.
+// The components of an outline's shape as a separate model: their dynamics are linear, the shape's clamps are not.
 Model model_of_components(const Model& model, const ShapeComponents& shape) {
   Model out = model;
   out.view = PlainView{};
@@ -144,7 +144,7 @@ Model model_of_components(const Model& model, const ShapeComponents& shape) {
   return out;
 }
 
-// A shape in the round whose x is its z.
+// Returns a body's shape in side view: with z in the place of x.
 ShapeComponents from_the_side(ShapeComponents shape) {
   const auto points = static_cast<std::ptrdiff_t>(shape.points());
   std::copy_n(shape.rest.end() - points, points, shape.rest.end() - 2 * points);

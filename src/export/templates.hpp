@@ -1,6 +1,5 @@
 #pragma once
-// Texts that are written with words filled in. Each is a file NAME.in of this folder, which the build makes a string
-// of.
+// Text templates with placeholders. Each is a file NAME.in of this folder, converted to a string constant by the build.
 
 #include <string>
 #include <utility>
@@ -21,10 +20,10 @@ inline std::string filled(std::string text, const std::vector<std::pair<std::str
   return text;
 }
 
-/// Whether all four languages take it as the beginning of a name.
+/// Returns whether all four languages accept the text as the beginning of a name.
 bool is_name(std::string_view name);
 
-/// Without what would end a comment or a line.
+/// Removes characters that would end a comment or a line.
 std::string comment_text(std::string text);
 
 }  // namespace wisp::exporting

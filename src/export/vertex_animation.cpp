@@ -1,4 +1,4 @@
-// Vertex animation textures: places of points in rows of a picture, frame by frame, for a vertex shader to read.
+// Vertex animation textures: vertex positions in rows of a picture, frame by frame, for a vertex shader to read.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ using namespace exporting;
 
 using Vector = std::array<double, 3>;
 
-// Points turned and moved as a body is: v + 2 u × (u × v + w v) of a unit quaternion (w, u).
+// Rotates and moves points as a body: v + 2 u × (u × v + w v) for a unit quaternion (w, u).
 std::vector<float> moved(std::span<const float> points, std::span<const float> row) {
   const auto cross = [](const Vector& a, const Vector& b) {
     return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -32,13 +32,13 @@ std::vector<float> moved(std::span<const float> points, std::span<const float> r
   return out;
 }
 
-// The surface of a flame's rings.
+// Returns the surface of a flame's rings.
 std::vector<float> flame_points(const OutlineView& view, const Take& take, std::size_t frame) {
   const auto side = take.sides > 1 ? take.at(frame, 0, 1) : std::span<const float>();
   return ring_places(rings_of(view.knots, take.at(frame, 0), side), kSegments);
 }
 
-// Places of all points in all frames, x, y, z, and triangles; nothing where the outputs are no shape.
+// Returns the vertex positions in all frames, x, y, z, and triangles; nothing if the outputs are no shape.
 Surface surface_of(const Model& model, const Take& take) {
   Surface surface, leaf;
   const auto* outline = std::get_if<OutlineView>(&model.view);

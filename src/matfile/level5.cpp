@@ -1,6 +1,6 @@
-// MAT-file format, The MathWorks, "MAT-File Level 5 File Format": parts of a tag (kind and length) and data, padded to
-// eight bytes; an array is a part that holds parts: flags, dimensions, name, then numbers or fields. Read in one pass
-// from front to back, so that nothing is allocated for what a file only claims to hold.
+// MAT-file format, The MathWorks, "MAT-File Level 5 File Format": elements of a tag (type and length) and data, padded
+// to eight bytes; an array is an element that contains elements: flags, dimensions, name, then numbers or fields. Read
+// in one pass from front to back, so that sizes that a file only claims allocate nothing.
 
 #include "matfile/level5.hpp"
 
@@ -22,10 +22,10 @@ constexpr std::uint32_t kMatrix = 14, kCompressed = 15;
 constexpr unsigned kStruct = 2, kFirstNumeric = 6, kLastNumeric = 15;
 constexpr unsigned kComplex = 0x08;
 constexpr std::size_t kMaxDimensions = 32, kMaxFields = 4096, kMaxName = 256;
-constexpr std::size_t kMaxNames = 10'000;  // that are listed: packed structures could hold millions
-constexpr int kDeepest = 16;               // structures within structures
+constexpr std::size_t kMaxNames = 10'000;  // largest number of listed names: packed structures could hold millions
+constexpr int kDeepest = 16;               // largest nesting depth of structures
 
-// Numbers as they are stored, by the kinds of parts 1 to 13.
+// Bytes of a stored number, by the element types 1 to 13.
 constexpr std::size_t kWidth[] = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
 constexpr std::uint32_t kSingle = 7, kDouble = 9;
 
@@ -48,12 +48,12 @@ double number(const std::byte* at, std::uint32_t kind, bool big) {
   return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
 }
 
-// Bytes one after the other, as they are stored or as zlib unpacks them.
+// Stream of bytes, as stored or as unpacked by zlib.
 class ByteSource {
  public:
   explicit ByteSource(std::span<const std::byte> stored) : stored_(stored) {}
 
-  /// Unpacks `packed`. It gives nothing where that is no zlib stream.
+  /// Unpacks `packed`. It yields no bytes if that is no zlib stream.
   static ByteSource unpacking(std::span<const std::byte> packed) {
     ByteSource source(packed);
     source.packed_.reset(new z_stream{});
@@ -61,7 +61,7 @@ class ByteSource {
     return source;
   }
 
-  /// The next bytes. Returns false where there are fewer.
+  /// Reads the next bytes. Returns false if there are fewer.
   bool read(std::span<std::byte> out) {
     passed_ += out.size();
     if (packed_) return unpack(out);
@@ -71,7 +71,7 @@ class ByteSource {
     return true;
   }
 
-  /// Passes over the next bytes, without memory for them.
+  /// Skips the next bytes, without memory for them.
   bool skip(std::size_t count) {
     passed_ += count;
     if (!packed_) {
@@ -86,7 +86,7 @@ class ByteSource {
     return true;
   }
 
-  /// How many bytes were requested so far.
+  /// Returns the number of bytes requested so far.
   std::size_t passed() const { return passed_; }
 
  private:
@@ -98,7 +98,7 @@ class ByteSource {
   };
 
   bool unpack(std::span<std::byte> out) {
-    constexpr std::size_t kMax = std::size_t{1} << 30;  // what zlib's counters hold
+    constexpr std::size_t kMax = std::size_t{1} << 30;  // limit of zlib's counters
     packed_->next_out = reinterpret_cast<Bytef*>(out.data());
     packed_->avail_out = static_cast<uInt>(out.size());
     while (packed_->avail_out > 0) {
@@ -121,10 +121,10 @@ class ByteSource {
 struct Tag {
   std::uint32_t kind = 0;
   std::size_t bytes = 0;
-  std::size_t padding = 0;  // after the data
+  std::size_t padding = 0;  // padding after the data
 };
 
-// What is said of an array before its numbers or fields.
+// Header of an array, before its numbers or fields.
 struct Head {
   unsigned type = 0;
   bool complex = false;
@@ -144,7 +144,7 @@ class Reader {
     std::array<std::byte, 8> bytes;
     if (!source_.read(bytes)) return {};
     const auto first = static_cast<std::uint32_t>(whole(bytes.data(), 4, big_));
-    // Up to four bytes may lie in the tag itself.
+    // Up to four bytes may be in the tag itself.
     if (first >> 16 != 0) {
       small_ = {bytes[4], bytes[5], bytes[6], bytes[7]};
       in_tag_ = true;
@@ -156,14 +156,14 @@ class Reader {
     return Tag{first, length, (8 - length % 8) % 8};
   }
 
-  // Data of the part whose tag was read last.
+  // Reads data of the element whose tag was read last.
   bool take(std::span<std::byte> out) {
     if (!in_tag_) return source_.read(out);
     std::copy_n(small_.begin(), out.size(), out.begin());
     return true;
   }
 
-  // Looks at the next array by `look`, and passes over it, however much was looked at. Returns whether both went well.
+  // Calls `look` on the next array, and skips its rest. Returns whether both succeeded.
   template <class Look>
   bool within_part(Look look) {
     const auto part = tag();
@@ -174,7 +174,7 @@ class Reader {
     return used <= all && source_.skip(all - used);
   }
 
-  // A short part whole.
+  // Reads a short element completely.
   std::optional<std::vector<std::byte>> part(std::uint32_t kind, std::size_t most) {
     const auto found = tag();
     if (!found || found->kind != kind || found->bytes > most) return {};
@@ -197,7 +197,7 @@ class Reader {
     return head;
   }
 
-  // Names of a structure's fields, of equal width and ended by zeros.
+  // Reads the names of a structure's fields, of equal width and terminated by zeros.
   std::optional<std::vector<std::string>> fields() {
     const auto width = part(5, 4);
     if (!width || width->size() != 4) return {};
@@ -262,7 +262,7 @@ void for_each_variable(std::span<const std::byte> file, Visit visit) {
   }
 }
 
-// Every numeric array within one whose head was read. Returns false where it is damaged.
+// Lists every numeric array within one whose head was read. Returns false if it is damaged.
 bool list(Reader& reader, const Head& head, const std::string& name, int depth, std::vector<Name>& names) {
   if (head.numeric()) names.push_back({name, head.dims[0], head.dims[1]});
   if (!head.single_struct() || depth == kDeepest || names.size() >= kMaxNames) return true;
@@ -278,7 +278,7 @@ bool list(Reader& reader, const Head& head, const std::string& name, int depth, 
   return true;
 }
 
-// What the path leads to from an array whose head was read; `at` names of it are behind.
+// Finds the target of the path from an array whose head was read; the first `at` names are resolved.
 Found find(Reader& reader, const Head& head, const Path& path, std::size_t at, std::size_t max_numbers) {
   if (at == path.size()) return head.numeric() ? reader.numbers(head, max_numbers) : Miss::kNotNumbers;
   if (!head.single_struct()) return Miss::kNoField;

@@ -9,19 +9,19 @@
 
 namespace wisp::matfile {
 
-/// Numbers of a matrix, column after column.
+/// Numbers of a matrix, column by column.
 struct Table {
   std::size_t rows = 0;
   std::size_t columns = 0;
   std::vector<double> numbers;
 };
 
-/// Why a variable gives no table.
+/// Reason why a variable yields no table.
 enum class Miss {
   kNoVariable,
   kNoField,
-  kNotNumbers,  ///< text, complex, sparse, of three dimensions, empty
-  kTooLarge,    ///< more numbers than may be read
+  kNotNumbers,  ///< text, complex, sparse, three-dimensional, empty
+  kTooLarge,    ///< more numbers than allowed
   kDamaged,
 };
 
@@ -37,16 +37,16 @@ struct Name {
 /// A variable, then fields.
 using Path = std::vector<std::string>;
 
-/// Whether bytes begin as a file of level 5 does.
+/// Returns whether bytes begin like a level 5 file.
 bool is_level5(std::span<const std::byte> file);
 
-/// Whether a file's parts end where it ends.
+/// Returns whether a file ends at the end of an element.
 bool is_whole_level5(std::span<const std::byte> file);
 
-/// The first ten thousand numeric variables and fields. What is damaged is left out.
+/// Returns the first ten thousand numeric variables and fields. Damaged ones are omitted.
 std::vector<Name> names_in_level5(std::span<const std::byte> file);
 
-/// Reads a table of at most `max_numbers`. Memory grows with what is there, whatever sizes the file claims.
+/// Reads a table of at most `max_numbers`. Memory grows with the existing data, whatever sizes the file claims.
 Found read_level5(std::span<const std::byte> file, const Path& path, std::size_t max_numbers);
 
 }  // namespace wisp::matfile

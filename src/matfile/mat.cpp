@@ -19,7 +19,7 @@ using matfile::Name;
 using matfile::Path;
 using matfile::Table;
 
-// What a file may take in memory once it is unpacked. zlib packs zeros 1000 to one; recordings, hardly more than ten.
+// Bounds on unpacked size. zlib packs zeros 1000 to one; recordings, hardly more than ten.
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 30, kAlwaysUnpacked = std::size_t{1} << 26;
 constexpr std::size_t kExpansion = 64;
 
@@ -44,7 +44,7 @@ class File {
 
   std::vector<Name> names() const { return matfile::names_in_level5(bytes_); }
 
-  // What is read counts against the file's budget.
+  // Numbers that are read count against the file's budget.
   Found read(const Path& at) {
     Found found = matfile::read_level5(bytes_, at, (max_bytes_ - unpacked_) / sizeof(double));
     if (const auto* table = std::get_if<Table>(&found)) unpacked_ += table->numbers.size() * sizeof(double);
@@ -82,7 +82,7 @@ std::vector<std::string> list_variables(const File& file) {
   return names;
 }
 
-// A reference such as `data.u(:,2)`, taken apart.
+// A parsed reference such as `data.u(:,2)`.
 struct Reference {
   std::vector<std::string> path;  // variable, then fields
   std::optional<std::size_t> column;
@@ -109,7 +109,7 @@ std::optional<Reference> parse(std::string text) {
   return reference;
 }
 
-// Enough of them to choose from.
+// Lists enough names to choose from.
 std::string listed(const File& file) {
   constexpr std::size_t kMax = 40;
   std::string list;
@@ -171,7 +171,7 @@ class Reader {
   File& file_;
 };
 
-// Samples a second by a variable of time in seconds; 0 where there is none.
+// Returns samples per second by a time variable in seconds; 0 if there is none.
 Result<double> rate_by_time(const Reader& reader) {
   for (const char* name : {"t", "time"}) {
     const auto table = reader.table(name);

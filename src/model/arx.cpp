@@ -126,7 +126,7 @@ Result<void> check_noise(const ResidualNoise& noise, std::size_t ny) {
 
 using Square = std::vector<double>;  // n × n, row-major
 
-// The companion matrix of one block of outputs, coefficients rounded to single precision.
+// Returns the companion matrix of one block of outputs, with coefficients rounded to single precision.
 Square companion(const ArxModel& model, const std::vector<int>& outputs, int& size) {
   int order = 0;
   for (int i : outputs) {
@@ -166,9 +166,8 @@ double frobenius(const Square& m) {
   return std::sqrt(sum);
 }
 
-// Gelfand's formula, rho = lim ‖Mᵏ‖^(1/k), with k doubled by squaring: after 40 doublings the factor that separates
-// norm from radius has been raised to 2^−40. The matrix is scaled to norm 1 before each squaring, and log2 of the
-// scales is added up.
+// Gelfand's formula, rho = lim ‖Mᵏ‖^(1/k), with k doubled by squaring: after 40 doublings the ratio of norm to radius
+// has been raised to 2^−40. The matrix is scaled to norm 1 before each squaring, and log2 of the scales is summed.
 double radius(Square m, int n) {
   double log_radius = 0;
   double share = 1;

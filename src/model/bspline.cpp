@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// Index k with knots[k] <= s < knots[k+1]; the last non-empty span at s = 1.
+// Returns index k with knots[k] <= s < knots[k+1]; the last non-empty span at s = 1.
 int span_of(std::span<const double> knots, double s) {
   const int points = static_cast<int>(knots.size()) - kSplineDegree - 1;
   const auto first = knots.begin() + kSplineDegree;
@@ -16,7 +16,7 @@ int span_of(std::span<const double> knots, double s) {
   return static_cast<int>(above - knots.begin()) - 1;
 }
 
-// Values of the degree-`degree` basis functions over the span k, by the Cox–de Boor recurrence.
+// Returns the values of the degree-`degree` basis functions over span k, by the Cox–de Boor recurrence.
 std::array<double, 4> values_on_span(std::span<const double> knots, int k, double s, int degree) {
   std::array<double, 4> value{1, 0, 0, 0};
   std::array<double, 4> left{}, right{};

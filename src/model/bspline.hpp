@@ -13,34 +13,34 @@ namespace wisp {
 
 inline constexpr int kSplineDegree = 3;
 
-/// The full knot vector of an open cubic B-spline with `points` control points, clamped at both ends (multiplicity 4
-/// there), uniform between; parameters run over [0, 1]. Returns points + 4 ascending values.
+/// Returns the full knot vector of an open cubic B-spline with `points` control points, clamped at both ends
+/// (multiplicity 4 there), uniform between; parameters run over [0, 1]. Returns points + 4 ascending values.
 ///
 /// Precondition: points >= 4.
 std::vector<double> uniform_knots(int points);
 
-/// The full, clamped knot vector over [0, 1] with the given interior knots.
+/// Returns the full, clamped knot vector over [0, 1] with the given interior knots.
 ///
 /// Precondition: `interior` is ascending and inside (0, 1).
 std::vector<double> clamped_knots(std::span<const double> interior);
 
-/// Whether `knots` is a full, clamped, ascending cubic knot vector over [0, 1] for at least four control points with
-/// no interior knot of multiplicity above 3.
+/// Returns whether `knots` is a full, clamped, ascending cubic knot vector over [0, 1] for at least four control points
+/// with no interior knot of multiplicity above 3.
 bool valid_knots(std::span<const double> knots);
 
-/// The four basis functions that are not zero at one parameter, and the control point of the first.
+/// The four nonzero basis functions at one parameter, and the index of the first one's control point.
 struct BasisWeights {
   int first = 0;
   std::array<double, 4> weight{};
 };
 
-/// Basis functions at parameter s. Weights sum to 1.
+/// Returns the basis functions at parameter s. Weights sum to 1.
 ///
 /// Precondition: valid_knots(knots).
 /// Precondition: 0 <= s <= 1.
 BasisWeights basis(std::span<const double> knots, double s);
 
-/// Their first derivatives with respect to s. Weights sum to 0.
+/// Returns their first derivatives with respect to s. Weights sum to 0.
 BasisWeights basis_derivative(std::span<const double> knots, double s);
 
 }  // namespace wisp

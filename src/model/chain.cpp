@@ -9,8 +9,8 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
-constexpr double kMaxStretch = 0.005;  // of a quaternion's length: what rounding to 16 bits makes of it, hundredfold
+constexpr double kMaxRounding = 1e-6;  // tolerance of sums of probabilities written with at least seven digits
+constexpr double kMaxStretch = 0.005;  // tolerance of a quaternion's norm: 100 times the rounding error of 16 bits
 constexpr double kLargestScale = 1e9;
 constexpr int kMaxBlendSteps = 4096;
 
@@ -84,7 +84,7 @@ Result<void> check_heights(const ChainSegments& segments) {
   return check_scales({segments.height_scale}, 1, "scale of heights");
 }
 
-// Stored orientations are played as they are: nothing makes them unit on the path of a frame.
+// Stored orientations are played unchanged: the frame path does not normalise them.
 Result<void> check_orientations(const ChainSegments& segments) {
   for (std::size_t row = 0; 7 * row < segments.rows.size(); ++row) {
     double square = 0;
@@ -136,8 +136,8 @@ Result<void> check_probabilities(const ChainModel& model) {
   return {};
 }
 
-// Whether an autoregression y(t) = Σ c_k y(t−k) dies away: all its poles inside the unit circle, by Schur and Cohn's
-// recursion of reflection coefficients.
+// Returns whether an autoregression y(t) = Σ c_k y(t−k) is stable: all poles inside the unit circle, by Schur and
+// Cohn's recursion of reflection coefficients.
 bool dies_away(std::vector<double> change) {
   while (!change.empty()) {
     const double last = change.back();

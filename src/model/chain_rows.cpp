@@ -13,11 +13,11 @@
 namespace wisp {
 namespace {
 
-constexpr int kEscape = 24;     // ones before a number that is written whole
-constexpr int kWholeBits = 20;  // of such a number, signs folded in
+constexpr int kEscape = 24;     // number of ones before a number that is written without prediction
+constexpr int kWholeBits = 20;  // bits of such a number, sign included
 constexpr std::size_t kOrders = 4;
 
-// Numbers of one kind share the length of their codes: rows of each channel by how many rows come before them, and
+// Numbers of one kind share the parameter of their codes: rows by channel and by the number of rows before them, and
 // rates.
 std::size_t kinds_of(const ChainModel& chain) {
   return static_cast<std::size_t>(channel_count(chain.motion)) * kOrders +
@@ -71,7 +71,7 @@ class BitReader {
     if (high == kEscape) return take(kWholeBits);
     return high << low | take(low);
   }
-  /// Whether all was there and nothing is left but the rest of a byte.
+  /// Returns whether all bits were there and nothing is left but the rest of a byte.
   bool is_done() const { return sound_ && bytes_.size() == (used_ + 7) / 8; }
 
  private:
@@ -89,7 +89,7 @@ class BitReader {
   bool sound_ = true;
 };
 
-// What the rows before it say of a number: `order` of them, the nearest one `stride` before it.
+// Predicts a number from `order` rows before it, the nearest one `stride` before it.
 std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_t stride) {
   const auto before = [&](std::size_t k) { return std::int32_t{*(at - k * stride)}; };
   switch (order) {
@@ -104,8 +104,8 @@ std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_
   }
 }
 
-// Integer factors from differences of stored rows to a rate (a power of 2 is divided out later): of velocities, and of
-// angular velocities.
+// Integer factors from differences of stored rows to a rate (a power of 2 is divided out later): for velocities, and
+// for angular velocities.
 using RateFactors = std::array<std::int32_t, 2>;
 
 struct SegmentOf {
@@ -113,7 +113,7 @@ struct SegmentOf {
   std::size_t steps;
   std::size_t channels;
 
-  // How much a channel changes in a step at an end, doubled.
+  // Returns twice the change of a channel per step at one end.
   std::int64_t change(bool end, std::size_t channel) const {
     if (steps < 2) return 2 * (std::int64_t{rows[steps * channels + channel]} - rows[channel]);
     const auto row = [&](std::size_t k) -> std::int64_t { return rows[(end ? steps - k : k) * channels + channel]; };
@@ -121,7 +121,7 @@ struct SegmentOf {
   }
 };
 
-// What rows tell of a rate, in another unit: of an angular velocity the vector part of q̇ q*.
+// Predicts a rate from rows, in another unit: for an angular velocity the vector part of q̇ q*.
 std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
   if (axis < 3) return segment.change(end, axis);
   const std::int16_t* q = segment.rows + (end ? segment.steps * segment.channels : 0) + 3;
@@ -130,8 +130,8 @@ std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
   return d(i) * q[0] - d(0) * q[i] - d(j) * q[k] + d(k) * q[j];
 }
 
-constexpr std::array<int, 2> kShifts = {10, 26};  // what a factor of 1 divides by, as a power of 2
-constexpr std::int32_t kMaxFactor = 10'000'000;   // of what rows can tell, 2^38 at most, it keeps within 64 bits
+constexpr std::array<int, 2> kShifts = {10, 26};  // divisor of a factor of 1, as a power of 2
+constexpr std::int32_t kMaxFactor = 10'000'000;   // times the largest row difference, 2^38, it fits in 64 bits
 
 std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis, const RateFactors& factors) {
   const std::int64_t limit = std::int64_t{1} << 38;
@@ -141,7 +141,7 @@ std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, -32768, 32767));
 }
 
-// Calls use(number, prediction, kind) for all rows and rates, each before anything that is predicted by it.
+// Calls use(number, prediction, kind) for all rows and rates, each before any number that is predicted by it.
 template <class Use>
 void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int16_t* rows, std::int16_t* rates,
                    Use use) {
@@ -165,7 +165,7 @@ void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int
   }
 }
 
-// The factors by which the rows of these segments tell their rates best.
+// Returns the factors that best predict the rates of these segments from their rows.
 RateFactors factors_of(const ChainModel& chain) {
   std::array<double, 2> product{}, square{};
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
@@ -189,7 +189,7 @@ RateFactors factors_of(const ChainModel& chain) {
   return factors;
 }
 
-// Which segments are of each mode: its first one, and one past the last of all.
+// Returns the index of each mode's first segment, and one past the last of all.
 std::vector<std::size_t> first_of_modes(const ChainModel& chain) {
   std::vector<std::size_t> first(static_cast<std::size_t>(chain.modes) + 1);
   for (std::uint16_t mode : chain.segments.mode) {
@@ -234,11 +234,11 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   const Error damaged{"is damaged: the rows and rates of its chain's segments are cut off or too long"};
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
   ChainSegments& segments = chain.segments;
-  // So many are counted in 32 bits.
+  // This number of segments can be counted in 32 bits.
   if (segments.steps.size() != segments.size() || segments.size() > kMaxSegments) return damaged;
   const std::size_t rows = std::size_t{segment_rows(segments).back()} * channels;
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
-  // A number takes a bit at least: what can't be there takes no memory.
+  // A number takes at least one bit: fewer bits than numbers allocate nothing.
   if (rows + rates > 8 * bytes.size()) return damaged;
   segments.rates.assign(rates, 0);
   segments.rows.assign(rows, 0);

@@ -1,7 +1,7 @@
 #pragma once
-// The rows, rates and successors of a chain's segments as a file has them. Rows and rates are whole numbers, each as
-// what it has over a prediction, in Rice codes. R. F. Rice, Some practical universal noiseless coding techniques, JPL
-// 79-22, 1979. Nothing is lost.
+// Serialised rows, rates and successors of a chain's segments. Rows and rates are integers, stored as differences from
+// a prediction, in Rice codes. R. F. Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979.
+// Lossless.
 //
 // Motion is smooth, so a row is predicted by the cubic through the rows before it (a straight line or a parabola at
 // first), and a rate by the parabola through the first or last three rows.
@@ -15,18 +15,18 @@
 
 namespace wisp {
 
-/// The rows and rates of a chain, as bytes.
+/// Serialises the rows and rates of a chain.
 std::vector<std::uint8_t> packed_segments(const ChainModel& chain);
 
-/// Reads them into a chain of which all else is known.
-/// Errors: bytes that are none of this code, too few or too many.
+/// Reads them into a chain whose other fields are set.
+/// Errors: bytes that are not of this code, too few or too many.
 Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& chain);
 
-/// The successors of all segments, as bytes: each as which one of its mode it is.
+/// Serialises the successors of all segments: each as its index within its mode.
 std::vector<std::uint8_t> packed_successors(const ChainModel& chain);
 
 /// Reads them into a chain whose segments have their modes.
-/// Errors: too few bytes, or too many; a successor that its mode has not.
+/// Errors: too few bytes, or too many; a successor that does not exist in its mode.
 Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& chain);
 
 }  // namespace wisp

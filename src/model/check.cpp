@@ -1,4 +1,4 @@
-// The meaning of a model: what every reader of a file, and every bank, relies on.
+// Check of a model's content, on which every reader of a file, and every bank, relies.
 
 #include <algorithm>
 #include <cmath>

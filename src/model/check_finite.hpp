@@ -1,5 +1,5 @@
 #pragma once
-// The check of every list of numbers in a model.
+// Check of every list of numbers in a model.
 
 #include <cmath>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace wisp {
 
-/// Errors: other than `expected` values, or one that is not finite; `what` names the list.
+/// Errors: a number of values other than `expected`, or one that is not finite; `what` names the list.
 inline Result<void> check_finite(std::span<const double> values, std::size_t expected, const std::string& what) {
   if (values.size() != expected) {
     return Error{what + " has " + std::to_string(values.size()) + " values, expected " + std::to_string(expected)};

@@ -16,7 +16,7 @@ struct Range {
   double highest;
 };
 
-// Of the candle rig at 60 rows a second: a clip of --wind puffs.
+// Sizes of the simulated candle at 60 rows per second: a clip of --wind puffs.
 constexpr double kBorrowedHz = 60;
 constexpr std::uint8_t kDying[] = {191, 128, 64, 237, 178, 119, 59, 242, 161, 121, 81, 40, 230, 173, 115, 58};
 constexpr std::uint32_t kDyingEnds[] = {3, 7, 12, 16};
@@ -29,7 +29,7 @@ constexpr std::uint8_t kCatching[] = {
     249, 249, 250, 251, 253, 253, 252, 253, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
 constexpr std::uint32_t kCatchingEnds[] = {42, 84, 126};
 
-// Events at another rate, their sizes interpolated.
+// Returns the events at another rate, with interpolated sizes.
 SizeEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::uint32_t> ends, double rate_hz) {
   SizeEvents out;
   std::size_t begin = 0;

@@ -1,4 +1,4 @@
-// The model file: header, hash, FlatBuffer, and then the meaning.
+// The model file: header, hash, FlatBuffer, and the check of the content.
 
 #include "wisp/model/file.hpp"
 

@@ -7,9 +7,9 @@
 namespace wisp {
 namespace {
 
-constexpr int kPowers = 3;  // of a wind's size, with its sign, and of each part of a vector
+constexpr int kPowers = 3;  // number of powers of a wind's magnitude, with its sign, and of each component of a vector
 
-// Which outputs and regressors those of the plane become. Rows of coefficients stay as they are.
+// Indices of outputs and regressors in the model of the body. Rows of coefficients stay unchanged.
 struct Places {
   int symmetric;
   int vectors;
@@ -17,7 +17,7 @@ struct Places {
   int outputs() const { return symmetric + 2 * vectors; }
   bool is_across(int output) const { return output >= symmetric + vectors; }
   int source(int output) const { return is_across(output) ? output - vectors : output; }
-  // How far a row's regressors move: those of x are in their place.
+  // Shift of a row's regressors: those of x stay in place.
   int shift(int output) const { return is_across(output) ? kPowers : 0; }
 };
 
@@ -45,7 +45,7 @@ void repeat_last(std::vector<T>& values, std::size_t count) {
   values.insert(values.end(), last.begin(), last.end());
 }
 
-// Across the picture it stands upright: how it leans there no camera saw.
+// Across the picture the flame stands upright: no camera saw its lean there.
 void turn_dynamics(ArxModel& arx, const Places& places) {
   const auto vectors = static_cast<std::size_t>(places.vectors);
   arx.orders = orders_of(arx.orders, places);
@@ -81,7 +81,7 @@ void turn_wind(Model& model) {
   repeat_last(model.training.inputs, 1);
 }
 
-// Whether symmetric components move without antisymmetric ones, and these without them.
+// Returns whether symmetric and antisymmetric components are decoupled.
 bool is_of_two_kinds(const ArxOrders& orders, int symmetric) {
   for (int i = 0; i < orders.outputs(); ++i) {
     for (int j = 0; j < orders.outputs(); ++j) {

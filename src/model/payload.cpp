@@ -291,7 +291,7 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   return model;
 }
 
-// What this program does not know says the least.
+// Unknown values are read as the least informative one.
 Origin read_origin(file::Origin origin) {
   return origin == file::Origin::Learned ? Origin::kLearned
          : origin == file::Origin::Given ? Origin::kGiven
@@ -454,7 +454,7 @@ fb::Offset<file::Input> write_input(Builder& builder, const Input& input) {
   return file::CreateInput(builder, name, unit, input.lowest, input.highest, stored_shape(input.shape));
 }
 
-// A member of a union: which, and where.
+// A member of a union: its kind and its offset.
 template <class Kind>
 struct Member {
   Kind kind = Kind::NONE;

@@ -1,5 +1,5 @@
 #pragma once
-// A model as a FlatBuffer, and back. Shapes are checked here, meaning in check().
+// A model as a FlatBuffer, and back. Shapes are checked here, contents in check().
 
 #include <cstddef>
 #include <span>
@@ -16,7 +16,7 @@ std::vector<std::byte> write_payload(const Model& model);
 /// Errors: not a valid FlatBuffer of this schema, or a matrix whose size does not fit its shape.
 Result<Model> read_payload(std::span<const std::byte> payload);
 
-/// A chain among the contents.
+/// Writes a chain.
 wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBuilder& builder,
                                                   const ChainModel& chain);
 

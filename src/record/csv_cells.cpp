@@ -11,7 +11,7 @@
 namespace wisp::csv {
 namespace {
 
-// As std::from_chars, but for a sign before and for what no double holds.
+// Like std::from_chars, but accepts a leading plus and numbers outside a double's range.
 std::optional<double> parsed(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
@@ -63,7 +63,7 @@ bool is_missing(const Cell& cell) {
   static constexpr std::array<std::string_view, 8> kWords = {"nan",  "na",   "n/a",  "n.a.",
                                                              "#n/a", "null", "none", "-nan"};
   if (cell.text.empty()) return true;
-  // Numbers are many, and none begins so.
+  // Most cells are numbers, and no number begins so.
   const char first = cell.text.front();
   if (first != 'n' && first != 'N' && first != '#' && first != '-') return false;
   return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return same_word(cell.text, word); });
@@ -77,14 +77,14 @@ std::optional<double> number_of(const Cell& cell, char separator) {
   const bool comma = separator != ',' || cell.quoted;
   const std::size_t at = text.find(',');
   if (at != text.npos && comma && text.find('.') == text.npos) text[at] = '.';
-  // Fortran's double precision.
+  // Fortran's double precision exponent.
   const std::size_t exponent = text.find_first_of("dD");
   if (exponent != text.npos && exponent > 0) text[exponent] = 'e';
   return text == cell.text ? std::nullopt : parsed(text);
 }
 
 PlainNumber plain_number(std::string_view text) {
-  // A double holds these powers of ten exactly, and whole numbers up to 2^53.
+  // A double holds these powers of ten exactly, and integers up to 2^53.
   static constexpr double kTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
   constexpr std::uint64_t kMaxExact = std::uint64_t{1} << 53;

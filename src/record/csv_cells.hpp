@@ -1,5 +1,5 @@
 #pragma once
-// Cells of tables as programs write them: what separates them, quotes, numbers with a point or a comma.
+// Cells of tables as written by programs: separators, quotes, numbers with a point or a comma.
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@ struct Cell {
   bool quoted = false;
 };
 
-/// Where cells are separated by any number of blanks.
+/// Separator that means any number of blanks.
 inline constexpr char kBlanks = ' ';
 
 inline std::string_view trimmed(std::string_view text) {
@@ -23,11 +23,11 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Length of a cell that begins with a quote, up to the closing one and the blanks after it; 0 where it is not closed
-/// or something follows.
+/// Returns the length of a cell that begins with a quote, up to the closing one and the blanks after it; 0 if it is not
+/// closed or other text follows.
 std::size_t quoted_length(std::string_view line, char separator);
 
-/// The cell of trimmed text.
+/// Returns the cell of trimmed text.
 Cell cell_of(std::string_view text);
 
 /// Calls visit(cell) for every cell of a line.
@@ -55,28 +55,28 @@ void for_each_cell(std::string_view line, char separator, Visit visit) {
   }
 }
 
-/// A cell without doubled quotes.
+/// Returns a cell's text without doubled quotes.
 std::string text_of(const Cell& cell);
 
-/// Whether a cell says that there is no sample: nothing, NaN, NA and the like.
+/// Returns whether a cell means a missing sample: empty, NaN, NA and the like.
 bool is_missing(const Cell& cell);
 
-/// The whole of a cell as a double, with a decimal point or, where commas separate nothing, a decimal comma; nothing
-/// where it is not one. Too small for a double is zero, too large is infinite.
+/// Parses the whole of a cell as a double, with a decimal point or, if commas are no separators, a decimal comma;
+/// nothing if it is no number. Too small for a double is zero, too large is infinite.
 std::optional<double> number_of(const Cell& cell, char separator);
 
-/// A number of decimal digits, with or without a sign, a point and an exponent, that has so few digits that one exact
-/// multiplication or division gives the nearest double.
+/// A decimal number, with or without a sign, a point and an exponent, with so few digits that one exact multiplication
+/// or division gives the nearest double.
 struct PlainNumber {
   double value = 0;
-  std::size_t length = 0;  ///< 0: there is none, or it has too many digits
+  std::size_t length = 0;  ///< 0: no number, or too many digits
   bool point = false;
 };
 
-/// The one that a text begins with.
+/// Parses the one at the beginning of a text.
 PlainNumber plain_number(std::string_view text);
 
-/// Whether a cell that is a number has a decimal comma.
+/// Returns whether a numeric cell has a decimal comma.
 inline bool has_comma(const Cell& cell) { return cell.text.find(',') != std::string_view::npos; }
 
 }  // namespace wisp::csv

@@ -9,13 +9,13 @@
 
 namespace wisp {
 
-// How a table is written, found by looking at its first lines.
+// Format of a table, detected from its first lines.
 namespace csv {
 namespace {
 
 struct Shape {
   std::size_t cells = 0;
-  std::size_t filled = 0;  // cells before the empty ones at the end
+  std::size_t filled = 0;  // number of cells before the empty ones at the end
   bool numbers = true;     // all cells are numbers or missing
   bool any_number = false;
 };
@@ -32,12 +32,12 @@ Shape shape_of(std::string_view line, char separator) {
   return shape;
 }
 
-// Rows may end in separators that the names do not have.
+// Rows may end in separators that the line of names lacks.
 bool fits(const Shape& names, const Shape& row) {
   return names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled;
 }
 
-// What separates cells: a tab, a semicolon, a comma or blanks. `lines`: the first that are no comments, at least one.
+// Detects the cell separator: a tab, a semicolon, a comma or blanks. `lines`: the first ones that are no comments.
 char separator_of(const std::vector<std::string>& lines) {
   const std::string_view names = lines.front(), row = lines.back();
   for (char candidate : {'\t', ';', ',', kBlanks}) {
@@ -61,19 +61,18 @@ bool is_row(std::string_view line, char separator) {
   return shape.numbers && shape.any_number;
 }
 
-// Whether a line below the names only says in what they are measured: no numbers, though the row that follows it has
-// some.
+// Returns whether a line below the names states only units: no numbers, though the next row has some.
 bool is_row_of_units(std::string_view line, std::string_view next, char separator) {
   bool text = false, number = false;
   for_each_cell(line, separator, [&](const Cell& cell) {
-    const bool one = cell.text == "1" || cell.text == "-";  // how units say that there is none
+    const bool one = cell.text == "1" || cell.text == "-";  // these mean dimensionless
     number |= !one && number_of(cell, separator).has_value();
     text |= !one && !is_missing(cell) && !number_of(cell, separator);
   });
   return text && !number && has_number(next, separator);
 }
 
-// Its units, without brackets.
+// Returns its units, without brackets.
 std::vector<std::string> units_in(std::string_view line, char separator) {
   std::vector<std::string> units;
   for_each_cell(line, separator, [&](const Cell& cell) {
@@ -86,7 +85,7 @@ std::vector<std::string> units_in(std::string_view line, char separator) {
   return units;
 }
 
-// A separator that Excel was told, as `sep=;`; 0 where the line is none.
+// Returns the separator that a line states for Excel, as `sep=;`; 0 for another line.
 char told_separator(std::string_view line) {
   const std::string_view said = cell_of(line).text;
   const bool told = said.size() == 5 && (said.substr(0, 4) == "sep=" || said.substr(0, 4) == "SEP=");
@@ -98,8 +97,8 @@ char told_separator(std::string_view line) {
 
 namespace {
 
-constexpr std::size_t kLookedAt = 3;  // lines that show how a table is written: names, units, a row
-constexpr std::size_t kTimed = 1000;  // rows that show how far apart all are
+constexpr std::size_t kLookedAt = 3;  // lines from which the format is detected: names, units, a row
+constexpr std::size_t kTimed = 1000;  // rows from which the time step is detected
 
 std::vector<csv::Cell> cells_of(std::string_view line, char separator) {
   std::vector<csv::Cell> cells;
@@ -135,7 +134,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// The role of a column, or nothing where it is not wanted.
+// Returns the role of a column, or nothing if it is not wanted.
 std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options) {
   if (contains(options.inputs, column.name)) return Role::kInput;
   if (contains(options.outputs, column.name)) return Role::kOutput;
@@ -152,7 +151,7 @@ std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options)
   return std::nullopt;
 }
 
-// As --inputs takes it: a name that holds a comma stands in quotes, with its own doubled.
+// Formats a name for --inputs: if it contains a comma it is quoted, with its own quotes doubled.
 std::string as_named(const std::string& name) {
   if (name.find(',') == std::string::npos && name.front() != '"') return name;
   std::string text = "\"";
@@ -160,12 +159,12 @@ std::string as_named(const std::string& name) {
   return text + "\"";
 }
 
-// Whole steps that loggers count in thousandths of a second, and seconds are not counted in.
+// Returns whether a time step is an integer typical of milliseconds, and not of seconds.
 bool counts_milliseconds(double step) {
   return step == std::round(step) && step >= 2 && step <= 1000 && std::fmod(step, 15) != 0;
 }
 
-// Enough of them to choose from.
+// Lists enough names to choose from.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMax = 40;
   std::string text;
@@ -175,7 +174,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-// What the file says, what its reader says, what a column of time says, what is usual.
+// Determines the rate, from the file's statement, the caller's, the time column, or the default, in this order.
 Result<void> CsvReader::State::read_rate(const CsvOptions& options) {
   if (header.rate_hz == 0) header.rate_hz = options.rate_hz;
   if (header.rate_hz != 0) time.reset();
@@ -195,7 +194,7 @@ Result<void> CsvReader::State::read_rate(const CsvOptions& options) {
   return Error{lines.name() + ": the rate is " + std::to_string(header.rate_hz) + " Hz, expected above 0"};
 }
 
-// One comment line.
+// Parses one comment line.
 Result<void> CsvReader::State::read_attribute() {
   const std::string_view line = csv::trimmed(csv::trimmed(lines.text()).substr(1));
   const std::size_t space = line.find_first_of(" \t");
@@ -218,7 +217,7 @@ Result<void> CsvReader::State::read_attribute() {
   return {};
 }
 
-// Comment lines and what Excel is told; leaves the first line of the table in lines.text().
+// Reads comment lines and the separator for Excel; leaves the first line of the table in lines.text().
 Result<void> CsvReader::State::read_attributes() {
   for (bool first = true;; first = false) {
     const auto more = lines.next();
@@ -235,7 +234,7 @@ Result<void> CsvReader::State::read_attributes() {
   }
 }
 
-// Names of all columns, from the options or from lines.text(), which is then used up.
+// Returns the names of all columns, from the options or from lines.text(), which is then consumed.
 Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& options) {
   const auto ahead = lines.look_ahead(kLookedAt - 1);
   if (!ahead) return ahead.error();
@@ -265,7 +264,7 @@ Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& 
                       std::to_string(names.size()) + " columns with --columns, such as --columns " + example);
 }
 
-// One more column, by its name.
+// Adds one column, by its name.
 Result<void> CsvReader::State::add_column(const std::string& text, const CsvOptions& options) {
   const ColumnName column = split_name(text);
   const bool episode = column.role.empty() && column.name == "episode";
@@ -289,7 +288,7 @@ Result<void> CsvReader::State::add_column(const std::string& text, const CsvOpti
   return {};
 }
 
-// Two columns of one name are an error where one of them is wanted.
+// Two columns of one name are an error if one of them is wanted.
 Result<void> CsvReader::State::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
   std::set<std::string> seen;
   std::vector<std::string> available;
@@ -317,7 +316,7 @@ Result<void> CsvReader::State::check_columns(const std::vector<std::string>& nam
                                      ") state no roles; name them with --inputs and --outputs");
 }
 
-// The first column that says when rows were.
+// Finds the first time column.
 void CsvReader::State::find_time(const std::vector<std::string>& names) {
   for (std::size_t k = 0; !own_form && k < names.size(); ++k) {
     const ColumnName column = split_name(names[k]);
@@ -326,7 +325,7 @@ void CsvReader::State::find_time(const std::vector<std::string>& names) {
   }
 }
 
-// A line below the names that says in what they are measured.
+// Reads a line of units below the names.
 Result<void> CsvReader::State::read_units() {
   const auto ahead = lines.look_ahead(2);
   if (!ahead) return ahead.error();
@@ -366,7 +365,7 @@ Result<void> CsvReader::State::read_columns(const CsvOptions& options) {
   return read_units();
 }
 
-// The rate, from the first rows' time.
+// Determines the rate from the first rows' time.
 Result<void> CsvReader::State::learn_step() {
   const auto ahead = lines.look_ahead(kTimed);
   if (!ahead) return ahead.error();
@@ -412,7 +411,7 @@ Result<void> CsvReader::State::learn_step() {
   return {};
 }
 
-// A number, or the seconds of a date.
+// Parses a number, or the seconds of a date.
 std::optional<double> CsvReader::State::time_in(const csv::Cell& cell) {
   const auto number = csv::number_of(cell, separator);
   if (number) return number;

@@ -16,7 +16,7 @@ bool is_control(char c) {
   return (byte < 0x20 && c != '\t' && c != '\r' && c != '\n') || byte == 0x7f;
 }
 
-// Text whose lines end in LF. Bytes alone and no branches, so that it is compiled to vectors; a byte follows the last.
+// Returns whether all lines end in LF. Branchless, so that it is vectorised; one byte after the last is read.
 bool is_plain(const char* first, std::size_t size) {
   unsigned char odd = 0;
   for (std::size_t k = 0; k < size; ++k) {
@@ -28,7 +28,7 @@ bool is_plain(const char* first, std::size_t size) {
   return odd == 0;
 }
 
-// A line between rows that is none.
+// Returns whether a line between rows is a comment.
 bool is_comment(std::string_view line) {
   const std::string_view text = trimmed(line);
   return text == "#" || text.substr(0, 2) == "# " || text.substr(0, 1) == "%";  // #N/A and #DIV/0! are cells
@@ -45,7 +45,7 @@ std::string shown(std::string_view text) {
   return "\"" + out + (text.size() > kMax ? "…\"" : "\"");
 }
 
-// One block more behind what is still needed; false at the end.
+// Reads another block behind the unconsumed text; false at the end.
 bool Lines::fill() {
   if (over_) return false;
   const std::size_t needed = std::min(keep_, std::min(begin_, at_));
@@ -57,20 +57,20 @@ bool Lines::fill() {
   const auto read = stream_->rdbuf()->sgetn(buffer_.data() + before, static_cast<std::streamsize>(kBlock));
   buffer_.resize(before + static_cast<std::size_t>(std::max<std::streamsize>(read, 0)));
   over_ = read < static_cast<std::streamsize>(kBlock);
-  // The block before may have ended in a CR; what this one ends in is seen with the next.
+  // The previous block may have ended in a CR; this block's last byte is checked with the next.
   const std::size_t from = before == 0 ? 0 : before - 1, to = over_ ? buffer_.size() : buffer_.size() - 1;
   plain_ = plain_ && is_plain(buffer_.data() + from, to - from);
   return buffer_.size() > before;
 }
 
-// Where the line that begins at at_ ends, the size of the buffer where it is the last.
+// Returns the end of the line that begins at at_, or the size of the buffer for the last one.
 std::size_t Lines::line_end() {
   for (std::size_t from = at_;;) {
     const std::string_view all(buffer_);
     const std::size_t end = plain_ ? all.find('\n', from) : all.find_first_of("\r\n", from);
     if (end != std::string_view::npos && (all[end] == '\n' || end + 1 < all.size() || over_)) return end;
     if (buffer_.size() - at_ > kLongestLine) return buffer_.size();
-    // Again from the last byte on, which may be a CR.
+    // Resumes at the last byte, which may be a CR.
     const std::size_t seen = std::max(buffer_.size(), at_ + 1) - at_ - 1;
     if (!fill()) return buffer_.size();
     from = at_ + seen;

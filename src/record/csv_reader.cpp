@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-// One to three digits, a comma and three digits: a thousand, or little more than one.
+// Returns whether text has one to three digits, a comma and three digits: thousands, or a number with three decimals.
 bool may_be_thousands(std::string_view text) {
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
   const std::size_t comma = text.find(',');
@@ -54,7 +54,7 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
 
 const Recording& CsvReader::header() const { return state_->header; }
 
-// A cell of the column that the rate is from.
+// Checks a cell of the time column that gives the rate.
 Result<void> CsvReader::State::check_time(std::optional<double> now, std::string_view text) {
   const auto before = std::exchange(time->before, now);
   if (uneven_time && now) {
@@ -101,8 +101,8 @@ Result<std::size_t> CsvReader::skip(std::size_t max_rows) {
   return count;
 }
 
-// The fast path, which nearly all rows take: appends a row that holds nothing but plain numbers. Returns false, with
-// nothing appended, where the row holds anything else.
+// The fast path, for nearly all rows: appends a row that contains only plain numbers. Returns false, with nothing
+// appended, for any other row.
 bool CsvReader::State::take_plain_row(Recording& recording, double& seconds) {
   const std::string_view line = csv::trimmed(lines.text());
   const std::size_t count = columns.size();
@@ -142,7 +142,7 @@ Result<void> CsvReader::State::add_row(Recording& recording) {
     ++place;
     if (!cell.text.empty()) filled = place;
   });
-  // Separators at the end of a row are nobody's cells.
+  // Separators at the end of a row add no cells.
   if (place < columns.size() || filled > columns.size()) {
     return lines.at_row("has " + std::to_string(place) + " columns, the header has " + std::to_string(columns.size()) +
                         "; a cell that holds a separator stands in quotes");
@@ -195,7 +195,7 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
   return {};
 }
 
-// 1,234 is a thousand to some and little more than one to others: a table writes it in one way.
+// 1,234 may mean a thousand or a number with decimals: a table uses one convention.
 Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
   const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
   commas |= comma;
@@ -212,7 +212,7 @@ Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
                       (comma ? "point" : "comma") + "; write all numbers in one way, without separators of thousands");
 }
 
-// A column of 987 and 1,012 has separators of thousands, unless a comma elsewhere can only be a decimal one.
+// A column with 987 and 1,012 has separators of thousands, unless a comma elsewhere can only be a decimal one.
 Result<void> CsvReader::State::check_thousands() const {
   for (std::size_t k = 0; k < marks.size() && !decimals; ++k) {
     if (marks[k].thousand == 0 || marks[k].hundred == 0) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// A table being read: its lines, out of blocks of its bytes; what the first of them said, and where its rows stand.
+// State of reading a table: its lines, in blocks of bytes; its format from the first lines, and the current row.
 
 #include <iosfwd>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace wisp::csv {
 
-/// What was found, short enough for a message of one line.
+/// Shortens text for a message of one line.
 std::string shown(std::string_view text);
 
 class Lines {
@@ -25,21 +25,21 @@ class Lines {
   /// Precondition: `stream` outlives it. `name` stands for it in messages.
   Lines(std::istream& stream, std::string_view name) : stream_(&stream), name_(name) {}
 
-  /// Goes on to the next line that is not blank; false at the end. Lines end in LF, CR LF or CR. Errors: bytes that are
-  /// not text, a line longer than 16 MiB.
+  /// Advances to the next line that is not blank; false at the end. Lines end in LF, CR LF or CR. Errors: bytes that
+  /// are not text, a line longer than 16 MiB.
   Result<bool> next();
 
-  /// The line, without its end; a view that lives until the next call.
+  /// Returns the line, without its end; a view that is valid until the next call.
   std::string_view text() const { return {buffer_.data() + begin_, length_}; }
   std::size_t row() const { return row_; }
 
-  /// The lines that next() will give, up to `count` of them. Errors: as next().
+  /// Returns the lines that next() will give, up to `count` of them. Errors: those of next().
   Result<std::vector<Line>> look_ahead(std::size_t count);
 
-  /// The next line is this one again.
+  /// Makes next() return this line again.
   void back() { at_ = begin_, --row_; }
 
-  /// From here on lines that begin with "# " or % are passed over too.
+  /// From here on lines that begin with "# " or % are skipped too.
   void pass_comments() { pass_comments_ = true; }
 
   Error at_row(const std::string& what, std::size_t row = 0) const {
@@ -54,12 +54,12 @@ class Lines {
   std::istream* stream_;
   std::string name_;
   std::string buffer_;
-  std::size_t begin_ = 0, length_ = 0;  // of the line
-  std::size_t at_ = 0;                  // where the next one begins
+  std::size_t begin_ = 0, length_ = 0;  // begin and length of the line
+  std::size_t at_ = 0;                  // begin of the next line
   std::size_t keep_ = std::string::npos;
   std::size_t row_ = 0;
-  bool over_ = false;  // the stream
-  bool plain_ = true;  // no byte so far that is not text, no CR without LF
+  bool over_ = false;  // the stream has ended
+  bool plain_ = true;  // so far only text bytes, and no CR without LF
   bool pass_comments_ = false;
 };
 
@@ -70,43 +70,43 @@ namespace wisp {
 struct CsvReader::State {
   struct Column {
     enum class Kind { kSkip, kChannel, kFlag, kEpisode } kind = Kind::kSkip;
-    std::size_t index = 0;  // of the channel or flag
+    std::size_t index = 0;  // index of the channel or flag
   };
 
-  // A column of time.
+  // A time column.
   struct Time {
-    std::size_t place = 0;  // among all columns
+    std::size_t place = 0;  // index among all columns
     std::string name;
     std::string unit;
-    double seconds = 1;  // of one unit
-    double step = 0;     // in units; 0: not looked at
+    double seconds = 1;  // seconds per unit
+    double step = 0;     // in units; 0: not determined
     double tolerance = 0;
-    std::optional<double> before{};  // in the row before
-    bool dated = false;              // by the calendar
+    std::optional<double> before{};  // value in the previous row
+    bool dated = false;              // calendar dates
   };
 
-  // What a column's commas may be.
+  // Possible meanings of a column's commas.
   struct Marks {
     std::size_t thousand = 0;  // row of the first number such as 1,012; 0: none
-    std::size_t hundred = 0;   // and of the first such as 987
+    std::size_t hundred = 0;   // row of the first number such as 987; 0: none
   };
 
   csv::Lines lines;
-  Recording header{};  // without its rows
+  Recording header{};  // recording without its rows
   std::vector<Column> columns{};
   std::optional<Time> time{};
   char separator = '\0';
   bool own_form = false;
   bool uneven_time = false, time_was_uneven = false;
   std::vector<double> times{};
-  bool plain_columns = false;  // channels and what is passed over, between separators that are no blanks
-  bool commas = false;         // numbers so far had decimal commas, points
+  bool plain_columns = false;  // channels and skipped columns only, between separators other than blanks
+  bool commas = false;         // numbers so far had decimal commas, or points
   bool points = false;
   bool decimals = false;       // a comma so far cannot separate thousands
-  std::vector<Marks> marks{};  // a column
+  std::vector<Marks> marks{};  // one per column
   std::vector<double> row{};
 
-  // As far as the first row: csv_head.cpp.
+  // Up to the first row: csv_head.cpp.
   Result<void> read_attribute();
   Result<void> read_attributes();
   Result<std::vector<std::string>> read_names(const CsvOptions& options);

@@ -25,7 +25,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// A name and what follows it in round brackets, or behind an underscore.
+// Returns a name and its suffix in round brackets, or after an underscore.
 std::pair<std::string, std::string> taken_apart(std::string_view name) {
   const std::string text = lower(trimmed(name));
   const std::size_t bracket = text.find('('), line = text.find('_');
@@ -72,8 +72,8 @@ std::optional<double> seconds_of(std::string_view unit) {
 }
 
 std::optional<double> seconds_of_date(std::string_view text) {
-  std::array<double, 6> part{};  // as they stand: three of a date, three of the day
-  std::array<char, 6> before{};  // the mark before each
+  std::array<double, 6> part{};  // numbers in written order: three of a date, three of the time of day
+  std::array<char, 6> before{};  // the character before each
   std::size_t count = 0;
   const char *at = text.data(), *const end = at + text.size();
   while (at < end && count < part.size()) {
@@ -105,8 +105,8 @@ std::optional<double> seconds_of_date(std::string_view text) {
 
 namespace {
 
-// What straight lines between samples may be wrong by, as a share of a channel's deviation: half the second difference
-// times f (1 − f), f the share of a step from the sample before.
+// Error estimate of linear interpolation, as a share of a channel's deviation: half the second difference times f (1 −
+// f), f the share of a step from the sample before.
 class LineError {
  public:
   void add(std::span<const double> samples, std::size_t row, double share) {
@@ -126,8 +126,8 @@ class LineError {
   double sum_ = 0, square_ = 0, error_ = 0, rows_ = 0;
 };
 
-// Whether a channel stands still from most samples to the next, as an input does that is set now and then. Straight
-// lines would give its jumps values that it never had.
+// Returns whether a channel is constant over most steps, like an input that is set now and then. Linear interpolation
+// would give its jumps intermediate values.
 bool moves_in_steps(std::span<const double> samples) {
   std::size_t still = 0;
   for (std::size_t t = 1; t < samples.size(); ++t) still += samples[t] == samples[t - 1];
@@ -137,7 +137,7 @@ bool moves_in_steps(std::span<const double> samples) {
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
-  constexpr double kGap = 1.5, kUsual = 0.5;  // of a step
+  constexpr double kGap = 1.5, kUsual = 0.5;  // in steps
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {
     steps.push_back(times[t] - times[t - 1]);

@@ -8,7 +8,7 @@
 namespace wisp {
 namespace {
 
-// The shortest text that reads back as the same double.
+// Appends the shortest text that reads back as the same double.
 void append_number(std::string& text, double value) {
   char digits[32];
   const auto [end, code] = std::to_chars(digits, digits + sizeof digits, value);
@@ -27,7 +27,7 @@ std::string_view role_letter(Role role) {
   return "";
 }
 
-// A name that holds a separator or a quote stands in quotes, its own doubled.
+// Quotes a name that contains a separator or a quote; its own quotes are doubled.
 std::string quoted(const std::string& name) {
   if (name.find_first_of(",\"") == std::string::npos) return name;
   std::string out = "\"";
@@ -81,7 +81,7 @@ void append_row(std::string& text, const Recording& recording, std::size_t row) 
   text += '\n';
 }
 
-// A name or value that the form could not give back.
+// Errors: a name or value that cannot be represented in the form.
 Result<void> check_text(const std::string& text, std::string_view forbidden, const std::string& what) {
   const std::size_t bad = text.find_first_of(forbidden);
   if (bad == std::string::npos) return {};

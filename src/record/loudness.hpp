@@ -1,9 +1,8 @@
 #pragma once
-// How loud the sound was where an input that was heard is 1: by it, what one microphone heard in several recordings can
-// be put on one scale.
+// Sound level at which an acoustic input is 1. It brings one microphone's recordings to a common scale.
 //
-// A tracker calls 1 whatever blew hard in its own recording (wisp/sound/wind_track.hpp), so that a phone and a laptop
-// hear alike. In recordings of one microphone the same wind is another number then, wherever something else blew hard.
+// A tracker's 1 is the strong wind of its own recording (wisp/sound/wind_track.hpp), so that a phone and a laptop give
+// similar inputs. In recordings of one microphone, equal winds then have different values if the strong winds differ.
 
 #include <optional>
 #include <string>
@@ -13,24 +12,24 @@
 
 namespace wisp {
 
-/// The RMS of the sound, full scale 1, at 1 of an input that goes with the root of it, as speeds of wind do; nothing
-/// where the recording does not say (attribute INPUT.one_rms).
+/// Returns the RMS of the sound, full scale 1, at which an input proportional to its root is 1, as wind speeds are;
+/// nothing if the recording does not state it (attribute INPUT.one_rms).
 /// Errors: the attribute is not one number above 0.
 Result<std::optional<double>> one_rms(const Recording& recording, const std::string& input);
 
-/// Says it.
+/// Sets the attribute INPUT.one_rms.
 ///
 /// Precondition: rms > 0.
 void set_one_rms(Recording& recording, const std::string& input, double rms);
 
-/// What an input is multiplied by for its 1 to be as loud as `rms`; 1 where the recording does not say how loud it was.
-/// Errors: as one_rms().
+/// Returns the factor that rescales an input to 1 at sound level `rms`; 1 if the recording does not state its level.
+/// Errors: those of one_rms().
 ///
 /// Precondition: rms > 0.
 Result<double> factor_at(const Recording& recording, const std::string& input, double rms);
 
-/// The recording with an input whose 1 is as loud as `rms`; as it is where it has no such input, or does not say how
-/// loud that was. Errors: as one_rms().
+/// Returns the recording with an input rescaled to 1 at sound level `rms`; unchanged if it has no such input, or does
+/// not state its level. Errors: those of one_rms().
 ///
 /// Precondition: rms > 0.
 Result<Recording> heard_at(Recording recording, const std::string& input, double rms);

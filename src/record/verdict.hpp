@@ -1,5 +1,5 @@
 #pragma once
-// What capturing thought of a recording travels with it, so that whoever learns from the file hears of it.
+// The capture's verdict on a recording, stored in it, so that learning from the file can report it.
 
 #include <optional>
 #include <span>
@@ -10,24 +10,24 @@
 
 namespace wisp {
 
-/// Whether a recording can be learned from, and why (attributes `usable`, yes or no, and `usable_reason`).
+/// Whether a recording can be learned from, and the reason (attributes `usable`, yes or no, and `usable_reason`).
 struct RecordingVerdict {
   bool usable = true;
   std::string reason;
 };
 
-/// Nothing where the recording does not say.
+/// Returns the verdict; nothing if the recording has none.
 std::optional<RecordingVerdict> verdict_of(const Recording& recording);
 
-/// Why a model of these recordings is not usable, however well it plays: one of them was captured as not usable.
-/// Nothing: none was.
+/// Returns why a model of these recordings is not usable, however well it plays: one was captured as not usable.
+/// Nothing if none was.
 std::optional<std::string> refused_by_capture(std::span<const Recording> recordings);
 
-/// Says it.
+/// Sets the verdict attributes.
 void set_verdict(Recording& recording, bool usable, const std::string& reason);
 
-/// How far a flame that several cameras filmed is from being the same from all sides (attribute `symmetry`, percent and
-/// its 95 % interval; absent where too few blows told it).
+/// Returns the deviation of a flame filmed by several cameras from rotational symmetry (attribute `symmetry`, percent
+/// and its 95 % interval; absent after too few blows).
 ReportEntry symmetry_entry(const Recording& recording);
 
 }  // namespace wisp
