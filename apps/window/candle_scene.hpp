@@ -1,5 +1,5 @@
 #pragma once
-// Candles in the window: a row or a cake, blown at with the microphone, the pointer and by being carried.
+// Candles in the window: a row or a cake, with wind from the microphone, the pointer and carrying.
 
 #include <algorithm>
 #include <chrono>
@@ -22,12 +22,12 @@ inline constexpr int kPolylinePoints = 96;
 inline constexpr float kTrackStep = 1.0F / 120;
 inline constexpr std::size_t kTrackSteps = 90;
 
-// Speed of a gust along a row of candles, flame heights a second, and its loss per height. Real breath is too fast to
-// see.
+// Speed of a gust along a row of candles, flame heights per second (real breath is too fast to be seen), and its loss
+// per height.
 inline constexpr float kGustSpeed = 14;
 inline constexpr float kGustLoss = 0.03F;
 
-// Wind that corresponds to a candle or a pointer moving at one flame height a second.
+// Wind on a candle that moves, or from a pointer that moves, at one flame height per second.
 inline constexpr float kWindPerSpeed = 0.11F;
 inline constexpr float kPointerReach = 0.9F;  // flame heights
 inline constexpr float kMaxPointerWind = 1.1F;
@@ -42,7 +42,7 @@ inline constexpr float kClickPixels = 5;
 
 class CandleScene {
  public:
-  /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
+  /// Errors: those of Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
   static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed) {
     const auto round = in_the_round(model);
     auto bank =
@@ -53,7 +53,7 @@ class CandleScene {
 
   static constexpr int kMaxCandles = 12;
 
-  /// The picture's size from now on.
+  /// Sets the picture's size.
   void resize(int width, int height) {
     width_ = width;
     height_ = height;
@@ -61,13 +61,13 @@ class CandleScene {
     arrange();
   }
 
-  /// Wind over the whole scene from now on, 1 a strong gust to the right.
+  /// Sets the wind over the whole scene; 1 is a strong gust to the right.
   void blow(float wind) { wind_ = wind; }
 
-  /// The share of it that blows away from the viewer instead, of a flame that has other sides.
+  /// Sets the share of it that blows away from the viewer instead; only for a flame that is a body.
   void blow_away(float share) { away_ = bank_.body() ? share : 0; }
 
-  /// Turns the viewer around the candles, by `angle` in radians, anticlockwise from above.
+  /// Turns the viewer around the candles, by `angle` in radians, anticlockwise seen from above.
   void turn(float angle) {
     if (!bank_.body()) return;
     azimuth_ += angle;
@@ -75,8 +75,8 @@ class CandleScene {
     if (candles() > 1) arrange();
   }
 
-  /// A wind that extinguishes a candle of this model.
-  // Well above the level of extinction, so that the flame goes out during the puff.
+  /// Returns a wind that extinguishes a candle of this model.
+  // Well above the level of extinction, so that the flame is extinguished during the puff.
   float strong() const { return 1.7F * level_; }
 
   void pointer_moved(Point pixel) {
@@ -148,7 +148,7 @@ class CandleScene {
 
   void draw(Image& image) {
     std::vector<std::vector<Point>> outlines;
-    outlines.reserve(candles_.size());  // flames point into it
+    outlines.reserve(candles_.size());  // flames refer to its elements
     std::vector<int> order(candles_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -175,10 +175,10 @@ class CandleScene {
         std::count_if(candles_.begin(), candles_.end(), [&](const auto& c) { return state_of(c).lit; }));
   }
 
-  /// Whether the model can go out.
+  /// Returns whether the model has extinction.
   bool goes_out() const { return bank_.extinction() != nullptr; }
 
-  /// The x of the first candle's tip over its base, in flame heights; 0 where it is out.
+  /// Returns the x of the first candle's tip relative to its base, in flame heights; 0 if it is out.
   float tip() const {
     const Candle& candle = candles_.front();
     if (!state_of(candle).lit) return 0;
@@ -191,16 +191,16 @@ class CandleScene {
     return points[2 * top];
   }
 
-  /// How many outputs were clamped, of all.
+  /// Returns the number of clamped outputs, and of all.
   Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
   struct Candle {
     InstanceId id;
     Point home{};   // pixel of the flame's base, unless carried
-    Point place{};  // where it is
+    Point place{};  // current pixel of the flame's base
     FlameScene scene{};
-    // Past places of the base, newest first, one each kTrackStep: hot gas rises from where it left the wick.
+    // Past positions of the base, newest first, one per kTrackStep: hot gas rises from where it left the wick.
     std::vector<Point> track;
     SmokeDrift smoke;
     float wind = 0;
@@ -232,7 +232,7 @@ class CandleScene {
       Candle& candle = candles_[static_cast<std::size_t>(k)];
       const float across = static_cast<float>(k) - 0.5F * static_cast<float>(count - 1);
       candle.home = {frame.base.x + spacing * across, frame.base.y};
-      // In a ring as on a cake: alternately behind and in front, evenly spaced across the picture.
+      // On a cake, candles form a ring: alternately behind and in front, evenly spaced across the picture.
       if (count > 1) {
         const float turn = across / (0.5F * static_cast<float>(count));
         const float deep = std::sqrt(1 - turn * turn) * (k % 2 == 0 ? 1.0F : -1.0F);
@@ -256,10 +256,10 @@ class CandleScene {
       }
       winds_[0] = wind_;
     }
-    // The first candle feels the present wind, not that of the last whole step.
+    // The first candle gets the present wind, not that of the last whole step.
     winds_[0] = wind_;
   }
-  // The wind at a candle: later and weaker along the row.
+  // Returns the wind at a candle: delayed and weaker along the row.
   float heard_wind(const Candle& candle) const {
     const auto by_x = [](const Candle& a, const Candle& b) { return a.place.x < b.place.x; };
     const auto [left, right] = std::minmax_element(candles_.begin(), candles_.end(), by_x);
@@ -296,7 +296,7 @@ class CandleScene {
     std::vector<Point> points(kPolylinePoints);
     for (std::size_t k = 0; k < points.size(); ++k) {
       Point p{polyline_[2 * k], polyline_[2 * k + 1]};
-      // Gas at this height left the wick some time ago, where the wick then was.
+      // Gas at this height left the wick earlier, at the wick's position then.
       const float back = std::max(0.0F, p.y) * kRiseSeconds / kTrackStep;
       const auto at = std::min(static_cast<std::size_t>(back), kTrackSteps - 2);
       const float part = std::min(1.0F, back - static_cast<float>(at));
@@ -324,7 +324,7 @@ class CandleScene {
   }
 
   Bank bank_;
-  bool flame_;  // otherwise drawn as a plain shape
+  bool flame_;  // false: drawn as a plain shape
   FlameStyle style_;
   std::size_t wind_input_ = 0;
   float level_ = 2;
@@ -332,15 +332,15 @@ class CandleScene {
   int width_ = 1280, height_ = 800;
   float unit_ = 300;
   float wind_ = 0, away_ = 0;
-  float azimuth_ = 0;  // of the viewer
+  float azimuth_ = 0;  // azimuth of the viewer
   bool turning_ = false;
-  std::vector<float> winds_;  // past winds of the scene, newest first, one each kTrackStep
-  float passed_ = 0;          // seconds passed of the current kTrackStep
+  std::vector<float> winds_;  // past winds of the scene, newest first, one per kTrackStep
+  float passed_ = 0;          // elapsed seconds of the current kTrackStep
   PointerWake wake_;
   Point pointer_{};
   Point pressed_{};
   std::optional<int> carried_;
-  Point grip_{};  // from the pointer to the carried candle's base
+  Point grip_{};  // offset from the pointer to the carried candle's base
   bool moved_ = false;
   std::unique_ptr<LiveFlames> painter_;
   std::vector<float> polyline_;

@@ -1,6 +1,6 @@
 #pragma once
-// Input that reaches a player as time passes, from files: a script's events, a sound file. A script says what a
-// person would do at the window, with times, for tests and demonstrations; docs/reference/window.md describes the file.
+// Timed input to a player from files: a script's events, a sound file. A script lists a person's actions at the window,
+// with times, for tests and demonstrations; docs/reference/window.md describes the file.
 
 #include <chrono>
 #include <filesystem>
@@ -35,17 +35,17 @@ inline std::chrono::nanoseconds time_of_frame(int frame) {
 
 class Course {
  public:
-  /// Opens what the options name, and the player's ear for the sound.
-  /// Errors: a file is bad, the folder for pictures cannot be made.
+  /// Opens the files in the options, and the player's ear for the sound.
+  /// Errors: an invalid file, or the folder for pictures cannot be created.
   static Result<Course> open(const PlayOptions& options, Player& player);
 
-  /// Passes on everything up to `seconds` since the start: events to `deliver`, sound to the player.
+  /// Delivers everything up to `seconds` since the start: events to `deliver`, sound to the player.
   void bring(double seconds, Player& player, const std::function<void(const Event&)>& deliver);
 
-  /// Names of the pictures that the last call of bring() requested.
+  /// Returns the names of the pictures that the last call of bring() requested.
   const std::vector<std::string>& wanted() const { return wanted_; }
 
-  /// Whether the script asks for pictures at all.
+  /// Returns whether the script requests any pictures.
   bool takes_pictures() const;
 
   bool scripted() const { return scripted_; }
@@ -58,7 +58,7 @@ class Course {
   std::optional<SoundFile> sound_;
 };
 
-/// Milliseconds of the processor that this thread has used.
+/// Returns this thread's processor time in milliseconds.
 double thread_milliseconds();
 
 }  // namespace wisp::window

@@ -1,5 +1,5 @@
 #pragma once
-// What comes to a scene: user input as plain values, from SDL or from a script; wind of keys and of the pointer; sound.
+// Input of a scene: user events as plain values, from SDL or from a script; wind from keys and from the pointer; sound.
 
 #include <algorithm>
 #include <array>
@@ -49,12 +49,12 @@ struct KeyTurned {
   bool down = true;
 };
 
-/// The pointer moved. Places are shares of the picture's width and height, from its top left.
+/// The pointer moved. Positions are shares of the picture's width and height, from its top left.
 struct PointerMoved {
   Point at{};
 };
 
-/// The pointer's button, or a finger, went down or up there.
+/// The pointer's button, or a finger, went down or up at that position.
 struct PointerTurned {
   Point at{};
   bool down = true;
@@ -65,27 +65,27 @@ struct FileDropped {
   std::string path;
 };
 
-/// The microphone is gone: pulled out, or taken by the system.
+/// The microphone was lost: unplugged, or taken by the system.
 struct MicrophoneLost {};
 
-/// The window is asked to close.
+/// The window was requested to close.
 struct Closed {};
 
 using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, FileDropped, MicrophoneLost, Closed>;
 
-/// Exponential approach of `from` to `to` after `seconds`, with time constant `within`.
+/// Exponential approach from `from` to `to` after `seconds`, with time constant `within`.
 inline float towards(float from, float to, float seconds, float within) {
   return to + (from - to) * std::exp(-seconds / within);
 }
 
-/// Wind from keys: the arrows blow as long as they are held, a puff is strong and short. Positive blows to the right;
-/// 1 is a strong gust.
+/// Wind from keys: the arrows blow while they are held, a puff is strong and short. Positive blows to the right; 1 is a
+/// strong gust.
 class KeyWind {
  public:
   /// Sets the direction of the held arrows: −1 left, 0 none or both, 1 right.
   void hold(int direction) { direction_ = direction; }
 
-  /// A strong blow of `strength`, from the left unless the left arrow is held.
+  /// Starts a strong blow of `strength`, from the left unless the left arrow is held.
   void puff(float strength) {
     puff_peak_ = direction_ < 0 ? -strength : strength;
     puff_age_ = 0;
@@ -122,10 +122,10 @@ class PointerWake {
     at_ = at;
   }
 
-  /// The pointer left the scene; its wake decays.
+  /// Ends the pointer's motion; its wake decays.
   void leave() { last_.reset(); }
 
-  /// The wake follows the pointer at once and decays slowly.
+  /// Advances the wake: it follows the pointer at once and decays slowly.
   void advance(float seconds) {
     if (seconds <= 0) return;
     const auto drag = [&](float speed, float pulled) {
@@ -138,7 +138,7 @@ class PointerWake {
 
   Point at() const { return at_; }
 
-  /// Lengths a second.
+  /// Returns the speed in lengths per second.
   Point speed() const { return speed_; }
 
  private:
@@ -148,20 +148,20 @@ class PointerWake {
   Point speed_{};
 };
 
-/// Where sound comes from.
+/// State of the sound input.
 enum class EarState {
   kOff,  ///< not switched on, or switched off again
   kListening,
   kMissing,  ///< there is no microphone, or it was lost
 };
 
-/// Wind frames a second: twice a screen's, so that waiting for the end of one costs half a frame at most.
+/// Wind frames per second: twice a screen's, so that waiting for a frame's end takes at most half a screen frame.
 inline constexpr double kWindRate = 120;
 
-/// The wind in a stream of sound.
+/// Estimates the wind in a stream of sound.
 class Ear {
  public:
-  /// Errors: as WindLevel::create().
+  /// Errors: those of WindLevel::create().
   Result<void> open(const SoundFormat& format) {
     auto level = WindLevel::create(format, {.frame_rate_hz = kWindRate});
     if (!level) return level.error();
@@ -169,7 +169,7 @@ class Ear {
     return {};
   }
 
-  /// Stops listening; its wind is 0 then.
+  /// Stops listening; the wind is then 0.
   void close(EarState state = EarState::kOff) {
     level_.reset();
     closed_ = state;
@@ -186,7 +186,7 @@ class Ear {
     }
   }
 
-  /// The wind now, 1 a strong gust; 0 unless listening.
+  /// Returns the current wind, 1 a strong gust; 0 unless listening.
   float wind() const { return level_ ? level_->latest().wind : 0.0F; }
 
   EarState state() const { return level_ ? EarState::kListening : closed_; }
@@ -196,10 +196,10 @@ class Ear {
   EarState closed_ = EarState::kOff;
 };
 
-/// A sound file in place of a microphone: its samples come as time passes, and end in silence.
+/// A sound file in place of a microphone: its samples arrive in real time, and end in silence.
 class SoundFile {
  public:
-  /// Errors: as stream_sound(), or a file without sound.
+  /// Errors: those of stream_sound(), or a file without sound.
   static Result<SoundFile> open(const std::string& path) {
     SoundFile file;
     const auto sound = stream_sound(path, [&](const SoundInfo& info, std::span<const float> samples) {
@@ -214,8 +214,8 @@ class SoundFile {
 
   const SoundFormat& format() const { return format_; }
 
-  /// The samples up to that time since the start, as blocks of `block` samples a channel, which come only whole, as
-  /// from a microphone. The span is good until the next call.
+  /// Returns the samples up to that time since the start, in complete blocks of `block` samples per channel, as from a
+  /// microphone. The span is valid until the next call.
   std::span<const float> until(double seconds, int block) {
     const auto channels = static_cast<std::size_t>(format_.channels);
     const auto blocks = static_cast<std::size_t>(std::max(0.0, seconds * format_.rate_hz / block + 1e-9));
@@ -229,7 +229,7 @@ class SoundFile {
  private:
   SoundFormat format_;
   std::vector<float> samples_;
-  std::size_t taken_ = 0;  // of all channels
+  std::size_t taken_ = 0;  // samples of all channels
 };
 
 }  // namespace wisp::window

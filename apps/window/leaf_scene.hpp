@@ -1,6 +1,6 @@
 #pragma once
-// Endlessly falling leaves in the window, which land, rest, and are kicked up by wind or start again above the picture:
-// any chain whose view is a position or a pose.
+// Endlessly falling leaves in the window, which land, rest, and are kicked up by wind or restart above the picture: any
+// chain whose view is a position or a pose.
 
 #include <algorithm>
 #include <array>
@@ -21,18 +21,18 @@ namespace wisp::window {
 
 // Height of the visible room, metres.
 inline constexpr float kViewHeight = 1.5F;
-inline constexpr float kDepth = 0.55F;       // leaves fall this far before and behind the middle
-inline constexpr float kAbove = 0.12F;       // over the picture's upper edge
-inline constexpr float kShownLarger = 1.5F;  // a leaf in a room is a few pixels
-inline constexpr float kLift = 0.006F;       // over the floor, so that the floor does not cut a resting leaf
+inline constexpr float kDepth = 0.55F;       // leaves fall within this distance before and behind the middle
+inline constexpr float kAbove = 0.12F;       // restart height above the picture's upper edge
+inline constexpr float kShownLarger = 1.5F;  // scale factor of display: a leaf in a room is a few pixels
+inline constexpr float kLift = 0.006F;       // height above the floor, so that the floor does not cut a resting leaf
 
-inline constexpr float kGustMetres = 1.6F;  // metres a second of a wind of 1
+inline constexpr float kGustMetres = 1.6F;  // metres per second at wind 1
 
-inline constexpr float kPointerMetres = 0.22F;  // metres around the pointer that feel it
-inline constexpr float kMaxWake = 2.5F;         // metres a second
-inline constexpr float kKicking = 0.55F;        // wind that lifts a resting leaf, metres a second
-inline constexpr int kMaxKicks = 40;            // a frame, since each searches all segments
-inline constexpr float kMinRest = 1.5F;         // seconds on the ground before it begins again
+inline constexpr float kPointerMetres = 0.22F;  // radius of the pointer's wind, metres
+inline constexpr float kMaxWake = 2.5F;         // metres per second
+inline constexpr float kKicking = 0.55F;        // least wind that lifts a resting leaf, metres per second
+inline constexpr int kMaxKicks = 40;            // largest number per frame, since each searches all segments
+inline constexpr float kMinRest = 1.5F;         // seconds on the ground before a restart
 inline constexpr float kMoreRest = 4;
 inline constexpr float kFade = 0.6F;    // seconds of fading out before a restart
 inline constexpr float kCatch = 0.25F;  // seconds of fading in
@@ -43,7 +43,7 @@ inline float room_width(int width, int height) {
 
 class LeafScene {
  public:
-  /// Errors: as Bank::create(). Precondition: the model's view is a pose or a position; 1 <= leaves <= kMaxLeaves.
+  /// Errors: those of Bank::create(). Precondition: the view is a pose or a position; 1 <= leaves <= kMaxLeaves.
   static Result<LeafScene> create(const Model& model, int leaves, std::uint64_t seed) {
     auto bank = Bank::create(model, {.capacity = kMaxLeaves, .seed = seed});
     if (!bank) return bank.error();
@@ -60,7 +60,7 @@ class LeafScene {
     painter_ = std::make_unique<LeafFlock>(width, height, leaf_camera_from_side(kViewHeight), style_);
   }
 
-  /// Wind over the whole scene from now on, 1 a strong gust to the right.
+  /// Sets the wind over the whole scene; 1 is a strong gust to the right.
   void blow(float wind) { wind_ = wind; }
 
   void pointer_moved(Point pixel) {
@@ -69,7 +69,7 @@ class LeafScene {
     wake_.move({pixel.x / metre, -pixel.y / metre});
   }
 
-  /// Kicks up the leaves that lie near the pixel.
+  /// Kicks up the leaves near the pixel.
   void pointer_pressed(Point pixel) {
     pointer_moved(pixel);
     for (int slot = 0; slot < bank_.slots(); ++slot) {
@@ -142,7 +142,7 @@ class LeafScene {
     painter_->draw(image, leaves);
   }
 
-  /// Leaves that lie on the ground.
+  /// Returns the number of leaves on the ground.
   int resting() const {
     return static_cast<int>(std::count_if(lives_.begin(), lives_.end(), [](const Life& l) { return l.rested > 0; }));
   }
@@ -152,11 +152,11 @@ class LeafScene {
  private:
   // State of a leaf that the bank does not hold.
   struct Life {
-    std::array<float, 3> last{};  // where it was shown last
+    std::array<float, 3> last{};  // last displayed position
     std::array<float, 4> attitude{1, 0, 0, 0};
     float rested = 0;    // seconds without moving on the ground
-    float patience = 8;  // seconds that it rests before it begins again above
-    float age = 0;       // seconds since it began
+    float patience = 8;  // seconds of rest before it restarts above
+    float age = 0;       // seconds since its start
     std::uint8_t look = 0;
     float size = 1;
   };
@@ -173,7 +173,7 @@ class LeafScene {
     set_ground(true);
     resize(width_, height_);
   }
-  // A random number in [0, 1) of the scene's own stream.
+  // Returns a random number in [0, 1) of the scene's own stream.
   float chance() {
     const std::uint32_t word = random_words({.seed = seed_, .stream = 0x1EAF, .step = drawn_++})[0];
     return static_cast<float>(word >> 8) / 16777216.0F;
@@ -237,7 +237,7 @@ class LeafScene {
     body.position = {life.last[0], life.last[1], kLift + 0.02F};
     body.orientation = life.attitude;
     const float strength = std::hypot(wind[0], wind[1], wind[2]);
-    // The floor turns wind upwards.
+    // The floor deflects wind upwards.
     body.velocity = {(0.5F + 0.3F * chance()) * wind[0], wind[1] + 0.5F * (chance() - 0.5F) * strength,
                      (0.55F + 0.7F * chance()) * strength};
     body.spin = {6 * (chance() - 0.5F), 6 * (chance() - 0.5F), 5 * (chance() - 0.5F)};
@@ -247,7 +247,7 @@ class LeafScene {
   }
 
   Bank bank_;
-  bool poses_ = true;  // of 7 outputs; else positions only
+  bool poses_ = true;  // 7 outputs; else positions only
   LeafStyle style_;
   std::uint64_t seed_ = 1, drawn_ = 0;
   bool ground_ = true;
@@ -256,7 +256,7 @@ class LeafScene {
   float seconds_ = 0;
   PointerWake wake_;
   Point pointer_{};
-  int kicks_ = 0;  // of this frame
+  int kicks_ = 0;  // kicks in this frame
   std::vector<Life> lives_;
   std::vector<float> outputs_, inputs_;
   std::unique_ptr<LeafFlock> painter_;

@@ -1,4 +1,4 @@
-// In place of the window where SDL2 was not found.
+// Replaces the window in builds without SDL2.
 
 #include "window.hpp"
 

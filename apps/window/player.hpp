@@ -1,5 +1,5 @@
 #pragma once
-// The player without the window: events, sound and time in, a picture out. It runs the same with a display and without.
+// The player without the window: takes events, sound and time, returns a picture. Equal with and without a display.
 
 #include <algorithm>
 #include <array>
@@ -22,34 +22,34 @@
 
 namespace wisp::window {
 
-/// The scene, where a model can be shown in several.
+/// The scene, for models that can be shown in several.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
-/// A player's start.
+/// Options of a player.
 struct PlayerOptions {
-  std::vector<std::filesystem::path> models;  ///< Tab goes from one to the next; at least one
+  std::vector<std::filesystem::path> models;  ///< Tab cycles through them; at least one
   std::optional<SceneKind> scene{};           ///< unset: by the first model's view
-  int width = 1280;                           ///< of the picture, pixels, 64 … 8192
+  int width = 1280;                           ///< picture width, pixels, 64 … 8192
   int height = 800;
   std::uint64_t seed = 1;
-  bool hints = true;  ///< a line for beginners at the start
+  bool hints = true;  ///< show a line for beginners at the start
 };
 
 /// Counts of a run.
 struct PlayerFigures {
   int frames = 0;
-  int went_out = 0;  ///< flames, counted
+  int went_out = 0;  ///< number of extinctions
   int relit = 0;
-  std::uint64_t clamped = 0, steps = 0;  ///< of the bank that runs now
+  std::uint64_t clamped = 0, steps = 0;  ///< of the current bank
 };
 
 inline constexpr int kMin = 64, kMax = 8192;
 inline constexpr int kCake = 7;
 inline constexpr int kLeaves = 60;
 inline constexpr double kNoticeSeconds = 6;
-inline constexpr std::size_t kNoticeBytes = 76;  // of a line
+inline constexpr std::size_t kNoticeBytes = 76;  // bytes per line
 
-// Strength of the space bar's puff where the model has no rule of extinction.
+// Strength of the space bar's puff for a model without a rule of extinction.
 inline constexpr float kPuff = 2;
 
 inline Point pixel_of(Point share, const Image& image) {
@@ -81,7 +81,7 @@ inline bool is_body(const Model& model) {
 
 class Player {
  public:
-  /// Errors: a model cannot be read; the first has no view for the scene that was requested.
+  /// Errors: a model cannot be read; the first has no view for the requested scene.
   static Result<Player> create(const PlayerOptions& options) {
     Player player(options);
     player.resize(options.width, options.height);
@@ -90,7 +90,7 @@ class Player {
     return player;
   }
 
-  /// The ear. The source of sound opens, feeds and closes it.
+  /// Returns the ear. The sound source opens, feeds and closes it.
   Ear& ear() { return ear_; }
 
   /// Handles user input.
@@ -123,7 +123,7 @@ class Player {
                event);
   }
 
-  /// Advances the scene by `time`, with the wind heard now.
+  /// Advances the scene by `time`, with the current wind.
   void advance(std::chrono::nanoseconds time) {
     const double seconds = std::chrono::duration<double>(time).count();
     seconds_ += seconds;
@@ -139,7 +139,7 @@ class Player {
     count_flames();
   }
 
-  /// Draws the current picture. Valid until the next call.
+  /// Draws the current picture, which is valid until the next call.
   const Image& draw() {
     std::visit([&](auto& scene) { scene.draw(image_); }, *scene_);
     draw_indicator();
@@ -154,7 +154,7 @@ class Player {
     return image_;
   }
 
-  /// The picture's size from now on, clamped to 64 … 8192.
+  /// Sets the picture's size, clamped to 64 … 8192.
   void resize(int width, int height) {
     width = std::clamp(width, kMin, kMax);
     height = std::clamp(height, kMin, kMax);
@@ -169,12 +169,12 @@ class Player {
     notice_until_ = seconds_ + kNoticeSeconds;
   }
 
-  /// The last notice.
+  /// Returns the last notice.
   const std::string& said() const { return notice_; }
 
   bool closed() const { return closed_; }
 
-  /// Whether the key for the microphone, or for full screen, was pressed since the last call.
+  /// Return whether the key for the microphone, or for full screen, was pressed since the last call.
   bool take_microphone_wish() { return std::exchange(microphone_wish_, false); }
   bool take_full_screen_wish() { return std::exchange(full_screen_wish_, false); }
 
@@ -186,7 +186,7 @@ class Player {
     return figures;
   }
 
-  /// One line on the state for tests and logs: flames burning, leaves resting, the tip's lean.
+  /// Returns one line on the state for tests and logs: flames burning, leaves resting, the tip's lean.
   std::string state() const {
     if (const auto* candles = std::get_if<CandleScene>(&*scene_)) {
       return "candles " + std::to_string(candles->candles()) + " burning " + std::to_string(candles->burning()) +
@@ -304,7 +304,7 @@ class Player {
     if (key == Key::kRight) right_ = down;
     keys_.hold((right_ ? 1 : 0) - (left_ ? 1 : 0));
   }
-  // More or fewer leaves, or candles.
+  // Adds or removes leaves, or candles.
   void more(int direction) {
     if (auto* leaves = std::get_if<LeafScene>(&*scene_)) {
       const int now = leaves->leaves();
@@ -324,7 +324,7 @@ class Player {
     model_index_ = (model_index_ + 1) % options_.models.size();
     drop(options_.models[model_index_].string());
   }
-  // A model that cannot be shown leaves a notice, and the scene goes on.
+  // For a model that cannot be shown, displays a notice and keeps the scene.
   void drop(const std::string& path) {
     const std::string file = std::filesystem::path(path).filename().string();
     if (auto ok = load(path, {}); !ok) {
@@ -347,7 +347,7 @@ class Player {
     if (ear_.state() == EarState::kOff) return;
     const bool listens = ear_.state() == EarState::kListening;
     std::string text = listens ? "microphone " : "no microphone";
-    // A meter of the wind as it is heard, eight steps to a gust of 2.
+    // Wind meter of eight steps up to a gust of 2.
     for (int k = 0; listens && k < 8; ++k) text += ear_.wind() * 4 > static_cast<float>(k) ? "●" : "·";
     const std::array<std::string, 1> lines{text};
     draw_note(image_, lines, Corner::kTopRight, std::max(11.0F, static_cast<float>(image_.height()) / 52));

@@ -1,5 +1,5 @@
 #pragma once
-// Models of plain numbers in the window, as moving curves.
+// Models with plain outputs in the window, as moving curves.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace wisp::window {
 
-inline constexpr std::size_t kKept = 480;      // values of a curve, one a frame
+inline constexpr std::size_t kKept = 480;      // values per curve, one per frame
 inline constexpr std::size_t kMaxCurves = 12;  // more could not be distinguished
 inline constexpr Colour kPlotGround{16, 17, 22};
 inline constexpr std::array<Colour, 6> kPlotPalette{
@@ -23,7 +23,7 @@ inline constexpr std::array<Colour, 6> kPlotPalette{
 
 class PlotScene {
  public:
-  /// Errors: as Bank::create().
+  /// Errors: those of Bank::create().
   static Result<PlotScene> create(const Model& model, std::uint64_t seed) {
     auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
     if (!bank) return bank.error();
@@ -33,7 +33,7 @@ class PlotScene {
 
   void resize(int width, int height) { width_ = width, height_ = height; }
 
-  /// Moves every input through its trained range: 0 is its middle, −1 and 1 its ends.
+  /// Sets every input within its trained range: 0 is the middle, −1 and 1 the ends.
   void blow(float wind) { wind_ = wind; }
 
   void reset() {

@@ -26,8 +26,8 @@ constexpr const char* kNowhere = "NUL";
 constexpr const char* kNowhere = "/dev/null";
 #endif
 
-// Does it while standard error is quiet: where there is no sound card or no screen, the system's libraries write a
-// dozen lines there beside the error that they return.
+// Calls `act` with standard error silenced: without a sound card or screen, the system's libraries write a dozen lines
+// there in addition to the error that they return.
 template <class Act>
 auto quietly(Act act) {
   const int kept = ::dup(2), nowhere = ::open(kNowhere, O_WRONLY);
@@ -45,7 +45,7 @@ class Microphone {
   Microphone& operator=(const Microphone&) = delete;
 
   // Opens the system's default microphone and the ear for it.
-  // Errors: there is none, or it may not be used.
+  // Errors: there is none, or access is denied.
   Result<void> open(Ear& ear) {
     close();
     const auto none = [](const std::string& why) {
@@ -77,10 +77,10 @@ class Microphone {
   bool is(SDL_AudioDeviceID device) const { return device_ != 0 && device_ == device; }
   SDL_AudioDeviceID device() const { return device_; }
 
-  // Passes on what came since the last call.
+  // Passes on the samples since the last call.
   void pass_on(Ear& ear) {
     if (device_ == 0) return;
-    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // what waits longer is old: the window slept
+    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // more is outdated: the window slept
     block_.resize(static_cast<std::size_t>(kSoundBlock) * channels_);
     if (SDL_GetQueuedAudioSize(device_) > kMaxWaitingBytes) SDL_ClearQueuedAudio(device_);
     for (;;) {
@@ -91,7 +91,7 @@ class Microphone {
     }
   }
 
-  // Drops what came since the last call.
+  // Drops the samples since the last call.
   void forget() {
     if (device_ != 0) SDL_ClearQueuedAudio(device_);
   }
@@ -105,7 +105,7 @@ class Microphone {
 // Larger pictures are drawn at this size and scaled up by the window, so that a frame is ready in time.
 constexpr double kMaxPixels = 1280.0 * 800.0;
 constexpr double kMinPixels = 240'000;
-constexpr double kBudgetMs = 13;  // of a frame of 16.7, for step and picture
+constexpr double kBudgetMs = 13;  // of a 16.7 ms frame, for step and picture
 
 // Interval at which a hidden window checks whether it is shown again.
 constexpr int kHiddenMs = 500;
@@ -113,7 +113,7 @@ constexpr int kHiddenMs = 500;
 // Minimum length of a frame, in case vertical sync does not limit the rate.
 constexpr double kShortestFrameMs = 1000.0 / 150;
 
-// In the order of Key; and other keys that do the same.
+// Key codes in the order of Key; then further keys with the same functions.
 constexpr SDL_Keycode kCodes[] = {SDLK_LEFT, SDLK_RIGHT, SDLK_UP,    SDLK_DOWN, SDLK_SPACE, SDLK_RETURN,
                                   SDLK_TAB,  SDLK_PLUS,  SDLK_MINUS, SDLK_c,    SDLK_g,     SDLK_h,
                                   SDLK_m,    SDLK_n,     SDLK_q,     SDLK_r,    SDLK_F11};

@@ -1,5 +1,5 @@
 #pragma once
-// Options held to their ranges, with one clear sentence where they are not.
+// Check of options against their ranges, with one clear sentence for a violation.
 
 #include <initializer_list>
 #include <string>

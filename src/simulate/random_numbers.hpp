@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers that are counted, not carried, and the same whatever the standard library.
+// Counter-based random numbers, without carried state, equal for every standard library.
 //
 // Source: the mixing function is that of G. Steele, D. Lea & C. Flood, Fast splittable pseudorandom number generators
 // (2014), with D. Stafford's constants.
@@ -8,7 +8,7 @@
 
 namespace wisp::flow {
 
-/// The word at a place of a stream.
+/// Returns the word at index `count` of a stream.
 inline std::uint64_t random_word(std::uint64_t seed, std::uint64_t stream, std::uint64_t count) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15U + stream * 0xd1342543de82ef95U + count * 0xa0761d6478bd642fU;
   for (int round = 0; round < 2; ++round) {
@@ -26,12 +26,12 @@ class RandomNumbers {
 
   std::uint64_t word() { return random_word(seed_, stream_, count_++); }
 
-  /// Even over [0, 1).
+  /// Uniform over [0, 1).
   double uniform() { return static_cast<double>(word() >> 11) * 0x1p-53; }
   double uniform(double lowest, double highest) { return lowest + (highest - lowest) * uniform(); }
 
-  /// Near normal, mean 0, standard deviation 1: the sum of twelve 16-bit uniform numbers less 6, which ends at ±6 and
-  /// has a kurtosis of 2.9. Only whole numbers and one product: no library's logarithm.
+  /// Approximately normal, mean 0, standard deviation 1: the sum of twelve 16-bit uniform numbers minus 6, which is
+  /// bounded by ±6 and has a kurtosis of 2.9. Only integers and one product: no library's logarithm.
   double normal() {
     std::int64_t sum = 0;
     for (int k = 0; k < 3; ++k) {

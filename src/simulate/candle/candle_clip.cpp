@@ -21,7 +21,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kFramesAhead = 16;  // by which the simulation may lead the camera
+constexpr std::size_t kFramesAhead = 16;  // largest lead of the simulation over the camera
 
 // Output of the rig after each frame.
 struct Shot {
@@ -93,7 +93,7 @@ class Scene {
   std::uint64_t frame_ = 0;
 };
 
-// Columns of the truth.
+// Columns of the ground truth.
 class Truth {
  public:
   Truth(const CandleClipOptions& options, const CameraView& view) : view_(view) {
@@ -146,7 +146,7 @@ class Truth {
   Recording recording_;
 };
 
-// Camera, microphone and the record of the truth.
+// Camera, microphone and the record of the ground truth.
 class Crew {
  public:
   Crew(const CandleClipOptions& options, const CandleClipOutputs& outputs, VirtualCamera camera,
@@ -182,7 +182,7 @@ class Crew {
                               camera_.picture(shot.light, frame_)});
   }
 
-  // Sound from the end of the last frame to the end of this one.
+  // Makes the sound from the end of the last frame to the end of this one.
   Result<void> listen() {
     if (!outputs_.on_sound) return {};
     const double rate = options_.microphone.rate_hz;

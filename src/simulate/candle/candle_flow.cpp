@@ -16,11 +16,11 @@ constexpr float kWickTime = 0.15F;          // s, calibrated: time constant of t
 constexpr float kFuelTemperature = 600.0F;  // K
 constexpr float kDiffusivity = 2.0e-5F;     // m²/s at 300 K; grows as T^1.75
 constexpr float kViscosity = 1.5e-5F;       // m²/s at 300 K
-constexpr float kUpdraught = 0.25F;         // m/s, calibrated: the air that rises with a candle
-constexpr float kMaxExpansion = 1500.0F;    // 1/s: ∇·u is clamped to it
-constexpr float kWindShare = 0.4F;  // calibrated: how much of the wind reaches the flame, most of it goes around
-constexpr float kWindRate = 20.0F;  // 1/s, calibrated: how fast the air at the flame takes it up
-constexpr float kPressureTolerance = 0.5F;              // 1/s, root mean square of the remaining divergence error
+constexpr float kUpdraught = 0.25F;         // m/s, calibrated: speed of the rising air around a candle
+constexpr float kMaxExpansion = 1500.0F;    // 1/s: bound of ∇·u
+constexpr float kWindShare = 0.4F;          // calibrated: share of the wind at the flame, most of it flows around
+constexpr float kWindRate = 20.0F;          // 1/s, calibrated: rate at which the air at the flame adopts the wind
+constexpr float kPressureTolerance = 0.5F;  // 1/s, root mean square of the remaining divergence error
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot does not diffuse
 
 }  // namespace
@@ -225,7 +225,7 @@ void CandleFlow::push(float wind) {
   for (int k = grid_.at(0, 0), end = k + grid_.nx; k < end; ++k) v_[k] = kUpdraught * body_.open_y[k];
 }
 
-// The right side −h² (∇·u − expansion) and the coefficients T/T0.
+// Sets the right side −h² (∇·u − expansion) and the coefficients T/T0.
 void CandleFlow::set_divergence() {
   const int stride = grid_.stride();
   const float h = grid_.h;
@@ -324,8 +324,8 @@ struct Box {
   double left, right, bottom, top;
 };
 
-// A smooth hump over the box's inscribed ellipse, reaching a little beyond it, averaged over cell (i, j): 0 outside,
-// 1 in the middle. A box with corners would show them in the flame's base in wind.
+// A smooth hump over the box's inscribed ellipse, reaching a little beyond it, averaged over cell (i, j): 0 outside, 1
+// in the middle. The corners of a plain box would be visible in the flame's base in wind.
 double hump(int i, int j, const Box& box) {
   constexpr int kSamples = 4;
   const double across = kReach * (box.right - box.left) / 2;
@@ -344,8 +344,8 @@ bool inside(int i, int j, const Box& box) {
   return i + 0.5 > box.left && i + 0.5 < box.right && j + 0.5 > box.bottom && j + 0.5 < box.top;
 }
 
-// The axis lies on a line between cells where the candle is an even number of cells wide, else in the middle of one,
-// so that the wax is as wide to its left as to its right.
+// The axis lies on a line between cells if the candle is an even number of cells wide, else in the middle of one, so
+// that the wax is symmetric about it.
 double axis_of(const FlowGrid& grid, const CandleRigOptions& options) {
   const int half_cells = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
   const double wanted = options.position * grid.nx;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMaxWind = 10;  // m/s
 constexpr double kLighterSeconds = 0.25;
 constexpr double kLitShare = 0.1;
-constexpr double kExposure = 0.5;  // share of a frame's time that the shutter is open
+constexpr double kExposure = 0.5;  // exposure time as a share of a frame's
 
 Result<void> check_options(const CandleRigOptions& o) {
   return flow::check_ranges("candle rig", {

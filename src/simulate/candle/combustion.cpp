@@ -6,21 +6,21 @@
 namespace wisp::flow {
 namespace {
 
-constexpr float kGlowFrom = 900.0F;  // K: colder soot is black to a camera
+constexpr float kGlowFrom = 900.0F;  // K: a camera sees colder soot as black
 constexpr float kGlowTo = 2500.0F;
 constexpr float kGlowStep = 5.0F;
-constexpr double kGlowActivation = 9000;  // K: second radiation constant over a wavelength of orange-red light, with a
-                                          // soot absorption that falls as 1/wavelength folded in; calibrated
-constexpr double kGlowUnit = 1800;        // K: where soot of unit density glows with 1
+constexpr double kGlowActivation = 9000;  // K: second radiation constant over a wavelength of orange-red light,
+                                          // including a soot absorption proportional to 1/wavelength; calibrated
+constexpr double kGlowUnit = 1800;        // K: temperature at which soot of unit density has glow 1
 constexpr float kMaxSoot = 1.2F;
-constexpr float kStoichiometric = 0.08F;         // mixture fraction where fuel and oxygen match
-constexpr float kHeat = 1700 / 0.08;             // K by burning fuel alone: 1700 K where both match
+constexpr float kStoichiometric = 0.08F;         // mixture fraction of stoichiometric combustion
+constexpr float kHeat = 1700 / 0.08;             // K per unit of fuel burnt: 1700 K at stoichiometry
 constexpr float kReactionRate = 2000.0F;         // 1/s at full temperature
-constexpr float kIgnitionLow = 900.0F;           // K: below it nothing burns
-constexpr float kIgnitionWidth = 400.0F;         // K: above that much more the reaction has its full rate
+constexpr float kIgnitionLow = 900.0F;           // K: no reaction below
+constexpr float kIgnitionWidth = 400.0F;         // K: width of the rise to the full rate
 constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated
 
-// 0 below a, 1 above a + width, smooth between.
+// Smooth step from 0 at a to 1 at a + width.
 float smoothstep(float x, float a, float width) {
   const float t = std::clamp((x - a) / width, 0.0F, 1.0F);
   return t * t * (3.0F - 2.0F * t);

@@ -8,7 +8,7 @@ namespace wisp::flow {
 struct Combustion {
   explicit Combustion(float step);
 
-  /// Burns fuel, forms and burns soot in all hot cells. Adds the fuel burnt a second to `blue`, if given.
+  /// Burns fuel, forms and burns soot in all hot cells. Adds the fuel burnt per second to `blue`, if given.
   /// Returns the volume of cold fuel burnt, summed over cells.
   double burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const;
 

@@ -24,7 +24,7 @@ struct Lattice {
 
   float at(int i, int j) const { return values[static_cast<std::size_t>(j) * columns + i]; }
 
-  // Lattice edges are numbered by their lower left end: even ones go right, odd ones go up.
+  // Index of a square's edge in the lattice, by its lower left end: even ones go right, odd ones go up.
   int edge(int i, int j, int side) const {
     switch (side) {
       case kLower:
@@ -49,7 +49,7 @@ struct Lattice {
   }
 };
 
-// Sends the contour through square (i, j): next[edge it enters by] = edge it leaves by, with the inside on its right.
+// Links the contour through square (i, j): next[edge of entry] = edge of exit, with the inside on its right.
 void link_square(const Lattice& lattice, int i, int j, std::vector<int>& next) {
   const std::array<bool, 4> inside = {lattice.at(i, j) > lattice.level, lattice.at(i + 1, j) > lattice.level,
                                       lattice.at(i + 1, j + 1) > lattice.level, lattice.at(i, j + 1) > lattice.level};
@@ -74,8 +74,8 @@ void link_square(const Lattice& lattice, int i, int j, std::vector<int>& next) {
       0.25F * (lattice.at(i, j) + lattice.at(i + 1, j) + lattice.at(i, j + 1) + lattice.at(i + 1, j + 1));
   const bool joined = mean > lattice.level;
   for (int k = 0; k < 2; ++k) {
-    // A corner that is inside lies between the side where the contour enters and the next side. Apart, each inside
-    // corner is cut off by itself; joined, each outside corner is.
+    // An inside corner lies between the entry side and the next side. If not joined, each inside corner is cut off by
+    // itself; if joined, each outside corner is.
     const int partner = joined ? (enters[k] + 3) % 4 : (enters[k] + 1) % 4;
     next[lattice.edge(i, j, enters[k])] = lattice.edge(i, j, partner);
   }
@@ -120,7 +120,7 @@ double clockwise_area(std::span<const PointMm> polygon) {
 namespace {
 
 constexpr double kLevel = 0.3;  // light of glowing soot at the contour: half of full brightness in a camera's picture
-constexpr double kCut = 0.03;   // the base lies this share of the flame's height above its lowest point: the round
+constexpr double kCut = 0.03;   // height of the base above the lowest point, as a share of the flame's: the round
                                 // bottom of a contour has no corners to fix control points to
 constexpr int kSamplesPerCell = 3;
 constexpr int kContourPoints = 200;
@@ -129,7 +129,7 @@ constexpr int kRefits = 8;
 
 double distance(PointMm a, PointMm b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-// Cells [first, last] of the columns and rows where light is above a level; empty where none is.
+// Cells [first, last] of the columns and rows with light above a level; empty if there are none.
 struct Extent {
   int left = 0, right = -1, bottom = 0, top = -1;
 };
@@ -144,7 +144,7 @@ Extent lit_extent(const RigLight& light, double level) {
   return e;
 }
 
-// The largest closed contour, in millimetres. The lattice ends outside the grid, where all is dark, so that a flame
+// Returns the largest closed contour, in millimetres. The lattice ends in the dark outside the grid, so that a flame
 // that leaves the grid is closed along its rim.
 std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   const Extent e = lit_extent(light, level);
@@ -176,7 +176,7 @@ std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   return largest;
 }
 
-// The part of a closed, clockwise contour that holds its highest point and lies above a height, ends included.
+// The part of a closed, clockwise contour with its highest point that lies above a height, ends included.
 std::vector<PointMm> cut_open(const std::vector<PointMm>& closed, double height) {
   const auto n = static_cast<int>(closed.size());
   const auto higher = [](PointMm a, PointMm b) { return a.y < b.y; };
@@ -227,7 +227,7 @@ PointMm combine(const std::vector<PointMm>& points, const BasisWeights& w) {
   return sum;
 }
 
-// Solves the symmetric, positive definite, dense system in place by Cholesky's method; both sides at once.
+// Solves the symmetric, positive definite, dense system in place by Cholesky's method, for both coordinates at once.
 void solve_normal_equations(std::vector<double>& a, std::vector<PointMm>& b) {
   const auto n = static_cast<int>(b.size());
   for (int i = 0; i < n; ++i)
@@ -249,7 +249,7 @@ void solve_normal_equations(std::vector<double>& a, std::vector<PointMm>& b) {
 std::vector<PointMm> fit_at(const std::vector<PointMm>& line, const std::vector<double>& s,
                             const std::vector<double>& knots, int points) {
   std::vector<double> normal(static_cast<std::size_t>(points) * points, 0.0);
-  // A trace of ridge keeps the system solvable where a control point has hardly a sample.
+  // A small ridge term keeps the system solvable if a control point has hardly any samples.
   for (int k = 0; k < points; ++k) normal[k * points + k] = 1e-9;
   std::vector<PointMm> right(points);
   for (std::size_t m = 0; m < line.size(); ++m) {
@@ -264,8 +264,8 @@ std::vector<PointMm> fit_at(const std::vector<PointMm>& line, const std::vector<
   return right;
 }
 
-// Least squares along the line's length, then a few rounds in which every sample slides to where the spline is nearest
-// to it (Hoschek's intrinsic parametrisation): a pointed tip needs parameters that hurry there.
+// Least squares over arc length, then a few rounds in which every sample's parameter moves to the nearest point of the
+// spline (Hoschek's intrinsic parametrisation): a pointed tip needs parameters that advance faster there.
 std::vector<PointMm> fit_spline(const std::vector<PointMm>& line, int points) {
   const std::vector<double> knots = uniform_knots(points);
   std::vector<double> s(line.size());

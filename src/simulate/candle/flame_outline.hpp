@@ -1,5 +1,5 @@
 #pragma once
-// The true outline of the rig's flame: the contour of its yellow light, its tip, and control points fitted to it.
+// Ground-truth outline of the rig's flame: the contour of its yellow light, its tip, and control points fitted to it.
 //
 // Source of the contours: W. Lorensen & H. Cline, Marching Cubes (SIGGRAPH 1987), in the plane; saddles are resolved by
 // the square's mean.
@@ -21,34 +21,34 @@ struct PointMm {
   double y = 0;
 };
 
-/// The outline of one frame. All empty or zero where there is no flame.
+/// The outline of one frame. All fields are empty or zero without a flame.
 struct FlameOutline {
   bool found = false;
   std::vector<PointMm> contour;  ///< the largest closed contour, cut at the base: from the base's left over the tip to
                                  ///< the base's right, about evenly spaced
   std::vector<PointMm> control_points;  ///< of an open, clamped, uniform cubic B-spline along it, least squares
-  PointMm base;                         ///< middle between the contour's ends
+  PointMm base;                         ///< midpoint of the contour's ends
   PointMm tip;                          ///< mean of the 2 % of the contour farthest from the base
-  double height = 0;                    ///< mm, of the tip above the base
-  double lean = 0;                      ///< degrees from upright, positive towards +x
-  double area = 0;                      ///< mm² inside the contour
+  double height = 0;                    ///< height of the tip above the base, mm
+  double lean = 0;                      ///< inclination from upright, degrees, positive towards +x
+  double area = 0;                      ///< area inside the contour, mm²
   double brightness = 0;                ///< light summed over the whole grid, in mm² of unit light
 };
 
-/// Takes the outline of a frame's light.
+/// Extracts the outline from a frame's light.
 ///
 /// Precondition: light.soot has columns × rows entries, each of at least 4.
 FlameOutline flame_outline(const RigLight& light);
 
 namespace flow {
 
-/// All closed contours at a level, each with the higher values on its right (clockwise around a hill, y up), in the
-/// lattice's own units: value (i, j) is at x = i, y = j. Contours that end at the lattice's rim are left out.
+/// Returns all closed contours at a level, each with the higher values on its right (clockwise around a hill, y up), in
+/// the lattice's own units: value (i, j) is at x = i, y = j. Contours that end at the lattice's rim are omitted.
 ///
 /// Precondition: values.size() == columns × rows.
 std::vector<std::vector<PointMm>> closed_contours(std::span<const float> values, int columns, int rows, float level);
 
-/// Area inside a closed polygon, positive if it runs clockwise (y up).
+/// Returns the area inside a closed polygon, positive if it runs clockwise (y up).
 double clockwise_area(std::span<const PointMm> polygon);
 
 }  // namespace flow

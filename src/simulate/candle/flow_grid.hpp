@@ -1,5 +1,5 @@
 #pragma once
-// A marker-and-cell grid: scalars in the middle of cells, velocity on their faces, and one padded layout for all of it.
+// A marker-and-cell grid: scalars at cell centres, velocity on cell faces, in one common padded layout.
 //
 // Source: F. Harlow & J. Welch, Phys. Fluids 8 (1965) 2182.
 
@@ -8,18 +8,18 @@
 
 namespace wisp::flow {
 
-/// Four scalars of a cell side by side, moved and diffused as one.
+/// Four scalars of a cell in one vector, advected and diffused together.
 using Float4 = float __attribute__((vector_size(16)));
 
-/// Lanes of a cell's scalars.
+/// Indices of a cell's scalars.
 enum Lane { kMixture = 0, kFuel = 1, kTemperature = 2, kSoot = 3 };
 
 inline constexpr float kAmbientTemperature = 300.0F;  ///< K
 inline constexpr Float4 kAmbient = {0.0F, 0.0F, kAmbientTemperature, 0.0F};
 
 /// Sizes and layout. Cell (i, j) spans [i h, (i+1) h] × [j h, (j+1) h], y up. Face u(i, j) is the cell's left one and
-/// v(i, j) its lower one, so u has a column more and v a row more. Everything has a border of one cell on the left and
-/// below and of at least two on the right and above, so that one index serves all and no stencil needs a test.
+/// v(i, j) its lower one, so u has one more column and v one more row. All arrays have a border of one cell on the left
+/// and below and of at least two on the right and above, so that one index serves all and no stencil needs a test.
 struct FlowGrid {
   int nx = 0;
   int ny = 0;

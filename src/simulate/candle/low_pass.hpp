@@ -1,11 +1,11 @@
 #pragma once
-// Coloured noise: a two-pole low-pass whose output has the power of its input, when that is white.
+// Coloured noise: a two-pole low-pass whose output has the power of its white input.
 
 #include <cmath>
 
 namespace wisp::flow {
 
-/// Butterworth, by the bilinear transform.
+/// Butterworth low-pass of order 2, by the bilinear transform.
 class LowPass {
  public:
   /// Precondition: 0 < corner_hz < rate_hz / 2.

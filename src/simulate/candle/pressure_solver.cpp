@@ -8,7 +8,7 @@ namespace wisp::flow {
 namespace {
 
 // Jacobi weights from the Chebyshev polynomial of degree 2 on the upper three quarters [0.5, 2] of the spectrum of
-// D⁻¹A: what smoother waves the coarse grid cannot see shrink by 1/T₂(5/3) = 0.22.
+// D⁻¹A: error components that the coarse grid cannot represent shrink by 1/T₂(5/3) = 0.22.
 constexpr float kWeightLow = 0.5617F;
 constexpr float kWeightHigh = 1.3895F;
 constexpr int kCoarsestPairs = 4;  // pairs of sweeps on the coarsest grid, a handful of cells
@@ -32,7 +32,7 @@ void sweep(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, const
   }
 }
 
-// Eight running sums, each over its own columns: an order that is fixed and that a vector unit can keep.
+// Eight running sums, each over its own columns: a fixed order that can be vectorised.
 double dot(const FlowGrid& grid, const Plane& a, const Plane& b) {
   double total = 0;
   for (int j = 0; j < grid.ny; ++j) {
@@ -66,7 +66,7 @@ void new_direction(const FlowGrid& grid, Plane& direction, float factor, const P
   }
 }
 
-// out = A x, or out = b − A x where a right side is given.
+// out = A x, or out = b − A x if a right side is given.
 template <bool kResidual>
 void apply(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, const Plane& diagonal, const Plane& from,
            const Plane& right_side, Plane& to) {

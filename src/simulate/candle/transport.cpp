@@ -6,7 +6,7 @@
 namespace wisp::flow {
 namespace {
 
-// A place between four values: index of the lower left one and the weights of its right and upper neighbours.
+// Bilinear interpolation position: index of the lower left value and the weights of its right and upper neighbours.
 struct Place {
   int index;
   float right;
@@ -83,7 +83,7 @@ template <class T>
 void step(const FlowGrid& grid, const Diffusion& d, const Plane& scale, int stages, T lanes, std::vector<T>& values,
           std::vector<T>& scratch) {
   const float width = 2.0F / static_cast<float>(stages * stages + stages);
-  // The first stage reads the old values twice over, as both of the stages before it.
+  // The first stage reads the initial values as both of its predecessors.
   stage(grid, d, scale, 1.0F, 0.0F, width * lanes, values.data(), scratch.data());
   for (int j = 2; j <= stages; ++j) {
     const auto order = static_cast<float>(j);
@@ -117,8 +117,8 @@ void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Pla
 void advect(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const ScalarPlane& from, ScalarPlane& to) {
   const auto right = static_cast<float>(grid.nx);
   const auto top = static_cast<float>(grid.ny);
-  // Fuel thins out for ever, down to denormal numbers, which cost a hundred times as much as others. What is far below
-  // anything that matters is rounded to zero.
+  // Fuel decays for ever, down to denormal numbers, which are a hundred times slower than others. Negligible values are
+  // rounded to zero.
   constexpr float kNothing = 1e-12F;
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {

@@ -12,25 +12,25 @@ namespace wisp {
 namespace {
 
 constexpr double kPixelsPerMm = 7.5;  // a calm flame is about 260 pixels high
-constexpr double kWickX = 0.35;       // where the candle's axis is, as a share of the width from the left
-constexpr double kRimY = 0.06;        // where the candle's upper rim is, as a share of the height from below
+constexpr double kWickX = 0.35;       // x of the candle's axis, as a share of the width from the left
+constexpr double kRimY = 0.06;        // y of the candle's upper rim, as a share of the height from below
 constexpr double kContrast = 1.8;     // steepness of the tone curve: higher gives the flame a sharper edge
 
-// Tones are kept in sixteenths of an 8-bit step until noise has been added.
+// Tones have sixteenths of an 8-bit step until noise has been added.
 constexpr int kToneUnit = 16;
 constexpr int kTones = 8192;
-constexpr float kBrightest = 25.0F;  // exposure that the tables end at, where every channel is white
+constexpr float kBrightest = 25.0F;  // upper end of the tables' exposure, where every channel is white
 constexpr int kNoiseValues = 1 << 14;
 
 // Sensitivity of each channel to glowing soot and to the reaction's own light.
 constexpr std::array<float, 3> kSootColour = {1.0F, 0.56F, 0.21F};
 constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
-constexpr float kBlueGain = 0.013F;  // of exposure, per 1/s of fuel burnt
-constexpr float kBlueVeil = 5.0F;    // soot hides the blue
-constexpr double kBlueFullMm = 4;    // above the rim; a candle's blue is at its base,
-constexpr double kBlueGoneMm = 16;   // a planar flow has more of it than a camera sees
+constexpr float kBlueGain = 0.013F;  // exposure per 1/s of fuel burnt
+constexpr float kBlueVeil = 5.0F;    // attenuation of the blue by soot
+constexpr double kBlueFullMm = 4;    // full blue up to this height above the rim: a candle's blue is at its base
+constexpr double kBlueGoneMm = 16;   // no blue above: a planar flow has more of it than a camera sees
 constexpr double kGlowReachMm = 2.5;
-constexpr float kDark = 2e-4F;  // light that no channel can show
+constexpr float kDark = 2e-4F;  // light below the first tone of every channel
 
 Result<void> check(const VirtualCameraOptions& o) {
   const auto ranges = flow::check_ranges("virtual camera", {
@@ -47,7 +47,7 @@ Result<void> check(const VirtualCameraOptions& o) {
   return {};
 }
 
-// A running mean of 2 reach + 1 values along one axis; outside is dark.
+// Computes a running mean of 2 reach + 1 values along one axis; outside is dark.
 void box_blur(std::vector<float>& values, int lines, int line_step, int length, int step, int reach) {
   std::vector<float> line(length);
   const float share = 1.0F / static_cast<float>(2 * reach + 1);
@@ -107,7 +107,7 @@ void VirtualCamera::set_places(const RigLight& light) {
   mixed_blue_.resize(light.columns);
 }
 
-// Light scattered in the lens: three running means approximate a Gaussian.
+// Adds light scattered in the lens: three running means approximate a Gaussian.
 void VirtualCamera::scatter(const RigLight& light) {
   soot_ = light.soot;
   if (options_.glow <= 0) return;

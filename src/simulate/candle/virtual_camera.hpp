@@ -14,8 +14,8 @@ namespace wisp {
 
 /// Maps millimetres of the rig (x from the candle's axis, y up from its upper rim) to pixels.
 struct CameraView {
-  double origin_x = 0;  ///< pixels from the left edge, of the axis; the middle of the first pixel is at 0
-  double origin_y = 0;  ///< pixels from the upper edge, of the rim
+  double origin_x = 0;  ///< x of the axis, pixels from the left edge; the centre of the first pixel is at 0
+  double origin_y = 0;  ///< y of the rim, pixels from the upper edge
   double pixels_per_mm = 1;
 
   double pixel_x(double mm) const;
@@ -28,8 +28,8 @@ class VirtualCamera {
   /// Errors: an option outside its range.
   static Result<VirtualCamera> create(const VirtualCameraOptions& options = {});
 
-  /// The picture of a frame: rows from the top, red, green and blue a byte each, width × height × 3 in all. Valid until
-  /// the next call. The same light and frame number give the same bytes.
+  /// Returns the picture of a frame: rows from the top, one byte each of red, green and blue, width × height × 3 in
+  /// all. Valid until the next call. Equal light and frame number give equal bytes.
   ///
   /// Precondition: light.soot and light.blue have columns × rows entries.
   std::span<const std::uint8_t> picture(const RigLight& light, std::uint64_t frame);
@@ -50,7 +50,7 @@ class VirtualCamera {
   std::vector<std::int16_t> tones_, noise_;
   std::vector<float> steep_;  // exposure by soot, raised to the contrast
   flow::SamplePlaces columns_, rows_;
-  RigLight seen_;  // the grid that the places are for
+  RigLight seen_;  // grid of the cached sample positions
   std::vector<float> soot_, scattered_, mixed_soot_, mixed_blue_;
   std::vector<std::int16_t> line_;
   std::vector<std::uint8_t> picture_;

@@ -18,7 +18,7 @@ using flow::RandomNumbers;
 
 constexpr double kOtherLevel = 0.05;  // typical root mean square of a sound that is not wind
 
-// Sounds at a candle that are not wind: a few syllables of a voice, a knock or two on the table.
+// Sounds at a candle other than wind: a few syllables of a voice, a knock or two on the table.
 
 // A two-pole resonance.
 class Resonance {
@@ -34,7 +34,7 @@ class Resonance {
 // Generates silence with occasional sounds of about unit level.
 class OtherSounds {
  public:
-  /// `a_second` sounds a second on average.
+  /// `a_second`: mean number of sounds per second.
   OtherSounds(double rate_hz, double a_second, std::uint64_t seed);
 
   double next();
@@ -51,7 +51,7 @@ class OtherSounds {
   RandomNumbers random_;
   std::array<Resonance, 3> resonances_;
   std::int64_t gap_ = 0;    // samples until the next sound
-  std::int64_t place_ = 0;  // within the sound
+  std::int64_t place_ = 0;  // position in the sound, samples
   std::int64_t length_ = 0;
   bool is_voice_ = false;
   double pitch_hz_ = 0, glide_ = 0, phase_ = 0, syllable_seconds_ = 0, knock_seconds_ = 0;
@@ -62,7 +62,7 @@ Resonance::Resonance(double frequency_hz, double decay_seconds, double rate_hz) 
   const double angle = 2 * std::numbers::pi * std::min(frequency_hz, 0.45 * rate_hz) / rate_hz;
   a1_ = 2 * radius * std::cos(angle);
   a2_ = -radius * radius;
-  // An impulse rings with an amplitude of about 1.
+  // An impulse response has an amplitude of about 1.
   gain_ = std::sin(angle);
 }
 

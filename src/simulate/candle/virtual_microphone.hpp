@@ -1,9 +1,8 @@
 #pragma once
-// A microphone at the candle: wind as it sounds when it blows on a capsule, hiss, and now and then a sound that is not
-// wind.
+// A microphone at the candle: sound of wind on its capsule, hiss, and occasional sounds other than wind.
 //
 // Source: R. Raspet, G. Webster et al. on wind noise as stagnation pressure, and its account in Acoustics Today (2021):
-// pressure goes with the square of the wind, its spectrum is flat below a corner and falls steeply above.
+// pressure is proportional to the square of the wind, its spectrum is flat below a corner and falls steeply above.
 
 #include <cstdint>
 #include <memory>
@@ -14,7 +13,7 @@
 
 namespace wisp {
 
-/// Makes sound from wind, block by block. The same wind and seed give the same samples however the blocks are cut.
+/// Makes sound from wind, block by block. Equal wind and seed give equal samples for any division into blocks.
 class VirtualMicrophone {
  public:
   /// Errors: an option outside its range.
@@ -24,8 +23,8 @@ class VirtualMicrophone {
   VirtualMicrophone& operator=(VirtualMicrophone&&) noexcept;
   ~VirtualMicrophone();
 
-  /// The next sound.size() samples, mono, within ±1 (what is louder is clipped, as a recorder does). `wind` holds the
-  /// wind in m/s at each of them; its sign does not matter.
+  /// Makes the next sound.size() samples, mono, clipped to ±1, as by a recorder. `wind` holds the wind in m/s at each
+  /// of them; its sign does not matter.
   ///
   /// Precondition: wind.size() == sound.size().
   void hear(std::span<const float> wind, std::span<float> sound);

@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kRate = 240;          // samples a second: forty times the noise's band
+constexpr double kRate = 240;          // samples per second: forty times the noise's band
 constexpr double kLongest = 86400;     // s
 constexpr double kFadeSeconds = 0.12;  // at both ends of a blow
 constexpr double kBlowOutSpeed = 3;    // m/s
@@ -40,7 +40,7 @@ Result<void> check(const WindSignalOptions& o, double seconds) {
                                     });
 }
 
-// 0 at the ends of [0, length], 1 between, with raised-cosine slopes.
+// Returns 0 at the ends of [0, length], 1 between, with raised-cosine slopes.
 double plateau(double t, double length, double rise, double fall) {
   if (t <= 0 || t >= length) return 0;
   const double up = std::min(1.0, t / rise);
@@ -48,7 +48,7 @@ double plateau(double t, double length, double rise, double fall) {
   return 0.25 * (1 - std::cos(std::numbers::pi * up)) * (1 - std::cos(std::numbers::pi * down));
 }
 
-// Adds a gust: a quick rise, a slower fall.
+// Adds a gust: a quick rise, a slower decay.
 void add_gust(std::vector<double>& wind, flow::RandomNumbers& random, double start, double peak) {
   const double length = random.uniform(0.15, 1.2);
   const double rise = length * random.uniform(0.1, 0.4);
@@ -102,7 +102,7 @@ std::vector<double> air(const WindSignalOptions& o, std::size_t count) {
   return {};
 }
 
-// A puff with calm around it, until some time after the candle is lit again.
+// A puff with calm around it, until some time after the candle is relit.
 struct Puff {
   double at = 0;
   double speed = kBlowOutSpeed;
@@ -131,7 +131,7 @@ std::vector<Puff> puffs(const WindSignalOptions& o, double seconds) {
   return all;
 }
 
-// Fills missing samples by straight lines, and at the ends by the nearest sample. Returns whether there was any.
+// Interpolates missing samples linearly, and at the ends by the nearest sample. Returns whether there was any sample.
 bool fill_missing(std::vector<double>& samples) {
   std::size_t last = samples.size();
   for (std::size_t k = 0; k < samples.size(); ++k) {

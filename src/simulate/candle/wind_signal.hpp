@@ -11,15 +11,15 @@
 
 namespace wisp {
 
-/// A wind at a fixed rate, to be read one sample after the other or at any time.
+/// A wind at a fixed rate, to be read sequentially or at any time.
 class WindSignal {
  public:
-  /// A generated wind, `seconds` long.
+  /// Generates a wind, `seconds` long.
   /// Errors: an option outside its range.
   static Result<WindSignal> generate(const WindSignalOptions& options, double seconds);
 
-  /// A recording's only input, in m/s, with missing samples filled by straight lines.
-  /// Errors: not one input, or nothing but missing samples.
+  /// Reads a recording's only input, in m/s, with missing samples interpolated linearly.
+  /// Errors: not one input, or only missing samples.
   static Result<WindSignal> from_recording(const Recording& recording);
 
   /// Returns the wind at a time, interpolated linearly and constant beyond the ends.
@@ -29,7 +29,7 @@ class WindSignal {
   double rate_hz() const { return rate_hz_; }
   const std::vector<double>& samples() const { return samples_; }
 
-  /// Times at which an extinguished candle is lit again, ascending, in seconds.
+  /// Returns the times at which an extinguished candle is relit, ascending, in seconds.
   const std::vector<double>& relights() const { return relights_; }
 
  private:

@@ -11,9 +11,9 @@ namespace {
 
 using std::numbers::pi;
 
-// Lamb's integrals of an ellipsoid whose thickness goes to 0, over that thickness, along the long and the short axis.
-// With λ = b² tan²θ they become integrals of smooth functions over a quarter of their period, where sums over even
-// steps converge faster than any power of the step.
+// Lamb's integrals of an ellipsoid in the limit of zero thickness, divided by the thickness, along the long and the
+// short axis. With λ = b² tan²θ they become integrals of smooth functions over a quarter of their period, where
+// equidistant sums converge faster than any power of the step.
 struct LambIntegrals {
   double long_axis = 0;
   double short_axis = 0;
@@ -58,7 +58,7 @@ LeafInertia leaf_inertia(const Leaf& leaf) {
   inertia.mass = leaf.areal_density * pi * a * b;
   const double quarter = inertia.mass / 4;
   inertia.moment = {quarter * b * b, quarter * a * a, quarter * (a * a + b * b)};
-  // A plate without thickness carries air only broadside, and stirs it only about the axes in its plane.
+  // A plate without thickness has added mass only broadside, and added inertia only about the axes in its plane.
   const LambIntegrals lamb = lamb_integrals(a, b);
   const double air = 8 * pi / 3 * leaf.air_density * a * b;
   inertia.added_mass = {0, 0, air / (lamb.long_axis + lamb.short_axis)};

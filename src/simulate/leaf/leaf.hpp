@@ -17,15 +17,15 @@ namespace wisp {
 /// Errors: a field outside its range.
 Result<void> check(const Leaf& leaf);
 
-/// Pose and motion of the leaf. The body's axes: x along the midrib, y across, z the leaf's upper side.
+/// Pose and motion of the leaf. Body axes: x along the midrib, y across, z the leaf's upper side.
 struct LeafState {
   std::array<double, 4> attitude{1, 0, 0, 0};  ///< unit quaternion, w first, leaf to world
   std::array<double, 3> position{};            ///< metres, z up
-  std::array<double, 3> velocity{};            ///< of the middle, in the body's axes, m/s
-  std::array<double, 3> spin{};                ///< in the body's axes, rad/s
+  std::array<double, 3> velocity{};            ///< velocity of the centre, in body axes, m/s
+  std::array<double, 3> spin{};                ///< angular velocity in body axes, rad/s
 };
 
-/// Inertia of the leaf and of the air that it carries along, about the body's axes.
+/// Inertia of the leaf and added inertia of the air, about the body axes.
 struct LeafInertia {
   double mass = 0;                       ///< kg
   std::array<double, 3> moment{};        ///< kg m²
@@ -33,16 +33,16 @@ struct LeafInertia {
   std::array<double, 3> added_moment{};  ///< kg m²
 };
 
-/// Precondition: check(leaf) is good.
+/// Precondition: check(leaf) succeeds.
 LeafInertia leaf_inertia(const Leaf& leaf);
 
-/// Kinetic and potential energy of leaf and carried air, in joules, relative to z = 0. Never grows in still air.
+/// Returns the energy of leaf and added mass, kinetic and potential above z = 0, joules. Never grows in still air.
 double leaf_energy(const Leaf& leaf, const LeafState& state);
 
-/// Velocity in the world's axes, m/s.
+/// Returns the velocity in world axes, m/s.
 std::array<double, 3> leaf_world_velocity(const LeafState& state);
 
-/// The leaf's upper side in the world's axes.
+/// Returns the normal of the leaf's upper side in world axes.
 std::array<double, 3> leaf_normal(const LeafState& state);
 
 }  // namespace wisp

@@ -22,8 +22,8 @@ using flow::RandomNumbers;
 
 constexpr double kMaxRows = 2147483648.0;
 constexpr double kMaxGust = 30;            // m/s
-constexpr double kCloneDifference = 0.05;  // when the recording begins: radians, m/s, tenths of a rad/s
-constexpr double kLeadSeconds = 0.5;       // from there to the gust's onset, give or take a fifth
+constexpr double kCloneDifference = 0.05;  // at the recording's beginning: radians, m/s, tenths of a rad/s
+constexpr double kLeadSeconds = 0.5;       // from there to the gust's onset, within a fifth
 
 // Purposes of random streams.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
@@ -55,7 +55,7 @@ std::size_t rows_of(const LeafDropsOptions& o) {
   return static_cast<std::size_t>(std::max(2.0, std::round(o.seconds * o.rate_hz)));
 }
 
-// A random attitude, and velocities typical of a fall.
+// Returns a random attitude, and velocities typical of a fall.
 LeafState random_start(RandomNumbers random) {
   LeafState state;
   for (double& part : state.attitude) part = random.normal();
@@ -142,7 +142,7 @@ Result<void> record(LeafFlight& flight, const LeafWind& wind, const LeafDropsOpt
   return {};
 }
 
-// Settles from a random start until the recording begins.
+// Simulates from a random start until the recording begins.
 Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std::uint64_t drop) {
   RandomNumbers random(o.seed, (kStart << 32) + drop);
   auto flight = LeafFlight::begin(o.leaf, wind, random_start(random));
@@ -168,7 +168,7 @@ Result<void> fall(const LeafDropsOptions& o, std::size_t drop, Recording& record
   return record(*flight, wind, o, {recording, drop, rows_of(o)});
 }
 
-// Calls `work` with 0 … count−1, on all threads. Returns the error of the lowest index that has one.
+// Calls `work` with 0 … count−1, on all threads. Returns the failing call's error of lowest index.
 template <class Work>
 Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
@@ -194,7 +194,7 @@ Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work
   return {};
 }
 
-// One gust with onset at about the lead time, with the properties of a train's gusts.
+// Returns one gust with onset at about the lead time, with the properties of a train's gusts.
 Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   const std::uint64_t seed = flow::random_word(o.drops.seed + 1, kWindSeed, index);
   Gust gust = LeafWind::gusty(seed, 2 * LeafWind::kRestSeconds).gusts().front();
@@ -211,7 +211,7 @@ Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   return gust;
 }
 
-// All clones of one gust, with and without it.
+// Simulates all clones of one gust, with and without it.
 Result<void> fall_in_pairs(const LeafPairsOptions& o, std::size_t index, LeafPairs& pairs) {
   const LeafDropsOptions& d = o.drops;
   const LeafWind calm, windy = LeafWind::of_gusts({one_gust(o, index)});

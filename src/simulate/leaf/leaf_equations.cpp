@@ -6,7 +6,7 @@
 namespace wisp::leaf {
 namespace {
 
-// Force of the relative air flow, in the body's axes. `v` is the leaf's velocity through the air.
+// Force of the relative air flow, in body axes. `v` is the leaf's velocity relative to the air.
 Vec air_force(const Constants& c, const Vec& v, double speed, const Vec& spin) {
   const double along2 = v[0] * v[0] + v[1] * v[1], normal2 = v[2] * v[2];
   // No force at rest, where the ratios below are undefined.

@@ -1,5 +1,5 @@
 #pragma once
-// The leaf's equations of motion. docs/explanation/leaf.md writes them out.
+// The leaf's equations of motion, written out in docs/explanation/leaf.md.
 
 #include "simulate/leaf/leaf.hpp"
 #include "simulate/leaf/leaf_vector.hpp"
@@ -10,20 +10,20 @@ namespace wisp::leaf {
 struct Constants {
   Vec carried{};       // added mass
   Vec inverse_mass{};  // 1 / (m + added mass)
-  Vec moment{};        // with the air's
+  Vec moment{};        // including the added one
   Vec inverse_moment{};
   double mass = 0;
   double weight = 0;                 // m g
   double lift = 0;                   // ρ S C_T
   double drag = 0, drag_normal = 0;  // ½ ρ S C_D0 and ½ ρ S (C_D90 − C_D0)
-  double swirl_x = 0, swirl_y = 0;   // of the lift by rotation about each axis
+  double swirl_x = 0, swirl_y = 0;   // coefficient of rotational lift about each axis
   Vec damping_spin{}, damping_speed{};
 };
 
-/// Precondition: check(leaf) is good.
+/// Precondition: check(leaf) succeeds.
 Constants constants_of(const Leaf& leaf);
 
-/// The rate of change of a state, in the same layout. The attitude may have any length but zero.
+/// Returns the time derivative of a state, in the same layout. The attitude may have any nonzero norm.
 LeafState rate_of(const Constants& c, const LeafState& s, const WindSample& wind);
 
 }  // namespace wisp::leaf

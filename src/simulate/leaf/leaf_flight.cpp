@@ -9,8 +9,8 @@
 namespace wisp {
 namespace {
 
-// In wind above it, m/s, steps shrink as the wind grows: drag decays at a rate that is proportional to the speed of the
-// air. At 2.5 m/s steps of 1/60 s are no longer stable.
+// Wind, m/s, above which steps shrink in inverse proportion: drag decays at a rate proportional to the speed of the
+// air. At 2.5 m/s steps of 1/60 s are unstable.
 constexpr double kFastestForWholeSteps = 1.6;
 
 bool finite(const LeafState& s) {
@@ -54,7 +54,7 @@ LeafState LeafFlight::rate(const LeafState& s, double at) const {
   return leaf::rate_of(constants_, s, wind_->at(s.position, leaf_world_velocity(s), at));
 }
 
-// The classical step of fourth order, and an attitude of length 1.
+// Makes a classical Runge-Kutta step of fourth order, and normalises the attitude.
 void LeafFlight::step(double h) {
   const LeafState first = rate(state_, seconds_);
   const LeafState second = rate(moved(state_, 0.5 * h, first), seconds_ + 0.5 * h);
@@ -70,7 +70,7 @@ void LeafFlight::step(double h) {
 }
 
 Result<void> LeafFlight::advance(double seconds) {
-  // A tolerance for rounding, which would add a step.
+  // A tolerance, since rounding would otherwise add a step.
   const double steps = std::max(1.0, std::ceil(seconds / longest_step_ - 1e-9));
   for (int k = 0; k < static_cast<int>(steps); ++k) step(seconds / steps);
   if (!finite(state_)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds_) + " s"};

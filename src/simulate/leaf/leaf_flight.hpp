@@ -1,5 +1,5 @@
 #pragma once
-// The fall of one leaf, by Runge-Kutta steps of fourth order. docs/studies/leaf.md compares lengths of the step.
+// The fall of one leaf, by Runge-Kutta steps of fourth order. docs/studies/leaf.md compares step lengths.
 
 #include <vector>
 
@@ -8,16 +8,16 @@
 
 namespace wisp {
 
-/// A leaf in the air. Moves in time by advance(); the same calls give the same bits.
+/// A leaf in the air, advanced by advance(); equal calls give equal bits.
 class LeafFlight {
  public:
-  /// A leaf at a state, at time 0; the wind is kept by reference and must outlive the flight. Steps are `longest_step`
-  /// seconds at most, 1e-6 … 0.05, and in strong wind shorter in proportion to its speed.
-  /// Errors: leaf or step out of range, a state that is not finite, an attitude of length 0.
+  /// Starts a leaf in a state, at time 0; the wind is kept by reference and must outlive the flight. Steps are
+  /// `longest_step` seconds at most, 1e-6 … 0.05, and in strong wind shorter in inverse proportion to its speed.
+  /// Errors: leaf or step out of range, a state that is not finite, an attitude of norm 0.
   static Result<LeafFlight> begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
                                   double longest_step = 1.0 / 60);
 
-  /// Advances by `seconds`, divided evenly into fixed steps.
+  /// Advances by `seconds`, divided into equal steps.
   /// Errors: the leaf's state is no longer finite.
   ///
   /// Precondition: seconds > 0.
@@ -26,7 +26,7 @@ class LeafFlight {
   const LeafState& state() const { return state_; }
   double seconds() const { return seconds_; }
 
-  /// Times of the stalls so far (zeros of the forward speed, linear between steps), in seconds.
+  /// Returns the times of the stalls so far (zeros of the forward speed, linear between steps), in seconds.
   const std::vector<double>& stalls() const { return stalls_; }
 
  private:

@@ -11,7 +11,7 @@ using Quaternion = std::array<double, 4>;  // w first
 
 inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-/// Element by element.
+/// Elementwise product.
 inline Vec operator*(const Vec& a, const Vec& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
 
@@ -28,7 +28,7 @@ struct Rotation {
   Vec back(const Vec& v) const { return v[0] * row_x + v[1] * row_y + v[2] * row_z; }
 };
 
-/// The rotation of a quaternion of any length but zero.
+/// Returns the rotation of a quaternion of any nonzero norm.
 inline Rotation rotation_of(const Quaternion& q) {
   const auto& [w, x, y, z] = q;
   const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, two = 2 / (ww + xx + yy + zz);
@@ -38,7 +38,7 @@ inline Rotation rotation_of(const Quaternion& q) {
           {two * (xz - wy), two * (yz + wx), 1 - two * (xx + yy)}};
 }
 
-/// ½ q ⊗ (0, ω): how fast the attitude turns.
+/// Returns ½ q ⊗ (0, ω): the time derivative of the attitude.
 inline Quaternion turning(const Quaternion& q, const Vec& spin) {
   const auto& [w, x, y, z] = q;
   const Vec h = 0.5 * spin;
@@ -46,7 +46,7 @@ inline Quaternion turning(const Quaternion& q, const Vec& spin) {
           w * h[2] + x * h[1] - y * h[0]};
 }
 
-/// The quaternion of length 1 in its direction.
+/// Returns the quaternion normalised to length 1.
 ///
 /// Precondition: not zero.
 inline Quaternion normalised(const Quaternion& q) {

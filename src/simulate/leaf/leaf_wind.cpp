@@ -12,10 +12,10 @@ namespace {
 
 using leaf::Vec, leaf::operator+, leaf::operator*;
 
-constexpr double kSpeed = 1;           // m/s, of a typical gust
-constexpr double kGustSeconds = 0.3;   // a typical gust's length; each is 0.6 to 1.8 times as long
-constexpr double kEdgeSeconds = 0.06;  // in which a gust rises and falls; what begins at once has no derivative
-constexpr double kTravelSpeed = 8;     // m/s: how fast a gust's front comes along
+constexpr double kSpeed = 1;           // speed of a typical gust, m/s
+constexpr double kGustSeconds = 0.3;   // duration of a typical gust; each is 0.6 to 1.8 times as long
+constexpr double kEdgeSeconds = 0.06;  // rise and decay time of a gust: a sudden onset would have no derivative
+constexpr double kTravelSpeed = 8;     // m/s: travel speed of a gust's front
 
 // Height of a gust and its slope: 0 outside, 1 between the edges, smooth steps at both.
 struct Bump {
@@ -39,7 +39,7 @@ Vec towards(double degrees) {
 // Catmull and Rom's cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
 struct Cubic {
   double value;
-  double slope;  // a row
+  double slope;  // slope per row
 };
 
 Cubic cubic_through(double a, double b, double c, double d, double t) {

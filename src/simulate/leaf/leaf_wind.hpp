@@ -1,5 +1,5 @@
 #pragma once
-// Wind as a function of place and time, with its rate of change along a leaf's path.
+// Wind as a function of position and time, with its rate of change along a leaf's path.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace wisp {
 
-/// The wind at a leaf, in the world's axes.
+/// The wind at a leaf, in world axes.
 struct WindSample {
   std::array<double, 3> velocity{};  ///< m/s
   std::array<double, 3> change{};    ///< m/s², along the leaf's path
@@ -18,46 +18,46 @@ struct WindSample {
 /// One gust of a train: its front passes the origin at `start`.
 struct Gust {
   double start = 0;                  ///< seconds
-  double seconds = 0;                ///< from the start to the end, edges included
-  double edge = 0;                   ///< seconds of each edge, at most half of the length
-  std::array<double, 3> velocity{};  ///< at its height, m/s
-  std::array<double, 3> slowness{};  ///< s/m: along its way, 1 / travel speed
+  double seconds = 0;                ///< duration from start to end, edges included
+  double edge = 0;                   ///< duration of each edge, at most half of the length
+  std::array<double, 3> velocity{};  ///< velocity at the maximum, m/s
+  std::array<double, 3> slowness{};  ///< s/m: direction of travel / travel speed
 };
 
-/// The wind at any place and time.
+/// The wind at any position and time.
 class LeafWind {
  public:
-  /// No wind.
+  /// Creates a calm.
   LeafWind() = default;
 
   static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts
 
-  /// A train of random gusts for `seconds`, which blow to any direction of the horizontal plane.
+  /// Creates a train of random gusts for `seconds`, in random horizontal directions.
   static LeafWind gusty(std::uint64_t seed, double seconds);
 
-  /// A train of given gusts.
+  /// Creates a train of given gusts.
   ///
   /// Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
   static LeafWind of_gusts(std::vector<Gust> gusts);
 
-  /// A measured wind.
+  /// Creates a measured wind.
   ///
   /// Precondition: rate_hz > 0, all rows finite.
   static LeafWind of_track(MeasuredWind track);
 
-  /// Returns the wind at a place and its rate of change for a leaf of that velocity (world's axes).
+  /// Returns the wind at a position and its rate of change for a leaf of that velocity (world axes).
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
 
-  /// Whether there is no wind at any place and time.
+  /// Returns whether there is no wind at any position and time.
   bool calm() const { return gusts_.empty() && track_.rows.empty(); }
 
-  /// The greatest speed of gusts and measured rows, m/s.
+  /// Returns the greatest speed of gusts and measured rows, m/s.
   double fastest() const;
 
   const std::vector<Gust>& gusts() const { return gusts_; }
 
  private:
-  std::vector<Gust> gusts_;  // by their start
+  std::vector<Gust> gusts_;  // sorted by start
   MeasuredWind track_;
 };
 
