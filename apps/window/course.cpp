@@ -51,7 +51,7 @@ std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, 
 }  // namespace
 
 Key key_named(std::string_view name) {
-  // In the order of Key.
+  // Names in the order of Key.
   constexpr std::string_view kNames[] = {"left", "right", "up", "down", "space", "enter", "tab", "plus", "minus",
                                          "c",    "g",     "h",  "m",    "n",     "q",     "r",   "f11"};
   return static_cast<Key>(std::find(std::begin(kNames), std::end(kNames), name) - std::begin(kNames));

@@ -163,7 +163,7 @@ class LeafScene {
 
   LeafScene(Bank bank, const Model& model, std::uint64_t seed) : bank_(std::move(bank)), seed_(seed) {
     poses_ = bank_.output_count() >= 7;
-    // A leaf's long axis is the body's x, across which the pose has its half width.
+    // A leaf's long axis is the body's x, to which the view's half width refers.
     if (const auto* pose = std::get_if<PoseView>(&model.view)) {
       if (pose->half_width > 0) style_.length = static_cast<float>(2 * pose->half_width);
       if (pose->half_length > 0) style_.width = static_cast<float>(2 * pose->half_length);

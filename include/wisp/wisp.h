@@ -338,7 +338,7 @@ WISP_API wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_
 WISP_API wisp_status wisp_bank_rings(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
 /* Compute the surface of `rings` rings: rings * segments vertices, position and normal, `stride` numbers apart,
- * segments from 3 to 256; and 2 * rings * segments - 4 triangles of three constant indices, anticlockwise from outside. */
+ * segments from 3 to 256; and 2 * rings * segments - 4 triangles, anticlockwise from outside, equal in all frames. */
 WISP_API wisp_status wisp_ring_mesh(const float* rings, uint32_t count, uint32_t segments, float* numbers, size_t room,
                                     size_t stride);
 WISP_API wisp_status wisp_ring_triangles(uint32_t rings, uint32_t segments, uint32_t* indices, size_t count);
@@ -517,7 +517,7 @@ typedef struct wisp_wind_calibration {
   uint32_t size;          /* sizeof(wisp_wind_calibration), set by the caller */
   float background_rms;   /* RMS without wind */
   float background_level; /* RMS of the wind band, without wind */
-  float floor_db;         /* loudness without wind, dB of full scale */
+  float floor_db;         /* level without wind, dB of full scale */
   float gust_rms;         /* RMS of the band at wind 1; 0: unknown */
 } wisp_wind_calibration;
 

@@ -127,7 +127,7 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
   if (!pending) return pending.error();
   File file(system::open_file(pending->path(), "wb"));
   if (!file) return file_error(path, "cannot be written: " + reason());
-  // An empty span may point nowhere, which fwrite must not be given.
+  // fwrite must not be given the null pointer of an empty span.
   const bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   const bool flushed = std::fflush(file.get()) == 0;
   const std::string why = reason();
@@ -175,7 +175,7 @@ Result<PendingFile> PendingFile::create(const fs::path& given) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (path.filename().empty()) return file_error(path, "names no file to write");
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file name to write to");
-  // A rename would put a plain file in the place of a device or a pipe.
+  // A rename would replace a device or a pipe by a plain file.
   if (fs::exists(path, code) && !fs::is_regular_file(path, code)) {
     return file_error(path, "is no plain file but a device or a pipe, expected the name of a file");
   }

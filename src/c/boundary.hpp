@@ -12,7 +12,7 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/wisp.h"
 
-// C99 format strings, which MinGW's own printf does not support.
+// The format attribute for C99 strings, which MinGW's own printf does not support.
 #if defined(__MINGW32__) && !defined(__clang__)
 #define WISP_FORMAT __attribute__((format(gnu_printf, 2, 3)))
 #elif defined(__GNUC__)

@@ -24,7 +24,7 @@ namespace {
 constexpr int kWeightBits = 28, kSumBits = 25, kOneBits = 12;
 constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
 constexpr double kMaxWeight = 8, kMaxSum = 24;
-// Normal quantiles; the ends give a kurtosis of 3.
+// Quantiles of the normal distribution; the two ends are chosen for a kurtosis of 3.
 constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503, -0.8871, -0.6745, -0.4888,
                                                       -0.3186, -0.1573, 0,       0.1573,  0.3186,  0.4888,
                                                       0.6745,  0.8871,  1.1503,  1.5341,  3.2};
@@ -34,7 +34,7 @@ struct Lamp {
   std::vector<std::vector<double>> feedback;                      // per mode and lag, with the sign of the prediction
   std::vector<double> constant, shock;                            // per mode
   std::vector<double> transitions;                                // modes × modes
-  std::vector<double> quantiles{kNormal.begin(), kNormal.end()};  // of shocks
+  std::vector<double> quantiles{kNormal.begin(), kNormal.end()};  // quantiles of the shocks
   std::size_t lags = 1;
   double mean = 0;
 };
@@ -63,7 +63,7 @@ void add_only_mode(const ArxModel& arx, Lamp& lamp) {
   lamp.transitions = {1};
 }
 
-// The quantiles as bytes, and the mean and standard deviation of what a lamp draws from them.
+// Quantiles as bytes, and the mean and standard deviation of shocks drawn from them.
 struct Shocks {
   std::array<int, kShockQuantiles> bytes{};
   double mean = 0, sd = 0;
@@ -192,7 +192,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const double lowest = output.lowest >= 0 ? std::max(0.0, below) : below;  // light is never negative
   const double reach = std::max({highest - lamp->mean, lamp->mean - lowest, 1e-6});
   const int exponent = static_cast<int>(std::ceil(std::log2(reach)));
-  // The shown range then fits into 16 bits.
+  // The output range then fits into 16 bits.
   if (exponent > 2 || exponent < -8 || std::abs(lamp->mean) > 3.9) {
     return Error{"the output is about " + std::to_string(lamp->mean) + " and moves by " + std::to_string(reach) +
                  ", expected at most 3.9 and 0.004 to 4; learn it with mean 1"};
@@ -200,7 +200,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
   const Shocks shocks = shocks_of(lamp->quantiles);
-  const auto unit = [&](std::size_t mode) { return lamp->shock[mode] * sum_one / shocks.sd; };  // of what is drawn
+  const auto unit = [&](std::size_t mode) { return lamp->shock[mode] * sum_one / shocks.sd; };  // shock unit of a mode
   const auto weight = [&](std::size_t mode, std::size_t column) {
     if (column == 0) return lamp->constant[mode] * sum_one - shocks.mean * unit(mode);
     if (column > lamp->lags) return std::min(65536 * unit(mode), 2147483647.0);

@@ -26,7 +26,7 @@ extern const unsigned flame_picture_size;
 }  // namespace exporting
 namespace {
 
-// The number of components of a value.
+// Shape of a value, by its number of components.
 enum class Shape { kScalar = 1, kVector2 = 2, kVector3 = 3, kVector4 = 4 };
 
 // glTF 2.0 Specification (ISO/IEC 12113:2022), sections 3.6 and 4.4.
@@ -143,12 +143,12 @@ struct Mesh {
   int positions = 0, normals = -1, coordinates = -1, indices = 0;
   std::vector<int> targets;
   std::vector<double> lowest, highest;  // outputs at which a target's weight is 0 and 1
-  std::vector<double> weights;          // at the operating point
+  std::vector<double> weights;          // weights at the operating point
   std::vector<std::string> names;       // names of the targets
   std::array<double, 4> colour{};
 };
 
-// Keys of one node, as accessors.
+// Keyframes of one node, as accessors.
 struct Track {
   int times = 0;
   int translation = -1, rotation = -1, weights = -1;
@@ -205,7 +205,7 @@ std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> 
 
 // Computes the keys of a body. If its period ends before the take does, a key just before has the period's end state.
 Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
-  constexpr double kJustBefore = 0.01;  // steps
+  constexpr double kJustBefore = 0.01;  // in steps
   const Start start = start_of(take, instance);
   std::vector<float> places, turns, times;
   const auto add = [&](double key, std::size_t frame, bool round) {
@@ -265,7 +265,7 @@ constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 // Rows below the base, a drop around the wick, and one that closes the tip.
 struct MeshRow {
   int ring = 0;
-  double width = 1;  // share of the ring
+  double width = 1;  // width as a share of the ring's
   double down = 0;   // distance below the ring, in its radii
   double up = 0;     // distance above it, as a share of the distance to the ring two before
 };

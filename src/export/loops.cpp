@@ -56,7 +56,7 @@ void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
 }
 
 constexpr int kWalks = 64;       // number of walks in parallel
-constexpr double kSeconds = 80;  // of each walk, in addition to the loop
+constexpr double kSeconds = 80;  // duration of each walk, in addition to the loop
 constexpr double kSettled =
     4;  // seconds until a walk is independent of its start and has reached its response to the wind
 constexpr int kMaxRounds =

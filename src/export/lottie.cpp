@@ -144,10 +144,10 @@ const std::vector<Stop> kBody = {
     {0.643, 1, 0.875, 0.585, 0.978}, {0.821, 1, 0.839, 0.481, 0.978}, {1, 1, 0.607, 0.163, 0.939}};
 constexpr std::array kCores{std::array{44.0, 70.0}, std::array{62.0, 80.0}, std::array{80.0, 90.0}};  // scales, percent
 
-// The bright core, of several outlines so that it has no edge, over the body: blue and translucent at the base, orange
+// Outlines of the bright core over the body, several so that it has no edge: blue and translucent at the base, orange
 // at the tip.
 std::vector<Part> parts_of(const Take& take, const Frame& frame) {
-  double x = 0, y = 0, height = 0;  // the mean base and tip
+  double x = 0, y = 0, height = 0;  // mean base and mean height of the tip
   const double share = 1 / static_cast<double>(take.frames);
   for (std::size_t k = 0; k < take.frames; ++k) {
     const auto row = take.at(k, 0);

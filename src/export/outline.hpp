@@ -24,7 +24,7 @@ std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knot
 /// Returns the operating point of the outputs of an ARX or switched model.
 std::vector<double> operating_point(const Model& model);
 
-inline constexpr int kRings = 12, kSegments = 12;  ///< of an exported flame
+inline constexpr int kRings = 12, kSegments = 12;  ///< mesh size of an exported flame
 
 /// Computes the rings of a body (wisp/run/body_facet.hpp) from its outlines in front view and, for a model of a body,
 /// in side view, else an empty one: by rotational symmetry. Linear in both.

@@ -198,7 +198,7 @@ std::vector<T> integers(const fb::Vector<T>* stored) {
 }
 
 ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
-  constexpr std::uint32_t kLargest = 1U << 30;  // out of every range, and still an int
+  constexpr std::uint32_t kLargest = 1U << 30;  // outside of every range, but an int
   ResampledResiduals resampled;
   resampled.scale = numbers(stored.scale());
   resampled.rows = integers(stored.rows());
@@ -531,7 +531,7 @@ std::vector<std::byte> write_payload(const Model& model) {
 }
 
 Result<Model> read_payload(std::span<const std::byte> payload) {
-  // FlatBuffers reads aligned; the payload of a file in memory need not be, so it is verified and read from a copy.
+  // FlatBuffers needs aligned data, which the payload of a file in memory may not be: a copy is verified and read.
   std::vector<std::uint64_t> aligned((payload.size() + 7) / 8);
   std::copy(payload.begin(), payload.end(), reinterpret_cast<std::byte*>(aligned.data()));
   fb::Verifier verifier(reinterpret_cast<const std::uint8_t*>(aligned.data()), payload.size());

@@ -394,7 +394,7 @@ Result<void> CsvReader::State::learn_step() {
                             number_text(found[0], 12) + "; sort the rows by time, or say --rate HZ or --dt S",
                         (*ahead)[1].row);
   }
-  if (time->unit.empty() && step->step == 1 && !time->dated) return {};  // counts rows
+  if (time->unit.empty() && step->step == 1 && !time->dated) return {};  // the column counts rows
   if (time->unit.empty() && !time->dated && counts_milliseconds(step->step)) {
     time->seconds = 1e-3;
     header.rate_note = {

@@ -1,5 +1,5 @@
 #pragma once
-// Whole files in and out: output appears whole or not at all.
+// Reading and writing of whole files: output appears completely or not at all.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,8 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
-/// A file that something else writes (an encoder, a picture library) and that appears under its name only when
-/// `commit()` is called. Destroyed without commit, nothing is left behind.
+/// A file that an encoder or picture library writes and that appears under its name only on `commit()`. Destroyed
+/// without commit(), it leaves no file behind.
 class PendingFile {
  public:
   /// `path` is the final name. Errors: the folder is missing, or `path` is a folder, a device or a pipe.
@@ -43,7 +43,7 @@ class PendingFile {
   /// Path of the temporary file to write to before commit(): beside the final name, with the same extension.
   const std::filesystem::path& path() const { return pending_; }
 
-  /// Brings the pending file to the disk and renames it to its final name.
+  /// Flushes the pending file to the disk and renames it to its final name.
   /// Errors: nothing was written, the disk failed, or the rename failed.
   Result<void> commit();
 

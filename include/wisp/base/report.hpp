@@ -55,7 +55,7 @@ struct ReportColumn {
   std::string unit{};
 };
 
-/// Rows of the same shape; in JSON a list of objects.
+/// Rows with common columns; in JSON a list of objects.
 struct ReportTable {
   std::string id;
   std::string label;  ///< empty: for programs only

@@ -24,8 +24,8 @@ void report_misuse(const char* sentence);
 /// Returns whether `found` equals (`or_more`: is at least) `expected`; otherwise reports misuse of `call`.
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more = false);
 
-/// What went wrong with data from outside: one line that names the file, the place in it, what was found,
-/// what was expected and what to do.
+/// Failure caused by outside data: one line with the file, the place in it, what was found, what was expected and what
+/// to do.
 struct Error {
   std::string message;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// From a clip's file to a recording: the outline in its picture, joined with the wind in its sound.
+// Capture of a clip's file as a recording: the outline in its picture, with the wind in its sound.
 
 #include <filesystem>
 #include <optional>

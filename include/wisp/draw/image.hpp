@@ -64,7 +64,7 @@ class Image {
   std::span<std::uint32_t> pixels() { return pixels_; }
   std::span<const std::uint32_t> pixels() const { return pixels_; }
 
-  /// One row of pixels. Precondition: 0 <= y < height().
+  /// Returns one row of pixels. Precondition: 0 <= y < height().
   std::span<std::uint32_t> row(int y) { return pixels().subspan(static_cast<std::size_t>(y) * width_, width_); }
   std::span<const std::uint32_t> row(int y) const {
     return pixels().subspan(static_cast<std::size_t>(y) * width_, width_);

@@ -42,7 +42,7 @@ class VideoWriter {
   /// Errors: there is no sound track, the encoder or the disk fails.
   Result<void> write_sound(std::span<const float> samples);
 
-  /// Completes the file and gives it its name. Nothing can be written afterwards.
+  /// Completes the file and renames it to its final name. Nothing can be written afterwards.
   /// Errors: no frame was written, the encoder or the disk fails; then no file appears.
   Result<void> finish();
 

@@ -99,7 +99,7 @@ enum class PlantLanguage { kOctave, kPython, kJson, kC };
 /// Source text of a plant, and for C its header.
 struct PlantText {
   std::string text;
-  std::string header;  ///< NAME.h; empty but for C
+  std::string header;  ///< NAME.h; empty except for C
 };
 
 /// Exports an ARX model with inputs as a linear system for another tool, on deviations from its operating point,

@@ -21,7 +21,7 @@ enum class RemarkKind {
   kShort,       ///< few rows
   kExcitation,  ///< an input with little variation
   kFeedback,    ///< an input that depends on the output (feedback)
-  kDelay,       ///< an input that acts late
+  kDelay,       ///< an input that acts with a delay
   kIntegrates,  ///< an output that integrates its input
   kDrift,       ///< an output that drifts independently of the inputs
   kClock,       ///< a clock that was resampled, or a rate or unit that was guessed

@@ -38,7 +38,7 @@ struct Figure {
 /// Scale of one of the model's inputs in the training recordings.
 struct InputTraining {
   double scale = 1;    ///< value of the recording's channel that is 1 in the model; > 0
-  double one_rms = 0;  ///< RMS of the sound, full scale 1, where the recording's channel is 1; 0: unknown, or no sound
+  double one_rms = 0;  ///< RMS of the sound, full scale 1, at the channel's value 1; 0: unknown, or no sound
 
   bool operator==(const InputTraining&) const = default;
 };

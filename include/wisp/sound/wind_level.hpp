@@ -72,7 +72,7 @@ enum class WindAsk {
 struct WindCalibration {
   float background_rms = 0;    ///< plain RMS without wind
   float background_level = 0;  ///< RMS of the level's band without wind
-  float floor_db = -95;        ///< loudness without wind: power of 100–900 Hz, dB of full scale
+  float floor_db = -95;        ///< level without wind: power of 100–900 Hz, dB of full scale
   float gust_rms = 0;          ///< RMS of the band at wind 1; 0: unknown
 };
 

@@ -197,7 +197,7 @@ class ArxStepper : public ChannelHistory<N> {
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
 
-  // Two rows at once where registers hold their sums and as much again.
+  // Whether to compute two rows at once: registers hold their sums and as many values again.
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 

@@ -21,9 +21,9 @@ class TimeLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// A build whose size comes first has not got it.
+  /// False in builds for size.
   static constexpr bool kThere = WISP_BLOCKS_AT_ONCE > 1;
-  /// Steps that are made between two looks at what goes in and out.
+  /// Number of steps between reading inputs and writing outputs.
   static constexpr int kAtOnce = 8 * kLanes;
 
   TimeLanes(const ArxProgram& program, Arena& arena)

@@ -47,7 +47,7 @@ bool has_outline(const Bank::State& state) {
 }  // namespace
 
 void Bank::Release::operator()(State* state) const {
-  static_assert(std::is_trivially_destructible_v<State>);  // freeing the bank's memory is all that a State needs
+  static_assert(std::is_trivially_destructible_v<State>);  // freeing the bank's memory destroys a State
   if (owned) ::operator delete(static_cast<void*>(state), std::align_val_t(kArenaAlignment));
 }
 

@@ -238,7 +238,7 @@ bool on_grid(float value, float low, float step) { return !(step > 0) || std::fm
 struct SlotRecord {
   ByteWriter* out = nullptr;  // null: the record is read
   ByteReader* in = nullptr;
-  std::uint64_t now = 0;  // steps of the bank
+  std::uint64_t now = 0;  // current step of the bank
   bool restores = false;
   bool sound = true;
 

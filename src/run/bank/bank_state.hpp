@@ -56,7 +56,7 @@ struct Bank::State {
   void take_inputs(int block, const LanesOf& lanes_of);
   void set_inputs(int block, const float* all_rows);
   void set_common_inputs(int block, const float* values);
-  void set_lane_inputs(int slot, const float* values);  // null: zeros
+  void set_lane_inputs(int slot, const float* values);  // null: sets zeros
   void step_all(const Steps& made);
   std::uint64_t step_blocks(int first, int last, const Steps& made);
   template <int kBlocks, class Dynamics>

@@ -205,7 +205,7 @@ void Bank::State::live_block(int block, const float* newest, std::uint64_t momen
 
 // Begins a random recorded event.
 void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at) {
-  constexpr std::uint32_t kGroup = 0xffff;  // of random words, beyond what dynamics draw
+  constexpr std::uint32_t kGroup = 0xffff;  // group of random words beyond those of the dynamics
   Words<LiveNumbers> counters[4], words[4];
   random_counters<LiveNumbers>(moment(slot / kLanes, nullptr, static_cast<int>(at - steps)).counters, counters);
   random_group<LiveNumbers>(keys, counters, kGroup, words);

@@ -68,7 +68,7 @@ class ChainSteering {
     std::uint32_t segment = 0;
     std::uint32_t mode = 0;
     Real weight{};
-    Real miss{};  // half the squared distance from the target, in standard deviations
+    Real miss{};  // half the squared distance from the target, in variances
   };
 
   // Inverse of twice the variance of a walk's position at the target time. Equal for all candidates of a join, since

@@ -37,7 +37,7 @@ class ChainStepper : private ChainLives<N> {
   /// Number of frames over which a cost is averaged: joins are rare.
   static constexpr int kCountedFrames = 8192;
 
-  /// A chain has no operating point: its outputs are in their own units.
+  /// A chain has no operating point: zero deviation is the origin, and outputs are in their own units.
   static OperatingPoint operating_point(const ChainModel& chain) {
     static constexpr std::array<double, 7> kOrigin{};
     return {std::span(kOrigin).first(static_cast<std::size_t>(channel_count(chain.motion))),
@@ -511,7 +511,7 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // In vectors: a call would take longer.
+  // Vectorised, since a memcpy call would take longer.
   static void copy_sample(const Real* from, std::size_t count, Real* to) {
     for (std::size_t k = 0; k < count; k += kLanes) store(load<Reals<N>>(from + k), to + k);
   }

@@ -173,7 +173,7 @@ struct OnePart : N {
 template <class N>
 using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 
-// GCC does not inline long unrolled bodies, and their values would then pass through memory.
+// GCC does not inline long unrolled bodies; their values would then be passed through memory.
 #if defined(__GNUC__) && !defined(__wasm__)
 #define WISP_UNROLLED __attribute__((always_inline))
 #else

@@ -10,9 +10,9 @@ namespace {
 
 constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;
-constexpr float kLighterFuel = 0.6F;  // share of the fuel rate that a lighter's heat draws from the wick
+constexpr float kLighterFuel = 0.6F;  // share of the fuel rate drawn from the wick by a lighter's heat
 constexpr int kMaxIterations = 40;
-constexpr float kWickTime = 0.15F;          // s, calibrated: time constant of the fuel behind the wick's heat
+constexpr float kWickTime = 0.15F;          // s, calibrated: time constant of the fuel's response to the wick's heat
 constexpr float kFuelTemperature = 600.0F;  // K
 constexpr float kDiffusivity = 2.0e-5F;     // m²/s at 300 K; grows as T^1.75
 constexpr float kViscosity = 1.5e-5F;       // m²/s at 300 K

@@ -24,8 +24,8 @@ struct CandleBody {
   Plane drag;                   ///< per cell, 0 … 1: share of its area in the wick's box
   std::vector<int> fuel_cells;  ///< cells with a fuel share
   std::vector<int> near_wick;   ///< cells within 2 mm of the box and outside the wax
-  float axis = 0;               ///< metres from the left edge
-  float rim = 0;                ///< metres from the lower edge
+  float axis = 0;               ///< position of the candle's axis, metres from the left edge
+  float rim = 0;                ///< position of the candle's upper rim, metres from the lower edge
 };
 
 CandleBody candle_body(const FlowGrid& grid, const CandleRigOptions& options);

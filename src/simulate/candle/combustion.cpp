@@ -15,7 +15,7 @@ constexpr double kGlowUnit = 1800;        // K: temperature at which soot of uni
 constexpr float kMaxSoot = 1.2F;
 constexpr float kStoichiometric = 0.08F;         // mixture fraction of stoichiometric combustion
 constexpr float kHeat = 1700 / 0.08;             // K per unit of fuel burnt: 1700 K at stoichiometry
-constexpr float kReactionRate = 2000.0F;         // 1/s at full temperature
+constexpr float kReactionRate = 2000.0F;         // 1/s at the full rate
 constexpr float kIgnitionLow = 900.0F;           // K: no reaction below
 constexpr float kIgnitionWidth = 400.0F;         // K: width of the rise to the full rate
 constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated

@@ -53,8 +53,8 @@ struct Lattice {
 void link_square(const Lattice& lattice, int i, int j, std::vector<int>& next) {
   const std::array<bool, 4> inside = {lattice.at(i, j) > lattice.level, lattice.at(i + 1, j) > lattice.level,
                                       lattice.at(i + 1, j + 1) > lattice.level, lattice.at(i, j + 1) > lattice.level};
-  // Going round the corners counter-clockwise, the contour enters by a side where inside turns to outside (then the
-  // inside is behind and so on its right) and leaves by one where outside turns to inside.
+  // Counter-clockwise around the corners, the contour enters by a side where inside changes to outside (the inside is
+  // then behind, and so on its right) and leaves by one where outside changes to inside.
   std::array<int, 2> enters{};
   std::array<int, 2> leaves{};
   int count = 0;
@@ -119,7 +119,7 @@ double clockwise_area(std::span<const PointMm> polygon) {
 
 namespace {
 
-constexpr double kLevel = 0.3;  // light of glowing soot at the contour: half of full brightness in a camera's picture
+constexpr double kLevel = 0.3;  // light of glowing soot at the contour: half of full brightness in the camera's picture
 constexpr double kCut = 0.03;   // height of the base above the lowest point, as a share of the flame's: the round
                                 // bottom of a contour has no corners to fix control points to
 constexpr int kSamplesPerCell = 3;

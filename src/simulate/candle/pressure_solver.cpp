@@ -11,7 +11,7 @@ namespace {
 // D⁻¹A: error components that the coarse grid cannot represent shrink by 1/T₂(5/3) = 0.22.
 constexpr float kWeightLow = 0.5617F;
 constexpr float kWeightHigh = 1.3895F;
-constexpr int kCoarsestPairs = 4;  // pairs of sweeps on the coarsest grid, a handful of cells
+constexpr int kCoarsestPairs = 4;  // number of pairs of sweeps on the coarsest grid, which has few cells
 
 void sweep(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, const Plane& inverse_diagonal,
            const Plane& right_side, float weight, const Plane& from, Plane& to) {

@@ -16,7 +16,7 @@ namespace {
 
 using flow::RandomNumbers;
 
-constexpr double kOtherLevel = 0.05;  // typical root mean square of a sound that is not wind
+constexpr double kOtherLevel = 0.05;  // typical root mean square of a sound other than wind
 
 // Sounds at a candle other than wind: a few syllables of a voice, a knock or two on the table.
 

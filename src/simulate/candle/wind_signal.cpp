@@ -13,18 +13,18 @@ namespace wisp {
 namespace {
 
 constexpr double kRate = 240;          // samples per second: forty times the noise's band
-constexpr double kLongest = 86400;     // s
-constexpr double kFadeSeconds = 0.12;  // at both ends of a blow
-constexpr double kBlowOutSpeed = 3;    // m/s
+constexpr double kLongest = 86400;     // longest wind, s
+constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
+constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
 constexpr double kBlowOutSeconds = 0.3;
-constexpr double kBlowOutRamp = 0.03;  // s
+constexpr double kBlowOutRamp = 0.03;  // rise and decay time of a blow-out, s
 constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that the puff alone extinguishes
 constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame survives
 constexpr double kWeakestPuff = 1.2;   // m/s: a candle survives it
 constexpr double kStrongestPuff = 4;
-constexpr double kShortestPuff = 0.05;  // s
+constexpr double kShortestPuff = 0.05;  // duration range of a puff, s
 constexpr double kLongestPuff = 0.6;
-constexpr double kClosestPuffs = 2;  // s
+constexpr double kClosestPuffs = 2;  // least interval between puffs, s
 
 Result<void> check(const WindSignalOptions& o, double seconds) {
   return flow::check_ranges("wind", {

@@ -1,8 +1,8 @@
 #pragma once
-// A rigid leaf falling through air: a thin elliptic plate under quasi-steady aerodynamics, 13 numbers of state.
+// A rigid leaf falling through air: a thin elliptic plate under quasi-steady aerodynamics, 13 state variables.
 //
 // Source: the thin plate of A. Andersen, U. Pesavento & Z. J. Wang, Unsteady aerodynamics of fluttering and tumbling
-// plates, J. Fluid Mech. 541 (2005), carried over to three dimensions: added mass and inertia of an ellipsoid (H. Lamb,
+// plates, J. Fluid Mech. 541 (2005), extended to three dimensions: added mass and inertia of an ellipsoid (H. Lamb,
 // Hydrodynamics, 1932, § 114), lift by translation and by rotation, drag, and damping of rotation.
 // docs/explanation/leaf.md has the equations.
 

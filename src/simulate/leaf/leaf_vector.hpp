@@ -20,7 +20,7 @@ inline Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A rotation as its three rows.
+/// A rotation matrix by rows.
 struct Rotation {
   Vec row_x, row_y, row_z;
 

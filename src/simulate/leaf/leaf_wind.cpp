@@ -17,7 +17,7 @@ constexpr double kGustSeconds = 0.3;   // duration of a typical gust; each is 0.
 constexpr double kEdgeSeconds = 0.06;  // rise and decay time of a gust: a sudden onset would have no derivative
 constexpr double kTravelSpeed = 8;     // m/s: travel speed of a gust's front
 
-// Height of a gust and its slope: 0 outside, 1 between the edges, smooth steps at both.
+// Height and slope of a gust: 0 outside, 1 between the edges, smooth steps at both.
 struct Bump {
   double height = 0;
   double slope = 0;
@@ -36,7 +36,7 @@ Vec towards(double degrees) {
   return {std::cos(radians), std::sin(radians), 0};
 }
 
-// Catmull and Rom's cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
+// Catmull-Rom cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
 struct Cubic {
   double value;
   double slope;  // slope per row

@@ -79,8 +79,8 @@ struct ClipCapture {
   bool dark = false;                       ///< the object is dark on a light background
   int flame = 0;                           ///< size rank of the flame to capture, 1 the largest; 0: any moving object
   Region region{};                         ///< search region, pixels; empty: the whole picture
-  std::optional<FrameRange> frames{};      ///< 1-based and inclusive; none: all. The sound is heard from the beginning
-  double rate_hz = 0;                      ///< frames a second: needed for a folder of images, overrides a video's own
+  std::optional<FrameRange> frames{};      ///< 1-based and inclusive; none: all. Sound is used from its beginning
+  double rate_hz = 0;                      ///< frames per second: needed for a folder of images, overrides a video's
   WindMeasure wind = WindMeasure::kSpeed;  ///< wind measure that is derived from the sound
   std::optional<SharedCurve> curve{};      ///< curve of another clip; overrides `points`
 };
@@ -102,7 +102,7 @@ struct Captured {
 /// Name, rate and kind of a clip's source.
 struct ClipSource {
   std::string name{};     ///< name for messages and the recording
-  double rate_hz = 0;     ///< frames a second, > 0
+  double rate_hz = 0;     ///< frames per second, > 0
   bool pictures = false;  ///< still images without sound: missing sound is no defect
 };
 

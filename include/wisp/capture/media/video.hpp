@@ -29,7 +29,7 @@ struct VideoOptions {
 struct VideoInfo {
   int width = 0;  ///< square pixels, as shown (after rotation)
   int height = 0;
-  double rate_hz = 0;       ///< frames a second
+  double rate_hz = 0;       ///< frames per second
   std::int64_t frames = 0;  ///< as stated, or as estimated from its duration; 0: unknown
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< the clip has a sound track (it may be silent)
@@ -39,7 +39,7 @@ struct VideoInfo {
 /// One decoded frame; its picture is valid until the reader's next call.
 struct VideoFrame {
   Picture picture;
-  std::int64_t index = 0;  ///< 0-based place on the grid of the clip's rate
+  std::int64_t index = 0;  ///< 0-based index on the grid of the clip's rate
 };
 
 /// An 8-bit RGB picture, rows packed: 3 × width × height bytes.

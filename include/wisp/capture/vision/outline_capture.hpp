@@ -29,7 +29,7 @@ struct OutlineCaptureOptions {
                                         ///< bottom
   bool place_knots = true;              ///< place knots where the outline bends, if that fits better than uniform knots
   std::vector<double> knots;            ///< full knot vector to use, of a model or an earlier capture; empty: estimated
-  std::optional<bool> underside;        ///< include the underside, as in that capture; none: where it fits better
+  std::optional<bool> underside;        ///< whether to include the underside, as then; none: where it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
   std::string source;                   ///< name of the frames' source, for messages and the recording
   std::size_t held_bytes = 48u << 20;   ///< bytes of frames buffered for the first decisions; at least 8 frames are
@@ -45,7 +45,7 @@ struct DroppedFrame {
 /// Properties of a film that do not depend on its subject.
 struct FilmFacts {
   std::size_t pictures = 0;
-  double brightest = 255;         ///< the brightest point of all pictures, of 255 levels
+  double brightest = 255;         ///< brightness of the brightest point of all pictures, of 255 levels
   double flat = 0;                ///< share of a picture that is saturated, median
   double camera = 0;              ///< displacement of the whole picture per frame, share of its size, mean
   std::vector<std::size_t> cuts;  ///< indices of the pictures that begin another scene, 0-based, ascending
@@ -83,7 +83,7 @@ struct OutlineFacts {
 
 /// Figures and verdict of a capture.
 struct CaptureReport {
-  std::size_t frames = 0;             ///< rows, lost frames included
+  std::size_t frames = 0;             ///< number of rows, lost frames included
   std::size_t tracked = 0;            ///< number of rows with an outline of their own
   std::size_t duplicates = 0;         ///< number of frames that repeat the previous one
   std::size_t filled = 0;             ///< number of rows interpolated between their neighbours
