@@ -111,7 +111,7 @@ Result<Lamp> lamp_of(const Model& model) {
   return lamp;
 }
 
-// Limits of fixed point and a small memory.
+// Checks the limits of fixed point and of a small memory.
 Result<void> check(const Lamp& lamp) {
   if (lamp.feedback.size() > kMaxModes || lamp.lags > kMaxLags) {
     return Error{"the model has more than 16 modes or 32 lags; learn a smaller one"};

@@ -63,7 +63,7 @@ bool is_missing(const Cell& cell) {
   static constexpr std::array<std::string_view, 8> kWords = {"nan",  "na",   "n/a",  "n.a.",
                                                              "#n/a", "null", "none", "-nan"};
   if (cell.text.empty()) return true;
-  // Most cells are numbers, and no number begins so.
+  // Most cells are numbers, and no number begins with these characters.
   const char first = cell.text.front();
   if (first != 'n' && first != 'N' && first != '#' && first != '-') return false;
   return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return same_word(cell.text, word); });

@@ -73,7 +73,7 @@ struct PlainNumber {
   bool point = false;
 };
 
-/// Parses the one at the beginning of a text.
+/// Parses the decimal number at the beginning of a text.
 PlainNumber plain_number(std::string_view text);
 
 /// Returns whether a numeric cell has a decimal comma.

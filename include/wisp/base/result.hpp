@@ -1,5 +1,5 @@
 #pragma once
-// The outcome of any function that reads data from outside: a value, or one sentence about what is wrong. Also the
+// Result of a function that reads data from outside: a value, or one sentence that explains the failure. Also the
 // handling of broken preconditions, which are checked in every build, an installed release included.
 
 #include <cstddef>

@@ -51,7 +51,7 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<ArxFocus>{"prediction"
 /// Prior on the coefficients.
 enum class ArxKernel {
   kNone,
-  kTc,  ///< tuned, correlated: each channel's decay over its lags, neighbours are alike; decay rate estimated from data
+  kTc,  ///< tuned, correlated: each channel's decay over its lags, correlated neighbours; decay rate from data
 };
 
 template <>

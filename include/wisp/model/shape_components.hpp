@@ -59,7 +59,7 @@ std::vector<double> control_points(std::span<const double> shape_coordinates);
 /// Precondition: the shape has passed check(); one value per component.
 std::vector<double> control_points(const ShapeComponents& shape, std::span<const double> components);
 
-/// Checks that all numbers are finite, sizes consistent and ranges not empty, for an outline of so many points. An
+/// Checks that all numbers are finite, sizes consistent and ranges not empty, for an outline of `points` points. An
 /// empty shape passes.
 Result<void> check(const ShapeComponents& shape, std::size_t points);
 

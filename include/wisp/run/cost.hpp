@@ -11,18 +11,17 @@ namespace wisp {
 /// Operations of one instance in one frame (one step, one reading of the view).
 struct Cost {
   std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: number of nonzero coefficients of A and B
-  std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the five below
+  std::int64_t operations_per_frame = 0;     ///< all arithmetic: sum of dynamics, noise, random, view and extinction
   std::int64_t dynamics_operations = 0;  ///< inputs, filters, and the record of clamping: + − × ÷ √ on numbers, logic
   std::int64_t noise_operations = 0;   ///< from random words to noise added to the outputs, on numbers
   std::int64_t random_operations = 0;  ///< arithmetic and logic on 32-bit words, for the noise
   std::int64_t view_operations = 0;    ///< interpolation between two steps, units, and the polyline; on numbers
   std::int64_t worst_operations =
-      0;  ///< the most in any frame: one that joins a segment, or searches for another
-          ///< residual in an input that swings, or shrinks a flame that goes out; without any of them the same
+      0;  ///< largest in any frame, such as one with a segment join, a search for a residual while the input swings, or
+          ///< the shrinking of an extinguished flame; in other models equal to operations_per_frame
   std::int64_t steered_operations = 0;  ///< largest in any frame of a steered chain, where a join weighs --best-of ×
                                         ///< modes candidates; 0: not steerable
-  std::int64_t extinction_operations =
-      0;  ///< of the rule of extinction, where there is one, while it burns; on numbers
+  std::int64_t extinction_operations = 0;  ///< rule of extinction while the flame burns, 0 without a rule; on numbers
 };
 
 /// Counts the operations of one frame of one instance, with an outline read as a polyline of `polyline_points` (0:

@@ -22,7 +22,7 @@ struct LitState {
   std::chrono::nanoseconds since_lit = kNever;  ///< time since it was last relit; kNever if never since spawned
   std::chrono::nanoseconds since_out = kNever;  ///< time since it was last extinguished
   bool relit = false;                           ///< relit in the last call of step() or advance(), or by hand since
-  bool went_out = false;                        ///< it was extinguished in that time
+  bool went_out = false;                        ///< extinguished in the last call of step() or advance(), or by hand
 };
 
 /// Extinction and relighting. It lives as long as the bank, and moves with it; it allocates nothing.

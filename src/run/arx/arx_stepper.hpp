@@ -57,7 +57,7 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
-  /// Advances every block's ring by so many samples; the newest is then to be computed.
+  /// Advances every block's ring by `samples`; the newest is then to be computed.
   void turn(int samples = 1) {
     ChannelHistory<N>::turn(samples);
     resampled_.turn(samples);

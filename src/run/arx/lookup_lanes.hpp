@@ -150,7 +150,7 @@ class LookupLanes {
     }
   }
 
-  // Returns whether a row is near those that follow anyway, or was played recently.
+  // Returns whether a row is near the natural successors, or was played recently.
   bool is_barred(std::uint32_t row, std::uint32_t end, std::span<const PlayedRows> played, std::uint32_t ahead) const {
     if (row + program_.beside > end && row <= end + 1 + program_.beside) return true;
     std::uint32_t room = program_.recent;
@@ -176,7 +176,7 @@ class LookupLanes {
     at(block, kPlace + rank)[lane] = Real(static_cast<float>(place));
   }
 
-  // Decays the play counts and adds a block's rows; the weight of each is relative to the total.
+  // Decays the play counts and adds a block's rows; the weight of usage is relative to the sum of all counts.
   void count(int block, int lane, PlayedRows played) {
     if (played.count == 0) return;
     const std::uint32_t first = played.last + 1 - played.count;

@@ -69,7 +69,7 @@ class ResampledLanes {
     if (program_.across > 0) std::fill_n(turned_.data() + (block * kLanes + lane) * stride_, stride_, 0.0f);
   }
 
-  /// Advances every block's past by so many samples.
+  /// Advances every block's past by `samples`.
   void turn(int samples = 1) { past_.turn(samples); }
 
   /// Records the input of a block's step, with or without noise: [regressor][lane].
@@ -319,7 +319,7 @@ class ResampledLanes {
     }
   }
 
-  // Returns the component, along a direction, of the input vector so many steps ago.
+  // Returns the component, along a direction, of the input vector `lag` steps ago.
   Reals<N> along(int block, std::uint32_t lag, const Real* x, const Real* z) const {
     const Real* vector = past(block, lag);
     return load<Reals<N>>(vector) * load<Reals<N>>(x) + load<Reals<N>>(vector + kLanes) * load<Reals<N>>(z);

@@ -14,7 +14,7 @@ namespace wisp {
 namespace {
 
 constexpr double kMaxUnits = 1e9;      // bound of a residual or a wind, in ranges: no sum overflows
-constexpr std::uint32_t kMinLeft = 6;  // fewest rows after a jump's target, if any has as many
+constexpr std::uint32_t kMinLeft = 6;  // fewest rows after a jump's target, if any row has that many
 
 float bounded(double value) {
   if (std::abs(value) < kMinCoefficient) return 0.0f;
@@ -237,7 +237,7 @@ ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx,
   return program;
 }
 
-// The tree is determined by the rest, so it is not hashed.
+// The tree is determined by the other fields, so it is not hashed.
 std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
   if (program.empty()) return before;
   std::uint64_t hash = before;

@@ -133,7 +133,7 @@ struct Bank::State {
   std::span<float> size;
   std::span<float> previous_size;   // size before the last step
   std::span<float> event;           // index of the next step's size in the extinction's sizes, or kNoEvent
-  std::span<float> carried;         // size at extinction, or the rest of the size at relighting
+  std::span<float> carried;         // size at extinction, or remaining excess size after relighting
   std::span<float> last_shape;      // [block][moved][lane]: variables of the dynamics at extinction
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
   std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps

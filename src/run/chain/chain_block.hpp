@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// What a step does with each lane of a block, as masks of 1 or 0. Uninitialised, since a step has many of them.
+/// What a step does with each lane of a block, as masks of 1 or 0; uninitialised, since a step has many of them.
 template <class N>
 struct ChainCourse {
   using Real = typename N::Real;

@@ -208,7 +208,7 @@ class ChainJoins {
     return turned<Values>(turn.cos_scale, turn.sin_scale, stored);
   }
 
-  // Returns the curves over so many steps from the difference at the beginning to that at the end.
+  // Returns the curves over `steps` steps from the difference at the beginning to that at the end.
   Curves spread(const Segments& steps, const ChainGap<Values>& from, const ChainGap<Values>& to) const {
     Real slope[kLanes], count[kLanes];
     const float* row[kLanes];
@@ -235,7 +235,7 @@ class ChainJoins {
     return out;
   }
 
-  // Moves segments towards their recorded heights, over so many steps: otherwise the velocity offsets of joins would
+  // Moves segments towards their recorded heights, over `steps` steps: otherwise the velocity offsets of joins would
   // add up to an unbounded random walk.
   void lead_back(const Segments& segments, const Values& height, const Segments& steps, Curves& curves) const {
     if (program_.height.empty()) return;

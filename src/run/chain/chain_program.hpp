@@ -19,8 +19,8 @@ struct GustProgram {
   std::array<std::array<float, 3>, kMaxGustOrder> vertical{};
 };
 
-/// A curve over so many steps between given values and slopes: two parabolas. Second differences as factors of the
-/// change of value, beyond the first slope, and of the change of slope.
+/// A curve between given values and slopes: two parabolas. Second differences as factors of the change of value, beyond
+/// the first slope, and of the change of slope.
 struct ChainSpread {
   std::array<float, 2> way{};     ///< factors of the first half, and of the latter
   std::array<float, 2> change{};  ///< factors of the first half, and of the latter

@@ -167,7 +167,7 @@ class ChainStepper : private ChainLives<N> {
 
   bool can_steer() const { return !program_.lead.empty(); }
 
-  /// Steers a lane towards a target to be reached in so many steps; 0: cancels steering.
+  /// Steers a lane towards a target to be reached in `steps` steps; 0: cancels steering.
   ///
   /// Precondition: can_steer().
   void steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
@@ -347,7 +347,7 @@ class ChainStepper : private ChainLives<N> {
     lanes_of(block).go(course);
   }
 
-  // Displays the advanced lanes, and leaves among those that end the ones that join.
+  // Displays the advanced lanes, and settles those on the ground, whose segments then do not end in a join.
   void arrive(int block, const Moment<N>& moment, ChainCourse<N>& course) {
     ChainBlock<N> lanes = lanes_of(block);
     lanes.move(course);
@@ -369,8 +369,8 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Finds the lanes for which a step does more than display and join: those that come to rest, are too far away, or
-  // near the ground. Returns whether there are any.
+  // Finds the lanes that need more than display and joining: those that come to rest, are too far away, or near the
+  // ground. Returns whether there are any.
   bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {

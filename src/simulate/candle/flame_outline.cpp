@@ -176,7 +176,7 @@ std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   return largest;
 }
 
-// The part of a closed, clockwise contour with its highest point that lies above a height, ends included.
+// The part above a height of a closed, clockwise contour that contains its highest point, ends included.
 std::vector<PointMm> cut_open(const std::vector<PointMm>& closed, double height) {
   const auto n = static_cast<int>(closed.size());
   const auto higher = [](PointMm a, PointMm b) { return a.y < b.y; };

@@ -55,7 +55,7 @@ struct ClipWind {
   double one_rms = 0;             ///< root mean square of the wind band at speed 1, full scale 1
   double clipped_share = 0;       ///< share of samples at full scale
   std::size_t uncovered = 0;      ///< number of picture frames outside the sound: their wind is missing (NaN)
-  std::size_t holes = 0;          ///< number of other frames before or in gaps of the sound: also missing
+  std::size_t holes = 0;          ///< number of other frames before the sound or in its gaps: also missing
   std::string note;               ///< one clause for people: what was heard, or why nothing was
 };
 

@@ -29,7 +29,7 @@ struct OutlineCaptureOptions {
                                         ///< bottom
   bool place_knots = true;              ///< place knots where the outline bends, if that fits better than uniform knots
   std::vector<double> knots;            ///< full knot vector to use, of a model or an earlier capture; empty: estimated
-  std::optional<bool> underside;        ///< whether to include the underside, as then; none: where it fits better
+  std::optional<bool> underside;        ///< include the underside, as with those knots; none: where it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
   std::string source;                   ///< name of the frames' source, for messages and the recording
   std::size_t held_bytes = 48u << 20;   ///< bytes of frames buffered for the first decisions; at least 8 frames are
