@@ -307,8 +307,8 @@ WISP_API wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int
 /* Advances time in seconds; NaN counts as 0. */
 WISP_API wisp_status wisp_bank_advance_seconds(wisp_bank* bank, double seconds, int32_t* steps);
 
-/* Makes many steps in one call, for offline play, with the same bits as single steps. Row t of `inputs` (steps * slots
- * * inputs, or none) is set before step t, row t of `outputs` (steps * slots * outputs, or none) read after it. */
+/* Makes many steps in one call, for offline play, with the same bits as single steps. Row t of steps * slots * inputs
+ * values is set before step t, row t of steps * slots * outputs values is read after it; either may be none. */
 WISP_API wisp_status wisp_bank_step_many(wisp_bank* bank, uint32_t steps, const float* inputs, size_t input_count,
                                          float* outputs, size_t output_count);
 

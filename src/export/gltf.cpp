@@ -277,7 +277,7 @@ std::vector<MeshRow> mesh_rows() {
   return rows;
 }
 
-// Computes vertices of all shells, or of a change of them: linear in the rings.
+// Computes vertices of all shells, or the change of the vertices from a change of the rings: linear in the rings.
 std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   const float* before = &rings[(kRings - 3) * kRingNumbers];
   std::vector<float> all;

@@ -151,7 +151,7 @@ struct Return {
   double cost = 0;
 };
 
-// Returns the return with the smallest rotation about the vertical among nearly equal ones. Visits of the same row
+// Selects the return with the smallest rotation about the vertical among nearly equal ones. Visits of the same row
 // differ, since joins to the neighbouring segments differ.
 std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t outputs, std::size_t frames) {
   constexpr double kSame = 0.1, kWeight = 20;

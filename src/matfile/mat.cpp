@@ -109,7 +109,7 @@ std::optional<Reference> parse(std::string text) {
   return reference;
 }
 
-// Lists enough names to choose from.
+// Lists the first names to choose from.
 std::string listed(const File& file) {
   constexpr std::size_t kMax = 40;
   std::string list;

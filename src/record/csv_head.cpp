@@ -164,7 +164,7 @@ bool counts_milliseconds(double step) {
   return step == std::round(step) && step >= 2 && step <= 1000 && std::fmod(step, 15) != 0;
 }
 
-// Lists enough names to choose from.
+// Lists the first names to choose from.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMax = 40;
   std::string text;

@@ -213,7 +213,7 @@ void Bank::State::show() {
 namespace {
 
 constexpr std::array<char, 8> kSaveMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 3, kChainVersion = 5;  // kChainVersion: for chains' banks
+constexpr std::uint32_t kVersion = 3, kChainVersion = 5;  // kChainVersion: of banks of chains
 constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;

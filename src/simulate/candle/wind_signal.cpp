@@ -22,7 +22,7 @@ constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that t
 constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame survives
 constexpr double kWeakestPuff = 1.2;   // m/s: a candle survives it
 constexpr double kStrongestPuff = 4;
-constexpr double kShortestPuff = 0.05;  // duration range of a puff, s
+constexpr double kShortestPuff = 0.05;  // duration of the shortest puff, s
 constexpr double kLongestPuff = 0.6;
 constexpr double kClosestPuffs = 2;  // least interval between puffs, s
 

@@ -69,7 +69,7 @@ struct OutlineFacts {
   double edge_noise = 0;           ///< random displacement of the film's stillest edges, pixels
   double wander = 0;               ///< motion of the base over motion of the shape relative to it
   double steadiness = 0;           ///< how much less its base moves than its tip, in the survey: 1: only the tip moves
-  int stands = 1;                  ///< number of times that every frame is repeated in the clip
+  int stands = 1;                  ///< number of times that every frame occurs in the clip
   double misfit = 0;               ///< mean distance of edge points from the curve, over median height
   double taper = 0;                ///< median reduction of the width from the middle to near the tip
   double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
