@@ -4,11 +4,11 @@
 extends Polygon2D
 
 @export_file("*.csv") var table := "res://flame.csv"
-@export var height := 200.0  # pixels of the calm flame
+@export var height := 200.0  # height of the calm flame, pixels
 
 var rate_hz := 30.0
 var frames: Array[PackedFloat32Array] = []
-var columns := PackedInt32Array()  # of the outputs, x and y of each control point in turn
+var columns := PackedInt32Array()  # column indices of the outputs: x and y of each control point, alternating
 var knots := PackedFloat32Array()
 var seconds := 0.0
 
@@ -55,7 +55,7 @@ func _process(delta: float) -> void:
 	polygon = outline_of(controls, 48)
 
 
-# The cubic B-spline of the control points, by de Boor's algorithm.
+# Evaluates the cubic B-spline of the control points by de Boor's algorithm.
 func outline_of(controls: PackedVector2Array, points: int) -> PackedVector2Array:
 	var out := PackedVector2Array()
 	for point in points:

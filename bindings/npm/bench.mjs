@@ -1,4 +1,4 @@
-// What the package weighs and what a frame costs in it: the same models and work as wisp_bench_player does natively.
+// Size of the package and cost of a frame: the same models and work as wisp_bench_player runs natively.
 //
 //   node bindings/npm/bench.mjs
 
@@ -23,7 +23,7 @@ function bank(wisp, name, capacity) {
   return made;
 }
 
-/** Processor milliseconds of one call: the best of five times a tenth of a second. */
+/** Processor milliseconds of one call: the minimum of five runs of a tenth of a second. */
 function time(work) {
   work();
   let best = Infinity;

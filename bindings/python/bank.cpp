@@ -1,4 +1,4 @@
-// Banks of a model's living instances. An instance is an int: its slot in the lower 32 bits.
+// Banks of living instances. An instance is an int with its slot in the lower 32 bits.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::string words_of(const Shape& shape) { return py::str(py::tuple(py::cast(sha
 
 Shape shape_of(const py::array& array) { return {array.shape(), array.shape() + array.ndim()}; }
 
-/// A new array, or the one that is given, after a look at its shape.
+/// Returns `out` after checking its shape, or a new array.
 py::array_t<float> room(const py::object& out, const Shape& shape) {
   if (out.is_none()) return py::array_t<float>(shape);
   if (!py::isinstance<py::array_t<float, py::array::c_style>>(out))
@@ -47,7 +47,7 @@ std::span<float> values_of(py::array_t<float>& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};
 }
 
-/// One row for all, one row a slot, or one instance's. A vector of slots is fine where there is one input.
+/// Sets inputs: one row for all, one per slot, or one instance's. With one input a vector of slots is accepted.
 void set_inputs(Bank& bank, const Floats& values, Instance instance) {
   const std::span<const float> all(values.data(), static_cast<std::size_t>(values.size()));
   const py::ssize_t width = bank.input_count(), slots = bank.slots();
@@ -130,7 +130,7 @@ py::dict light(const Bank& bank, std::uint64_t instance) {
   return all;
 }
 
-// Calls one(id) for an instance, or for all that live.
+// Calls one(id) for an instance, or for all living ones.
 template <class One>
 void each(Bank& bank, Instance instance, One one) {
   if (instance) return one(living(bank, *instance));
@@ -143,7 +143,7 @@ py::bytes save(const Bank& bank) {
   return bytes;
 }
 
-// A thread a part, made for each call: worth its while for many instances, or many steps in one call.
+// Starts a thread per part in each call: pays for many instances, or many steps per call.
 void run_parts(void*, int parts, void (*task)(void*, int), void* of) {
   std::vector<std::thread> threads;
   for (int part = 1; part < parts; ++part) threads.emplace_back(task, of, part);

@@ -1,4 +1,4 @@
-// Recordings from films: an extension of its own, since it needs FFmpeg's libraries.
+// Recordings from films: a separate extension, since it needs FFmpeg's libraries.
 
 #include "wisp/capture/capture.hpp"
 
@@ -7,7 +7,7 @@
 PYBIND11_MODULE(_capture, module) {
   using namespace wisp;
   using namespace wisp::python;
-  const py::module_ core = py::module_::import("wisp._wisp");  // its types are taken and returned
+  const py::module_ core = py::module_::import("wisp._wisp");  // provides the types of arguments and results
   share_error(core);
   options<ClipCapture>(module, "ClipCapture")
       .def_readwrite("points", &ClipCapture::points)

@@ -1,4 +1,4 @@
-// What the library's headers say of each field: field_docs.py.
+// Documentation of fields from the library's headers, extracted by field_docs.py.
 
 #include <utility>
 

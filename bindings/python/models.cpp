@@ -1,4 +1,4 @@
-// Models.
+// Python class Model.
 
 #include <algorithm>
 #include <span>
@@ -40,7 +40,7 @@ const char* word_of(const View& view) {
                                                              : 0];
 }
 
-// The ARX models of a model's modes.
+// The ARX models of all modes.
 std::vector<ArxModel> arx_of(const Model& model) {
   if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) return {*arx};
   std::vector<ArxModel> modes;
@@ -107,7 +107,7 @@ std::string shown(const Model& model) {
          (model.training.usable.verdict ? "usable" : "not usable") + ">";
 }
 
-// A file that another tool opens, by its name: .glb, .json (Lottie) or .c with its .h.
+// Writes a file for another tool, by its extension: .glb, .json (Lottie) or .c with its .h.
 void export_to(const Model& model, const std::filesystem::path& path, double seconds, bool loop, int instances,
                std::uint64_t seed, bool noise, const std::vector<double>& inputs) {
   const std::string kind = path.extension().string();

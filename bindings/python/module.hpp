@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the Python module share.
+// Declarations shared by the sources of the Python module.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -17,12 +17,12 @@ namespace wisp::python {
 
 namespace py = pybind11;
 
-/// What Python sees as wisp.Error: one sentence about data from outside.
+/// The exception wisp.Error: one sentence about bad external data.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Failures of this extension are the wisp.Error of the core, too: each extension has a Failure of its own.
+/// Maps this extension's Failure to the core's wisp.Error, as each extension has its own type Failure.
 inline void share_error(const py::module_& core) {
   static const py::object error = core.attr("Error");
   py::register_local_exception_translator([](std::exception_ptr thrown) {
@@ -34,7 +34,7 @@ inline void share_error(const py::module_& core) {
   });
 }
 
-/// The value, or the exception with the error's sentence.
+/// Returns the value, or throws the error's sentence.
 template <class T>
 T unwrapped(Result<T> result) {
   if (!result) throw Failure(result.error().message);
@@ -45,8 +45,8 @@ inline void unwrap(const Result<void>& result) {
   if (!result) throw Failure(result.error().message);
 }
 
-/// Runs long work without the interpreter's lock. The callback hears of stages and may end the work by returning False;
-/// Ctrl-C and the callback's own exceptions end it too and are raised.
+/// Runs long work without the interpreter's lock. The callback receives the stages and may stop the work by returning
+/// False; Ctrl-C and the callback's own exceptions also stop it and are raised.
 class Watch {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
@@ -82,10 +82,10 @@ class Watch {
   bool raised_ = false;
 };
 
-/// What the library's headers say of a field, TYPE.FIELD; "" where they say nothing. field_docs.py reads them.
+/// Documentation of a field TYPE.FIELD from the library's headers; "" where there is none. field_docs.py extracts it.
 const char* doc_of(std::string_view type, std::string_view field);
 
-/// Sets each keyword as a field. One that is unknown, or a value that does not fit, is a TypeError that names it.
+/// Sets each keyword as a field. An unknown keyword or an unsuitable value is a TypeError that names it.
 template <class T>
 T from_keywords(const py::kwargs& fields) {
   T made;
@@ -105,7 +105,7 @@ T from_keywords(const py::kwargs& fields) {
   return made;
 }
 
-/// A class of options: fields are keywords, and help() has the headers' words.
+/// A class of options: fields are keywords, and help() shows the headers' documentation.
 template <class T, class... Bases>
 class Options : public py::class_<T, Bases...> {
  public:

@@ -25,7 +25,7 @@ import wisp  # noqa: E402  (it knows its version)
 
 version = wisp.__version__
 tag = f"cp{sys.version_info[0]}{sys.version_info[1]}"
-# Libraries that a manylinux wheel may need (PEP 600), and so finds in every distribution of its age.
+# Libraries that a manylinux wheel may link (PEP 600), present in every distribution of its age.
 everywhere = {"libc.so.6", "libm.so.6", "libgcc_s.so.1", "libstdc++.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"}
 
 

@@ -1,4 +1,4 @@
-// Recipes, learn and validate.
+// Python classes of recipes, and functions learn and validate.
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 namespace wisp::python {
 namespace {
 
-// Enumerations have the words of flags, in capitals.
+// Binds an enumeration with the words of flags, in capitals.
 template <class Enumeration>
 void bind_words(py::module_& module, const char* name) {
   py::enum_<Enumeration> words(module, name);
@@ -23,7 +23,7 @@ void bind_words(py::module_& module, const char* name) {
   }
 }
 
-// A field as a property, by its type: orders are plain numbers here, events and realisations the words of flags.
+// Binds a field as a property, by its type: orders are plain numbers, events and realisations the words of flags.
 template <class Class, class Recipe, class Value>
 void bind_field(Class& to, const RecipeField<Recipe, Value>& field, const char* help) {
   const auto member = field.member;
@@ -57,7 +57,7 @@ void bind_field(Class& to, const RecipeField<Recipe, Value>& field, const char* 
   }
 }
 
-// A recipe: its fields, with the help and the ranges of the table.
+// Binds a recipe: its fields, with help and ranges from the table.
 template <class Recipe>
 void bind_recipe(py::module_& module, const char* name) {
   Options<Recipe> made(module, name);
@@ -69,7 +69,7 @@ void bind_recipe(py::module_& module, const char* name) {
   });
 }
 
-// What recipes hold beside numbers, words and names.
+// Binds types of recipe fields other than numbers, words and names.
 void bind_parts(py::module_& module) {
   py::class_<OrderRange>(module, "OrderRange")
       .def(py::init([](int first, int last) {
@@ -126,7 +126,7 @@ void bind_recipes(py::module_& module) {
   bind_recipe<ChainRecipe>(module, "ChainRecipe");
   options<LeafRecipe, ChainRecipe>(module, "LeafRecipe");
   py::class_<Fit>(module, "Fit").def_readonly("model", &Fit::model).def_readonly("report", &Fit::report);
-  // The one recording first: it has rows, and would pass for a list.
+  // The overload for one recording comes first: a recording has a length, and would match a list.
   module.def(
       "learn",
       [](const Recording& recording, const Recipe& recipe, py::object progress) {

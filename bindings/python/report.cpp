@@ -1,4 +1,4 @@
-// Reports, as dictionaries and text.
+// Reports as dictionaries and text.
 
 #include "wisp/base/report.hpp"
 

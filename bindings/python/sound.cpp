@@ -11,7 +11,7 @@ namespace {
 
 using Samples = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-/// Feeds all samples; a dictionary of arrays with one value a frame that they complete.
+/// Feeds all samples; returns a dictionary of arrays with one value per completed frame.
 py::dict feed(WindLevel& level, const Samples& samples) {
   std::span<const float> left(samples.data(), static_cast<std::size_t>(samples.size()));
   std::vector<WindFrame> frames;

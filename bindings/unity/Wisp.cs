@@ -269,7 +269,7 @@ namespace Wisp
         internal IntPtr Handle;
         private Native.ModelFacts facts;
 
-        /// <summary>From the bytes of a .wisp file (in Unity: a TextAsset's bytes, of a file NAME.wisp.bytes).</summary>
+        /// <summary>Reads the bytes of a .wisp file (in Unity: a TextAsset's bytes, of NAME.wisp.bytes).</summary>
         public Model(byte[] bytes)
         {
             Native.Check(Native.wisp_model_load(bytes, Native.Count(bytes), out Handle));
@@ -288,8 +288,8 @@ namespace Wisp
             Native.Check(Native.wisp_model_get_facts(Handle, ref facts));
         }
 
-        /// <summary>The same flame in the round, by rotational symmetry: its wind is x, to the right of the camera that
-        /// filmed it, and z, towards that camera. A new model, to be disposed of.</summary>
+        /// <summary>The same flame as a body of revolution: its wind is x, to the right of the camera that filmed it,
+        /// and z, towards that camera. A new model, to be disposed of.</summary>
         public Model InTheRound()
         {
             IntPtr round;
@@ -311,7 +311,7 @@ namespace Wisp
         public Dynamics Dynamics { get { return (Dynamics)facts.Dynamics; } }
         public string Name { get { return Native.Text(Native.wisp_model_name(Handle)); } }
 
-        /// <summary>Why the learner found it fit for use, or not; what wrote it; the recordings that it was learned from.</summary>
+        /// <summary>Reason of the verdict; program that wrote the model; training recordings.</summary>
         public string Reason { get { return Native.Text(Origin().Reason); } }
         public string Program { get { return Native.Text(Origin().Program); } }
         public string[] Sources()
@@ -367,24 +367,24 @@ namespace Wisp
         ~Model() { Native.wisp_model_free(Handle); }
     }
 
-    /// <summary>A body at one moment: metres, seconds, radians, z up; a quaternion that is all zeros is level.</summary>
+    /// <summary>State of a body: metres, seconds, radians, z up; an all-zero quaternion is level.</summary>
     public struct Body
     {
         public float X, Y, Z, Qw, Qx, Qy, Qz, Vx, Vy, Vz, Wx, Wy, Wz;
     }
 
-    /// <summary>Where in its chain an instance is.</summary>
+    /// <summary>Position of an instance in its chain.</summary>
     public struct ChainPlace
     {
         public int Segment, Step, Mode;
         /// <summary>Over the last step: metres and radians a second, z up.</summary>
         public float VelocityX, VelocityY, VelocityZ, SpinX, SpinY, SpinZ;
-        /// <summary>At rest on the ground; touched it in the last Step or Advance.</summary>
+        /// <summary>Whether it rests on the ground; whether it touched it in the last Step or Advance.</summary>
         public bool Lies, Landed;
     }
 
-    /// <summary>A flame as a light: where, in the outline's units, its intensity against rest and its colour
-    /// temperature (Unity: Light.colorTemperature); and what happened to it in the last Step or Advance.</summary>
+    /// <summary>A flame as a light: position in the outline's units, intensity relative to rest and colour temperature
+    /// (Unity: Light.colorTemperature); and its events in the last Step or Advance.</summary>
     public struct FlameState
     {
         public bool Lit, WentOut, Relit;
@@ -396,7 +396,7 @@ namespace Wisp
     {
         private IntPtr handle;
 
-        /// <summary>Advance lets no more than `longest` seconds pass at once.</summary>
+        /// <summary>`longest`: maximum seconds advanced by one Advance.</summary>
         public Bank(Model model, int capacity = 1, ulong seed = 1, int polylinePoints = 32, double longest = 10)
         {
             Native.BankOptions options = Native.wisp_bank_default_options();
@@ -487,20 +487,20 @@ namespace Wisp
         public void Polylines(float[] values) { Native.Check(Native.wisp_bank_polylines(handle, values, Native.Count(values))); }
         public void Polyline(ulong instance, float[] values) { Native.Check(Native.wisp_bank_polyline(handle, instance, values, Native.Count(values))); }
 
-        /// <summary>In the round: outputs and outlines as a level camera sees them whose right is (x, z), of length 1.</summary>
+        /// <summary>In the round: sets the level camera by its right direction, a unit vector (x, z).</summary>
         public void Look(float rightX, float rightZ) { Native.Check(Native.wisp_bank_look(handle, rightX, rightZ)); }
 
-        /// <summary>In the round: (points + 1) / 2 rings from the base to the tip, six numbers each: the middle's x, y, z, the
-        /// radius, and by how much it rises to its rim towards +x and +z.</summary>
+        /// <summary>In the round: (points + 1) / 2 rings from the base to the tip, six numbers each: x, y, z of the
+        /// centre, the radius, and the rise of the rim towards +x and +z.</summary>
         public void Rings(ulong instance, float[] values) { Native.Check(Native.wisp_bank_rings(handle, instance, values, Native.Count(values))); }
 
-        /// <summary>The surface of rings: rings x segments vertices of place and normal, `stride` numbers apart; and three
-        /// indices for each of its 2 x rings x segments - 4 triangles, anticlockwise from outside. Unity turns its triangles
-        /// clockwise and its z away: negate z, or swap two indices.</summary>
+        /// <summary>Surface of rings: rings x segments vertices with position and normal, `stride` numbers apart; and
+        /// three indices for each of its 2 x rings x segments - 4 triangles, anticlockwise seen from outside. Unity's
+        /// triangles are clockwise and its z is reversed: negate z, or swap two indices.</summary>
         public static void Mesh(float[] rings, int segments, float[] numbers, int stride = 6) { Native.Check(Native.wisp_ring_mesh(rings, (uint)(rings.Length / 6), (uint)segments, numbers, Native.Count(numbers), (UIntPtr)stride)); }
         public static void Triangles(int rings, int segments, uint[] indices) { Native.Check(Native.wisp_ring_triangles((uint)rings, (uint)segments, indices, Native.Count(indices))); }
 
-        /// <summary>Whether an instance burns, its light, and what happened to it.</summary>
+        /// <summary>State of a flame, its light, and its events.</summary>
         public FlameState Flame(ulong instance)
         {
             var state = new Native.FlameState { Size = (uint)Marshal.SizeOf(typeof(Native.FlameState)) };
@@ -510,13 +510,13 @@ namespace Wisp
 
         public bool IsLit(ulong instance) { return Flame(instance).Lit; }
 
-        /// <summary>0 to 1, what outlines are already multiplied by: slots.</summary>
+        /// <summary>Sizes from 0 to 1 per slot; outlines already include them.</summary>
         public void FlameSizes(float[] values) { Native.Check(Native.wisp_bank_flame_sizes(handle, values, Native.Count(values))); }
 
         public void Relight(ulong instance) { Native.Check(Native.wisp_bank_relight(handle, instance)); }
         public void Extinguish(ulong instance) { Native.Check(Native.wisp_bank_extinguish(handle, instance)); }
 
-        /// <summary>Leaves: sets an instance where a body is, as after a throw or a collision. Wisp's z is up, metres, seconds.</summary>
+        /// <summary>Leaves: continues from a body's state, as after a throw. Wisp's z is up, metres, seconds.</summary>
         public void Place(ulong instance, Body body)
         {
             var moment = new Native.BodyMoment
@@ -542,7 +542,7 @@ namespace Wisp
             };
         }
 
-        /// <summary>Steers an instance to a place, in metres, that it is to reach in so many seconds; Release ends that.</summary>
+        /// <summary>Steers an instance to a place (metres) to be reached in `seconds`; Release ends this.</summary>
         public void Steer(ulong instance, float x, float y, float z, double seconds, float within = 0.1f)
         {
             var target = new Native.Target { Size = (uint)Marshal.SizeOf(typeof(Native.Target)), X = x, Y = y, Z = z, Nanoseconds = (long)(seconds * 1e9), Within = within };
@@ -552,7 +552,7 @@ namespace Wisp
         public void Release(ulong instance) { Native.Check(Native.wisp_bank_release(handle, instance)); }
         public bool CanSteer { get { return Native.wisp_bank_can_steer(handle) != 0; } }
 
-        /// <summary>Level ground at that height, metres; null: leaves fall for ever.</summary>
+        /// <summary>Height of level ground, metres; null: leaves fall for ever.</summary>
         public float? Ground
         {
             get { var settings = Settings(); return settings.HasGround != 0 ? settings.Ground : (float?)null; }
@@ -566,7 +566,7 @@ namespace Wisp
             return settings;
         }
 
-        /// <summary>Back to where they were when spawned: all and the bank's time, or one.</summary>
+        /// <summary>Resets to the state at spawning: all instances and the bank's time, or one.</summary>
         public void Reset() { Native.Check(Native.wisp_bank_reset(handle)); }
         public void Reset(ulong instance) { Native.Check(Native.wisp_bank_reset_instance(handle, instance)); }
 
@@ -626,17 +626,17 @@ namespace Wisp
             }
         }
 
-        /// <summary>Takes the coming seconds of sound for gentle breath or for hard blowing.</summary>
+        /// <summary>Uses the coming seconds of sound as gentle breath or as hard blowing.</summary>
         public void Calibrate(bool blowHard, double seconds = 3) { Native.Check(Native.wisp_wind_calibrate(handle, blowHard ? 1u : 0u, seconds)); }
         public bool Calibrating { get { return Native.wisp_wind_calibrating(handle) != 0; } }
         public bool Calibrated { get { return Native.wisp_wind_calibrated(handle) != 0; } }
 
-        /// <summary>dB by which the room is louder than at first; from 6 on something steady may be taken for wind.</summary>
+        /// <summary>Rise of the room's level, dB; from 6 on something steady may be mistaken for wind.</summary>
         public double RoomRise { get { return Native.wisp_wind_room_rise(handle); } }
         public double Latency { get { return Native.wisp_wind_latency(handle); } }
         public void Reset() { Native.Check(Native.wisp_wind_reset(handle)); }
 
-        /// <summary>What a microphone was found to be, to keep for the next start: background RMS and level, floor in dB, gust RMS.</summary>
+        /// <summary>Calibration of a microphone, to store: background RMS and level, floor in dB, gust RMS.</summary>
         public float[] Calibration
         {
             get
@@ -697,10 +697,10 @@ namespace Wisp
             Native.Check(Native.wisp_recording_add(Handle, (uint)role, Native.Utf8(name), Native.Utf8(unit), samples, Native.Count(samples)));
         }
 
-        /// <summary>A fact about the whole recording ("knots", "pair", …).</summary>
+        /// <summary>Sets a fact about the whole recording ("knots", "pair", …).</summary>
         public void SetAttribute(string name, string value) { Native.Check(Native.wisp_recording_set_attribute(Handle, Native.Utf8(name), Native.Utf8(value))); }
 
-        /// <summary>The episode of each row; no history crosses from one episode to the next.</summary>
+        /// <summary>Sets the episode of each row; no history crosses from one episode to the next.</summary>
         public void SetEpisodes(long[] ids) { Native.Check(Native.wisp_recording_set_episodes(Handle, ids, Native.Count(ids))); }
 
         public void Dispose()

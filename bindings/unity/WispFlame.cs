@@ -8,12 +8,12 @@ public sealed class WispFlame : MonoBehaviour
 {
     public TextAsset Model;
     [Range(-3, 3)] public float Wind;
-    public float Height = 0.035f;  // metres of the calm flame
+    public float Height = 0.035f;  // height of the calm flame, metres
     public int Seed = 1;
 
     private const int Points = 48;
     private readonly float[] outline = new float[2 * Points];
-    private float[] inputs;  // the first one is wind; a model of a silent clip has none
+    private float[] inputs;  // the first is wind; a model from a silent clip has none
     private readonly Vector3[] corners = new Vector3[Points + 1];
     private Wisp.Model model;
     private Wisp.Bank bank;

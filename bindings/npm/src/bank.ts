@@ -4,39 +4,39 @@ import * as at from './layout.js';
 import { Native } from './native.js';
 
 export interface BankOptions {
-  /** Most instances alive at once, 1 to 1048576; default 1. */
+  /** Maximum number of living instances, 1 to 1048576; default 1. */
   capacity?: number;
   /** Points of an outline's polyline, 2 to 4096; default 32. */
   polylinePoints?: number;
-  /** Milliseconds that `advance()` lets pass at most, 1 to 10000; default 10000. */
+  /** Maximum milliseconds advanced by one `advance()`, 1 to 10000; default 10000. */
   longest?: number;
-  /** Of all random streams of the bank; default 1. The same seed and inputs give the same life. */
+  /** Seed of all random streams; default 1. The same seed and inputs give the same play. */
   seed?: bigint | number;
 }
 
-/** Names an instance by value; an ended one is never named again. */
+/** Value that names an instance; ids of ended instances are never reused. */
 export type Instance = bigint;
 
-/** No instance. */
+/** Id of no instance. */
 export const noInstance: Instance = 0n;
 
-/** Whether an instance burns. Times are nanoseconds of what is shown; Infinity for what never happened. */
+/** State of a flame. Times are nanoseconds of shown time; Infinity for events that never happened. */
 export interface FlameState {
   lit: boolean;
-  /** 0 to 1: what outputs are already multiplied by. */
+  /** Size from 0 to 1; outputs already include it. */
   flameSize: number;
   sinceLit: number;
   sinceOut: number;
-  /** In the last call of `step()` or `advance()`, or by hand since. */
+  /** In the last call of `step()` or `advance()`, or by a call since. */
   wentOut: boolean;
   relit: boolean;
-  /** As a light: the middle of its outline (z in the round), its area against rest, its colour temperature. */
+  /** Light source: middle of the outline (z in the round), area relative to rest, colour temperature. */
   light: [number, number, number];
   intensity: number;
   kelvin: number;
 }
 
-/** Where in its chain an instance is. */
+/** Position of an instance in its chain. */
 export interface ChainPlace {
   segment: number;
   step: number;
@@ -44,12 +44,12 @@ export interface ChainPlace {
   /** Over the last step: metres and radians a second, z up. */
   velocity: [number, number, number];
   spin: [number, number, number];
-  /** At rest on the ground; touched it in the last call of `step()` or `advance()`. */
+  /** Whether it rests on the ground; whether it touched it in the last `step()` or `advance()`. */
   lies: boolean;
   landed: boolean;
 }
 
-/** What was set of a chain; null: as at first. */
+/** Settings of a chain; null: initial value. */
 export interface ChainSettings {
   ground: number | null;
 }
@@ -60,10 +60,10 @@ function three(data: DataView, p: number): [number, number, number] {
 
 type Three = readonly [number, number, number];
 
-/** A body at one moment, in the world: metres, seconds, radians, z up. What is left out is at rest and level. */
+/** State of a body in world axes: metres, seconds, radians, z up. Omitted fields are zero or level. */
 export interface Body {
   position: Three;
-  /** Body to world, w first; its length does not matter. */
+  /** Body to world, w first; normalised internally. */
   orientation?: readonly [number, number, number, number];
   velocity?: Three;
   /** Angular velocity, world axes. */
@@ -73,7 +73,7 @@ export interface Body {
 const never = 0x7fffffffffffffffn;
 const nanoseconds = (value: bigint) => (value === never ? Infinity : Number(value));
 
-// An array in the module's memory, seen anew when the memory has grown.
+// An array in the module's memory; its view is renewed when the memory has grown.
 class Room {
   private pointerIfAny = 0;
   private view = new Float32Array(0);
@@ -101,14 +101,14 @@ class Room {
 }
 
 /**
- * Made by `Model.bank()`. Bulk arrays have one row per slot; rows of empty slots are ignored on the way in and are
- * zeros on the way out. The views that `…View()` gives are the module's own memory: read them before the next call.
+ * Made by `Model.bank()`. Bulk arrays have one row per slot; rows of empty slots are ignored on input and zero on
+ * output. Views returned by `…View()` are the module's own memory, valid until the next call.
  */
 export class Bank {
   readonly capacity: number;
   readonly inputs: number;
   readonly outputs: number;
-  /** 0 where the outputs are not an outline. */
+  /** 0 for outputs other than an outline. */
   readonly polylinePoints: number;
   private pointer: number;
   private readonly scratch: number;
@@ -154,12 +154,12 @@ export class Bank {
     });
   }
 
-  /** Instances alive. */
+  /** Number of living instances. */
   get size(): number {
     return this.fact(at.bankFacts.alive);
   }
 
-  /** Rows of every bulk array: one more than the highest slot in use. */
+  /** Number of rows of bulk arrays: one more than the highest slot in use. */
   get slots(): number {
     return this.fact(at.bankFacts.slots);
   }
@@ -188,29 +188,29 @@ export class Bank {
     return BigInt.asUintN(64, BigInt(this.native.functions.wisp_bank_at!(this.pointer, slot)));
   }
 
-  /** Room for what acts on all, slots × inputs, to be written into and given to `setInputs()`. */
+  /** Buffer of slots × inputs, to be filled and passed to `setInputs()`. */
   inputsView(): Float32Array<ArrayBuffer> {
     return this.inputsRoom.first(this.slots * this.inputs);
   }
 
-  /** What acts on all from the next step on: slots × inputs. */
+  /** Sets all inputs from the next step on: slots × inputs. */
   setInputs(values: ArrayLike<number>): void {
     this.give('wisp_bank_set_inputs', values, this.inputsRoom, this.capacity * this.inputs);
   }
 
-  /** The same for all: inputs. */
+  /** Sets the same inputs for all instances. */
   setCommonInputs(values: ArrayLike<number>): void {
     this.give('wisp_bank_set_common_inputs', values, this.inputsRoom, this.capacity * this.inputs);
   }
 
-  /** For one: inputs. */
+  /** Sets the inputs of one instance. */
   setInstanceInputs(instance: Instance, values: ArrayLike<number>): void {
     this.give('wisp_bank_set_instance_inputs', values, this.inputsRoom, this.capacity * this.inputs, instance);
   }
 
   /**
-   * Scale of the residual noise: 1 as learned, 0 none; clamped to 0 … 10. A chain has its chance in its walk: at 0 the
-   * likeliest mode follows as the segment that joins best, any other scale leaves it as it is.
+   * Scale of the residual noise: 1 as learned, 0 none; clamped to 0 … 10. In a chain 0 makes the walk deterministic
+   * (the likeliest mode, with the best-joining segment); other scales have no effect.
    */
   setNoise(scale: number): void {
     this.call('wisp_bank_set_noise', scale);
@@ -221,52 +221,52 @@ export class Bank {
     return this.native.data.getFloat32(this.scratch, true);
   }
 
-  /** One step of the model, whatever the time. */
+  /** Makes one step of the model, regardless of time. */
   step(): void {
     this.call('wisp_bank_step');
   }
 
-  /** Lets time pass, in nanoseconds, and shows what lies between the last two steps. Returns the steps made. */
+  /** Advances by nanoseconds; outputs interpolate between the last two steps. Returns the number of steps made. */
   advance(nanoseconds: number): number {
     const time = Number.isFinite(nanoseconds) ? BigInt(Math.round(nanoseconds)) : 0n;
     this.call('wisp_bank_advance', BigInt.asIntN(64, time), this.scratch);
     return this.native.data.getInt32(this.scratch, true);
   }
 
-  /** Outputs of all: slots × outputs. A view that the next call may change. */
+  /** Outputs of all instances: slots × outputs. A view, valid until the next call. */
   outputsView(): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_outputs', this.outputsRoom, this.slots * this.outputs);
   }
 
-  /** Outputs of one: a copy. */
+  /** Outputs of one instance, as a copy. */
   instanceOutputs(instance: Instance): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_instance_outputs', this.outputsRoom, this.outputs, instance).slice();
   }
 
-  /** Outlines of all, x and y in turn from the base's left over the tip: slots × points × 2. A view, as above. */
+  /** Outlines of all instances, x and y alternating from the base's left over the tip: slots × points × 2. A view. */
   polylinesView(): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_polylines', this.polylinesRoom, this.slots * this.polylinePoints * 2);
   }
 
-  /** The outline of one: points × 2. A view, as above. */
+  /** Outline of one instance: points × 2. A view, as above. */
   polyline(instance: Instance): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_polyline', this.polylinesRoom, this.polylinePoints * 2, instance);
   }
 
-  /** In the round: outputs and outlines as a level camera sees them whose right is (x, z), of length 1. */
+  /** In the round: sets the level camera of outputs and outlines by its right direction, the unit vector (x, z). */
   look(rightX: number, rightZ: number): void {
     this.call('wisp_bank_look', rightX, rightZ);
   }
 
   /**
-   * In the round: rings of one from the base to the tip, half as many as points. Six numbers each: the middle's x, y, z,
-   * the radius, and by how much it rises to its rim towards +x and +z. A view, as above.
+   * In the round: rings of one instance from the base to the tip, half as many as points. Six numbers each: x, y, z of
+   * the centre, the radius, and the rise of the rim towards +x and +z. A view, as above.
    */
   rings(instance: Instance): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_rings', this.ringsRoom, 6 * this.ringCount, instance);
   }
 
-  /** In the round: the surface of one, rings × segments vertices of place and normal: a copy. */
+  /** In the round: surface of one instance, rings × segments vertices with position and normal, as a copy. */
   mesh(instance: Instance, segments: number): Float32Array<ArrayBuffer> {
     this.rings(instance);
     return this.filled(6 * this.ringCount * segments, (room, count) => {
@@ -276,7 +276,7 @@ export class Bank {
     });
   }
 
-  /** Three indices for each of the 2 × rings × segments − 4 triangles of `mesh()`, anticlockwise from outside. */
+  /** Three indices for each of the 2 × rings × segments − 4 triangles of `mesh()`, anticlockwise seen from outside. */
   triangles(segments: number): Uint32Array {
     return this.filled(6 * this.ringCount * segments - 12, (room, count) => {
       this.native.check(this.native.functions.wisp_ring_triangles!(this.ringCount, segments, room.pointer, count));
@@ -285,7 +285,7 @@ export class Bank {
     });
   }
 
-  /** Whether an instance burns. */
+  /** State of a flame. */
   flameState(instance: Instance): FlameState {
     return this.struct(at.flameState.size, 'wisp_bank_get_flame_state', instance, (data, p) => ({
       lit: data.getUint32(p + at.flameState.lit, true) === 1,
@@ -300,22 +300,22 @@ export class Bank {
     }));
   }
 
-  /** The flame sizes of all: slots. A view, as above. */
+  /** Flame sizes of all instances: slots. A view, as above. */
   flameSizes(): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_flame_sizes', this.sizesRoom, this.slots);
   }
 
-  /** Lights one that is out. A model whose `facts.blowOut` is null has nothing to light: that throws. */
+  /** Lights an extinguished flame. Throws for a model whose `facts.blowOut` is null. */
   relight(instance: Instance): void {
     this.call('wisp_bank_relight', instance);
   }
 
-  /** Puts one out, whatever the wind. A model whose `facts.blowOut` is null never goes out: that throws. */
+  /** Extinguishes a flame, whatever the wind. Throws for a model whose `facts.blowOut` is null. */
   extinguish(instance: Instance): void {
     this.call('wisp_bank_extinguish', instance);
   }
 
-  /** Sets an instance of a chain where a body is, as after a throw or a kick. Not for every frame. */
+  /** Continues a chain from the state of a body, as after a throw or a kick. Too slow for every frame. */
   place(instance: Instance, body: Body): void {
     const { native, scratch } = this;
     this.living();
@@ -329,13 +329,13 @@ export class Bank {
     this.call('wisp_bank_place', instance, scratch);
   }
 
-  /** Level ground at that height, on which instances of a chain come to rest; null: they fall for ever. */
+  /** Sets level ground at a height, on which instances of a chain come to rest; null: none. */
   setGround(height: number | null): void {
     if (height === null) this.call('wisp_bank_clear_ground');
     else this.call('wisp_bank_set_ground', height);
   }
 
-  /** What `setGround` has set. */
+  /** The settings made by `setGround`. */
   get chainSettings(): ChainSettings {
     const { native, scratch } = this;
     this.living();
@@ -346,7 +346,7 @@ export class Bank {
     return { ground: has ? data.getFloat32(scratch + at.chainSettings.ground, true) : null };
   }
 
-  /** Where in its chain an instance is; null where the dynamics are not a chain. */
+  /** Position of an instance in its chain; null for other dynamics. */
   chainPlace(instance: Instance): ChainPlace | null {
     if (!this.isChain) return null;
     return this.struct(at.chainPlace.size, 'wisp_bank_get_chain_place', instance, (data, p) => ({
@@ -360,13 +360,13 @@ export class Bank {
     }));
   }
 
-  /** Back to where they were when spawned, lit: one, or all and the bank's time. */
+  /** Resets to the state at spawning, lit: one instance, or all and the bank's time. */
   reset(instance?: Instance): void {
     if (instance === undefined) this.call('wisp_bank_reset');
     else this.call('wisp_bank_reset_instance', instance);
   }
 
-  /** The whole state; a bank of the same model and capacity restored from it goes on with the same bits. */
+  /** The complete state; a bank of the same model and capacity restored from it continues with the same bits. */
   save(): Uint8Array<ArrayBuffer> {
     const { native } = this;
     this.call('wisp_bank_save_bytes', this.scratch);
@@ -377,7 +377,7 @@ export class Bank {
     });
   }
 
-  /** Throws, and changes nothing, when the bytes are damaged or of another model, capacity or version. */
+  /** Throws, without any change, when the bytes are damaged or of another model, capacity or version. */
   restore(bytes: ArrayBuffer | Uint8Array): void {
     const { native } = this;
     const given = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
@@ -387,12 +387,12 @@ export class Bank {
     });
   }
 
-  /** Steps of instances in which an output was clamped to its range, of how many. */
+  /** Number of steps of instances with an output clamped to its range, and of all such steps. */
   clamped(): { clamped: number; steps: number } {
     return { clamped: this.longFact(at.bankFacts.clamped), steps: this.longFact(at.bankFacts.steps) };
   }
 
-  /** Gives the bank's memory back; twice is fine. */
+  /** Frees the bank's memory; may be called twice. */
   free(): void {
     if (this.pointer === 0) return;
     this.native.functions.wisp_bank_free!(this.pointer);
@@ -406,12 +406,12 @@ export class Bank {
     this.native.check(this.native.functions[name]!(this.pointer, ...values));
   }
 
-  // A freed bank has no scratch either.
+  // A freed bank has no scratch memory either.
   private living(): void {
     if (this.pointer === 0) this.native.check(this.native.functions.wisp_bank_step!(0));
   }
 
-  // What is made in room for so many numbers.
+  // Calls `make` with a buffer of so many numbers, and returns its result.
   private filled<T>(count: number, make: (room: Room, count: number) => T): T {
     this.living();
     const room = new Room(this.native, Math.max(count, 0));
@@ -445,7 +445,7 @@ export class Bank {
 
   private give(name: string, values: ArrayLike<number>, room: Room, most: number, ...instance: bigint[]): void {
     this.living();
-    // The count goes over as it is, so that the wrong one is told in the ABI's own words.
+    // The count is passed unchanged, so that the ABI reports a wrong one.
     const target = room.first(most);
     if (!(values instanceof Float32Array && values.byteOffset === target.byteOffset && values.buffer === target.buffer)) {
       for (let k = 0; k < Math.min(values.length, most); ++k) target[k] = values[k]!;

@@ -29,9 +29,9 @@ export { Library } from './library.js';
 export { hasSimd, Status, WispError, type LoadOptions } from './native.js';
 export { WindLevel, type WindAsk, type WindCalibration, type WindFrame, type WindOptions } from './wind.js';
 
-/** A running copy of the library, with memory of its own. */
+/** A running instance of the library, with its own memory. */
 export class Wisp extends Library {
-  /** Makes an estimator of wind at the start of a stream of sound. Throws when an option is out of its range. */
+  /** Creates a wind estimator at the start of a sound stream. Throws when an option is out of range. */
   windLevel(options: WindOptions): WindLevel {
     return new WindLevel(this.native, options);
   }

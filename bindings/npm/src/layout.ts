@@ -1,5 +1,5 @@
-// Where the fields of the C ABI's structs lie in the memory of WebAssembly, in bytes. wasm/layout.cpp holds the
-// compiler to the same numbers.
+// Byte offsets of the fields of the C ABI's structs in WebAssembly memory. wasm/layout.cpp checks the compiler against
+// the same numbers.
 
 export const modelFacts = {
   size: 128,

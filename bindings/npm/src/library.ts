@@ -1,11 +1,11 @@
-// The library without its ears: what a page needs for its first flame.
+// The library without the wind estimator: the part that a page needs for its first flame.
 
 import { Model } from './model.js';
 import { Native, type LoadOptions } from './native.js';
 
-/** A running copy of the library, with memory of its own. */
+/** A running instance of the library, with its own memory. */
 export class Library {
-  /** As 1.2.3. */
+  /** Version such as 1.2.3. */
   readonly version: string;
 
   /** @internal */
@@ -14,17 +14,17 @@ export class Library {
     this.version = [Math.floor(version / 1e6), Math.floor(version / 1e3) % 1000, version % 1000].join('.');
   }
 
-  /** Whether it computes with SIMD; the bits are the same either way. */
+  /** Whether it computes with SIMD; results are the same bits either way. */
   get simd(): boolean {
     return this.native.simd;
   }
 
-  /** The compiled module: hand it to a worker or a worklet, where `load({wasm: module})` starts at once. */
+  /** The compiled module: pass it to a worker or worklet, where `load({wasm: module})` starts immediately. */
   get module(): WebAssembly.Module {
     return this.native.module;
   }
 
-  /** Bytes of memory that it has by now; it grows and never shrinks. */
+  /** Current size of its memory in bytes; it grows and never shrinks. */
   get memoryBytes(): number {
     return this.native.bytes.length;
   }

@@ -1,18 +1,18 @@
-// Opens a microphone as a source of wind. Nothing is asked of anyone before `openMicrophone()` is called, and no sound
-// leaves the audio thread: what comes out is wind.
+// Opens a microphone as a source of wind. No permission is requested before `openMicrophone()` is called, and no sound
+// leaves the audio thread: only wind does.
 
 import type { Library } from './library.js';
 import { windAsks, type WindAsk, type WindCalibration } from './wind.js';
 import type { WindCommand, WindMessage, WindProcessorOptions } from './worklet.js';
 
-/** A frame of wind, as the worklet tells it. */
+/** A frame of wind, as posted by the worklet. */
 export type Wind = Extract<WindMessage, { type: 'wind' }>;
 
 /**
- * Why there is no wind from a microphone.
+ * Reason why a microphone gives no wind.
  * 'unsupported': no microphones or no AudioWorklet here (a page needs HTTPS, or localhost). 'denied': the user or the
- * page's policy said no. 'none': no microphone is plugged in. 'busy': another program has it. 'lost': it was unplugged
- * or taken away. 'failed': something else.
+ * page's policy refused. 'none': no microphone is connected. 'busy': another program uses it. 'lost': it was unplugged
+ * or taken away. 'failed': another reason.
  */
 export type MicrophoneTrouble = 'unsupported' | 'denied' | 'none' | 'busy' | 'lost' | 'failed';
 
@@ -28,30 +28,30 @@ export class MicrophoneError extends Error {
 }
 
 export interface MicrophoneOptions {
-  /** Frames of wind a second; the model's own rate serves it best. Default 60. */
+  /** Frames of wind per second, best the model's own rate. Default 60. */
   frameRate?: number;
   /** Called with each frame. */
   onWind?: (wind: Wind) => void;
-  /** Called once when the microphone goes away by itself, or the estimator fails; it is closed then. */
+  /** Called once when the microphone disappears or the estimator fails; it is then closed. */
   onLost?: (error: MicrophoneError) => void;
   /**
-   * Called when no sound comes any more though the microphone is open (a telephone call, a locked screen, a muted track),
-   * and when it comes again. It wakes by itself at the next click or key, or when the page is seen again.
+   * Called when sound stops although the microphone is open (a telephone call, a locked screen, a muted track), and
+   * when it returns. It recovers by itself at the next click or key, or when the page becomes visible.
    */
   onAsleep?: (asleep: boolean) => void;
-  /** Called when a calibration has ended; `heard` says whether the requested sound was heard. */
+  /** Called at the end of a calibration; `heard`: whether the requested sound was heard. */
   onCalibrated?: (calibration: WindCalibration, heard: boolean) => void;
-  /** What was known of this microphone and room before. */
+  /** Earlier calibration of this microphone and room. */
   calibration?: WindCalibration;
-  /** An audio context of yours; it is not closed by `stop()`. */
+  /** An audio context of the caller; `stop()` does not close it. */
   context?: AudioContext;
-  /** Which microphone, as from `navigator.mediaDevices.enumerateDevices()`. */
+  /** Id of the microphone, as from `navigator.mediaDevices.enumerateDevices()`. */
   deviceId?: string;
-  /** Where the worklet's script is, if not beside this one. */
+  /** Address of the worklet's script, if not beside this one. */
   workletUrl?: URL | string;
 }
 
-/** What was asked for, and what the browser made of it: null where it does not say. */
+/** Requested settings as applied by the browser; null where it does not say. */
 export interface MicrophoneSettings {
   echoCancellation: boolean | null;
   noiseSuppression: boolean | null;
@@ -61,12 +61,12 @@ export interface MicrophoneSettings {
   deviceId: string;
 }
 
-/** A microphone that is open. */
+/** An open microphone. */
 export interface Microphone {
   readonly settings: MicrophoneSettings;
-  /** Whether the sound is as the microphone gave it: nothing of what browsers do to speech is known to be on. */
+  /** Whether the sound is unprocessed: none of the browser's speech processing is known to be on. */
   readonly raw: boolean;
-  /** Whether it is open and yet no sound comes. */
+  /** Whether it is open but gives no sound. */
   readonly asleep: boolean;
   /** The latest frame; null before the first. */
   readonly latest: Wind | null;
@@ -75,11 +75,11 @@ export interface Microphone {
    * and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
    */
   calibrate(ask: WindAsk, seconds?: number): void;
-  /** What is known of microphone and room by now. */
+  /** Current calibration of microphone and room. */
   calibration(): Promise<WindCalibration>;
-  /** Forgets what was heard. */
+  /** Resets the estimator. */
   reset(): void;
-  /** Switches it off; the browser's indicator goes out. Twice is fine. */
+  /** Switches it off; the browser's indicator goes out. May be called twice. */
   stop(): void;
 }
 
@@ -103,7 +103,7 @@ async function askForSound(deviceId: string | undefined): Promise<MediaStream> {
   if (!globalThis.navigator?.mediaDevices?.getUserMedia || typeof AudioWorkletNode === 'undefined') {
     throw new MicrophoneError('unsupported', 'There is no microphone here: a page needs HTTPS or localhost for it.');
   }
-  // Each of these three is made to let speech through and to take noise away, and wind is noise.
+  // All three enhance speech and suppress noise, and wind is noise.
   const audio: MediaTrackConstraints = {
     echoCancellation: false,
     noiseSuppression: false,
@@ -135,7 +135,7 @@ const LOOK_EVERY = 500;
 const ASLEEP = 2;
 const STUCK = 4;
 
-/** What may wake a sound that was interrupted. */
+/** Events that may resume an interrupted sound. */
 const WAKES = ['pointerdown', 'keydown', 'visibilitychange'] as const;
 
 class OpenMicrophone implements Microphone {
@@ -191,7 +191,7 @@ class OpenMicrophone implements Microphone {
     if (this.asleep && this.context.state !== 'closed') this.context.resume().catch(() => {});
   };
 
-  /** Whether sound came since the last look. A muted track sends silence: it is as deaf. */
+  /** Checks whether sound came since the last check. A muted track sends silence and counts as none. */
   private look(): void {
     this.silentLooks += 1;
     const asleep = this.silentLooks > ASLEEP || this.track.muted;
@@ -201,7 +201,7 @@ class OpenMicrophone implements Microphone {
     }
     if (!asleep) return;
     this.wake();
-    // A context in the state "running" whose clock stands still does not recover: it is opened again.
+    // A running context with a stopped clock does not recover: it is opened again.
     const stuck = this.context.state === 'running' && !this.track.muted && this.silentLooks > STUCK;
     if (stuck && document.visibilityState === 'visible') void this.reopen();
   }
@@ -270,7 +270,7 @@ class OpenMicrophone implements Microphone {
 
   private readonly ended = (): void => this.lose('lost', 'The microphone was unplugged or taken away.');
 
-  // Some browsers leave the track of an unplugged microphone alive; a device that is no longer listed is gone.
+  // Some browsers keep the track of an unplugged microphone alive; a device no longer listed is lost.
   private readonly devicesChanged = async (): Promise<void> => {
     const { deviceId } = this.settings;
     if (deviceId === '') return;
@@ -291,8 +291,8 @@ class OpenMicrophone implements Microphone {
 }
 
 /**
- * Asks for a microphone and listens to its wind. Call it from a click or a key, where browsers let sound begin.
- * Throws a MicrophoneError that says why there is none.
+ * Requests a microphone and starts the wind estimator. Call it in a click or key handler, where browsers let sound
+ * start. Throws a MicrophoneError with the reason where there is none.
  */
 export async function openMicrophone(wisp: Library, options: MicrophoneOptions = {}): Promise<Microphone> {
   const { stream, context } = await openSound(options);
@@ -304,7 +304,7 @@ async function openSound(options: MicrophoneOptions): Promise<{ stream: MediaStr
   const context = options.context ?? new AudioContext({ latencyHint: 'interactive' });
   try {
     await context.audioWorklet.addModule(options.workletUrl ?? new URL('./worklet.js', import.meta.url));
-    // Not waited for: without a click or key a browser lets it hang, and starts the sound at the next one.
+    // Not awaited: without a click or key some browsers keep it pending and start the sound at the next one.
     context.resume().catch(() => {});
     return { stream, context };
   } catch (error) {

@@ -1,4 +1,4 @@
-// A model: what a thing is like, read from the bytes of a `.wisp` file.
+// A model of a thing's behaviour, read from the bytes of a `.wisp` file.
 
 import { Bank, type BankOptions } from './bank.js';
 import * as at from './layout.js';
@@ -7,82 +7,82 @@ import { Native } from './native.js';
 /** An input or an output. */
 export interface Channel {
   name: string;
-  /** The unit of 1; '' where it has none. */
+  /** Unit of the values; '' if none. */
   unit: string;
-  /** The trained or seen range; the bank holds to it and half of it more. */
+  /** Trained or observed range; the bank clamps to 1.5 times this range. */
   lowest: number;
   highest: number;
-  /** Of inputs: the dynamics see what is positive and what is negative apart. */
+  /** For inputs: whether the dynamics have separate coefficients for positive and negative values. */
   splitsSign: boolean;
 }
 
-/** 'arx': autoregression with exogenous inputs. 'chain': pieces of recorded motion, one after another by chance. */
+/** 'arx': autoregression with exogenous inputs. 'chain': a random sequence of recorded segments of motion. */
 export type Dynamics = 'arx' | 'chain';
 
-/** What the outputs mean. 'outline': control points x, y. 'pose': position and quaternion w, x, y, z. */
+/** Meaning of the outputs. 'outline': control points x, y. 'pose': position and quaternion w, x, y, z. */
 export type View = 'plain' | 'outline' | 'pose' | 'position';
 
-/** When wind blows it out. */
+/** The rule of extinction by wind. */
 export interface BlowOut {
-  /** Index of the input that blows. */
+  /** Index of the wind input. */
   input: number;
-  /** The least wind that does it, in the input's unit, when it lasts `seconds`. */
+  /** Minimum wind that extinguishes when it lasts `seconds`, in the input's unit. */
   level: number;
   seconds: number;
   /** At twice the level it takes seconds / (1 + haste). */
   haste: number;
-  /** Seconds below the level after which it is as if the wind had never blown. */
+  /** Seconds below the level until full recovery. */
   recoverySeconds: number;
 }
 
 export interface ModelFacts {
-  /** Its own steps a second, and the time of one. */
+  /** Steps per second, and duration of one. */
   rateHz: number;
   stepNanoseconds: number;
-  /** Of an outline; 0 otherwise. */
+  /** Number of control points of an outline; otherwise 0. */
   controlPoints: number;
-  /** Metres per unit of an outline; 0 where it is not known. */
+  /** Metres per unit of an outline; 0 if unknown. */
   metresPerUnit: number;
-  /** Metres, of a body with pose or position; 0 where they are not known. */
+  /** Half sizes in metres of a body with pose or position; 0 if unknown. */
   halfWidth: number;
   halfLength: number;
-  /** By the paper's count: coefficients that are not zero; as its file says, 0 where that does not. */
+  /** Non-zero coefficients (the paper's count of cost), as stored in the file; 0 if missing. */
   multiplyAddsPerFrame: number;
-  /** All arithmetic of a frame; likewise. */
+  /** All arithmetic operations of a frame, as stored; 0 if missing. */
   operationsPerFrame: number;
-  /** null: nothing blows it out. */
+  /** null: wind does not extinguish it. */
   blowOut: BlowOut | null;
 }
 
-/** Orders of an ARX model: a row for each output. */
+/** Orders of an ARX model: one row per output. */
 export interface ArxFacts {
-  /** What the equations are of: the model's outputs, or components of them. */
+  /** Number of outputs of the equations: the model's outputs, or components of them. */
   outputs: number;
   na: number[][];
   nb: number[][];
   nk: number[][];
-  /** Inputs as the dynamics see them. */
+  /** Number of inputs of the dynamics. */
   regressors: number;
-  /** Steps that the longest lag reaches back. */
+  /** Longest lag, in steps. */
   history: number;
-  /** Sources of noise that outputs share. */
+  /** Number of noise sources shared by outputs. */
   shocks: number;
-  /** Whether the noise is larger in wind. */
+  /** Whether noise is resampled from recorded residuals, larger in wind. */
   resamples: boolean;
   /** Standard deviation of each output's own noise. */
   noise: number[];
 }
 
-/** What a chain is made of. */
+/** Composition of a chain. */
 export interface ChainFacts {
   modes: number;
   segments: { mode: number; steps: number }[];
-  /** Modes that the next one depends on, 1 or 2. */
+  /** Number of modes that the next one depends on, 1 or 2. */
   history: number;
-  /** Order of the response to wind; 0: wind does nothing. */
+  /** Order of the response to wind; 0: no response. */
   gustOrder: number;
   headingFree: boolean;
-  /** Probability of each mode to begin with, and of each mode after each: a row for the mode before. */
+  /** Initial probability of each mode, and transition probabilities: one row per previous mode. */
   initial: number[];
   transitions: number[][];
 }
@@ -110,7 +110,7 @@ function rows<T>(values: ArrayLike<T>, columns: number): T[][] {
   );
 }
 
-/** Made by `Wisp.model()`. Free it when it is no longer needed; banks made from it live on. */
+/** Made by `Wisp.model()`. Free it when it is no longer needed; its banks stay valid. */
 export class Model {
   readonly name: string;
   readonly kind: Dynamics;
@@ -135,14 +135,14 @@ export class Model {
     this.outputs = Array.from({ length: outputs }, (_, k) => this.readChannel('wisp_model_get_output', k));
   }
 
-  /** Makes an empty bank of instances. */
+  /** Creates an empty bank of instances. */
   bank(options: BankOptions = {}): Bank {
     return new Bank(this.native, this.pointer, options, this.kind === 'chain');
   }
 
   /**
-   * The same flame in the round, by rotational symmetry: its wind is two inputs, x to the right of the camera that filmed
-   * it and z towards that camera. Throws where it is no flame of symmetric and antisymmetric components.
+   * The same flame as a body of revolution: its wind is two inputs, x to the right of the camera that filmed it and z
+   * towards that camera. Throws unless it is a flame of symmetric and antisymmetric components.
    */
   inTheRound(): Model {
     const { native } = this;
@@ -155,7 +155,7 @@ export class Model {
     return new Model(native, made);
   }
 
-  /** How the model was made and how good it is. */
+  /** Origin and quality of the model. */
   get provenance(): Provenance {
     const { native, pointer } = this;
     const made = this.read(at.provenance.size, 'wisp_model_get_provenance', (data, p) => ({
@@ -189,7 +189,7 @@ export class Model {
     };
   }
 
-  /** Orders and noise; null where the dynamics are a chain. */
+  /** Orders and noise; null for a chain. */
   get arx(): ArxFacts | null {
     if (this.kind !== 'arx') return null;
     const facts = this.read(at.arxFacts.size, 'wisp_model_get_arx', (data, p) => ({
@@ -210,7 +210,7 @@ export class Model {
     };
   }
 
-  /** Modes, segments and probabilities; null where the dynamics are not a chain. */
+  /** Modes, segments and probabilities; null for other dynamics. */
   get chain(): ChainFacts | null {
     if (this.kind !== 'chain') return null;
     const facts = this.read(at.chainFacts.size, 'wisp_model_get_chain', (data, p) => ({
@@ -228,14 +228,14 @@ export class Model {
     };
   }
 
-  /** Gives the model's memory back. Facts that were read stay; twice is fine. */
+  /** Frees the model's memory. Facts already read stay; may be called twice. */
   free(): void {
     this.native.functions.wisp_model_free!(this.pointer);
     this.pointer = 0;
   }
 
   private static read(native: Native, bytes: Uint8Array): number {
-    // What does not even begin as a model is not copied: a dropped film of many megabytes would stay in memory.
+    // Bytes without a model's signature are not copied, as a dropped film of many megabytes would stay in memory.
     const promising = bytes.length >= 32 && magic.every((byte, k) => bytes[k] === byte);
     const given = promising ? bytes : bytes.subarray(0, 64);
     return native.withRoom(given.length + 4, (room) => {
@@ -294,7 +294,7 @@ export class Model {
     }), index);
   }
 
-  // Has a struct filled, and takes out of it what is wanted.
+  // Fills a struct by an ABI call and extracts values from it.
   private read<T>(size: number, name: string, take: (data: DataView, pointer: number) => T, ...index: number[]): T {
     const { native } = this;
     return native.withRoom(size, (p) => {

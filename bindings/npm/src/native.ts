@@ -1,4 +1,4 @@
-// The WebAssembly module as it is: its functions, its memory, and how it is fetched and started.
+// The raw WebAssembly module: its functions, memory, loading and start.
 
 /** The module's functions: `include/wisp/wisp.h`, with pointers and sizes as numbers and 64-bit numbers as bigint. */
 export type Functions = Record<string, (...values: (number | bigint)[]) => number> & {
@@ -6,7 +6,7 @@ export type Functions = Record<string, (...values: (number | bigint)[]) => numbe
   free(pointer: number): void;
 };
 
-/** What a function of the C ABI answers. */
+/** Return values of C ABI functions. */
 export const Status = {
   ok: 0,
   badArgument: 1,
@@ -16,7 +16,7 @@ export const Status = {
   noMemory: 5,
 } as const;
 
-/** What went wrong, in one sentence, and which kind of wrong it is (`Status`). */
+/** An error as one sentence, with its kind (`Status`). */
 export class WispError extends Error {
   constructor(
     readonly status: number,
@@ -28,26 +28,26 @@ export class WispError extends Error {
   }
 }
 
-/** Where the module's bytes come from, and whether it may use SIMD. */
+/** Source of the module's bytes, and whether SIMD may be used. */
 export interface LoadOptions {
-  /** 'auto' (default): SIMD where the engine has it. The bits are the same either way. */
+  /** 'auto' (default): SIMD where the engine supports it. Results are the same bits either way. */
   simd?: 'auto' | 'on' | 'off';
-  /** The module, instead of the one beside this script. Its `simd` is then what you say it is. */
+  /** The module, instead of the file beside this script. `simd` must then describe it. */
   wasm?: URL | string | Response | BufferSource | WebAssembly.Module;
 }
 
-// A module of one function that returns an i8x16.splat's lane.
+// A module with one function that returns a lane of i8x16.splat.
 const simdProbe = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
 
-/** Whether this engine runs WebAssembly's 128-bit SIMD. */
+/** Whether this engine supports WebAssembly's 128-bit SIMD. */
 export function hasSimd(): boolean {
   return WebAssembly.validate(simdProbe);
 }
 
 async function bytesOfFile(url: URL): Promise<BufferSource> {
-  // By a name that bundlers do not follow: browsers never come here.
+  // A dynamic name that bundlers do not resolve: browsers never reach this line.
   const name = 'node:fs/promises';
   const files = (await import(/* @vite-ignore */ name)) as { readFile(path: URL): Promise<Uint8Array<ArrayBuffer>> };
   return files.readFile(url);
@@ -57,7 +57,7 @@ async function compileResponse(response: Response): Promise<WebAssembly.Module> 
   if (!response.ok) {
     throw new WispError(Status.badData, `${response.url} could not be fetched: ${response.status} ${response.statusText}`);
   }
-  // Streaming needs the right type; a server that does not know WebAssembly still serves its bytes.
+  // Streaming requires the right content type; other servers' bytes are compiled after download.
   if (response.headers.get('content-type')?.startsWith('application/wasm')) {
     return WebAssembly.compileStreaming(response);
   }
@@ -74,7 +74,7 @@ async function compile(source: NonNullable<LoadOptions['wasm']>): Promise<WebAss
   return WebAssembly.compile(source as BufferSource);
 }
 
-/** One running copy of the module, with memory of its own. */
+/** One running instance of the module, with its own memory. */
 export class Native {
   readonly functions: Functions;
   private readonly memory: WebAssembly.Memory;
@@ -99,13 +99,13 @@ export class Native {
 
   static async load(options: LoadOptions): Promise<Native> {
     const simd = options.simd === 'on' || (options.simd !== 'off' && hasSimd());
-    // Written out, so that bundlers see both files.
+    // Both names are literal, so that bundlers find both files.
     const beside = simd ? new URL('./wisp-simd.wasm', import.meta.url) : new URL('./wisp.wasm', import.meta.url);
     const module = await compile(options.wasm ?? beside);
     return new Native(module, simd, await WebAssembly.instantiate(module, Native.imports()));
   }
 
-  /** What the module asks of its host: next to nothing. */
+  /** Imports of the module: almost none. */
   static imports(): WebAssembly.Imports {
     return {
       env: { emscripten_notify_memory_growth: () => {} },
@@ -117,7 +117,7 @@ export class Native {
     };
   }
 
-  /** All of the memory. Views die when it grows, so they are asked for anew each time. */
+  /** All of the memory. Views become invalid when it grows, so they are made anew on each call. */
   get bytes(): Uint8Array<ArrayBuffer> {
     this.follow();
     return this.bytesView;
@@ -136,7 +136,7 @@ export class Native {
     return new Float64Array(this.memory.buffer as ArrayBuffer, pointer, count);
   }
 
-  /** Whether a view that was made earlier still shows the memory. */
+  /** Whether a view made earlier is still valid. */
   isCurrent(view: ArrayBufferView): boolean {
     return view.buffer === this.memory.buffer;
   }
@@ -148,7 +148,7 @@ export class Native {
     this.dataView = new DataView(this.buffer);
   }
 
-  /** Room in the module's memory. Throws when there is none. */
+  /** Allocates memory in the module. Throws when there is none. */
   allocate(bytes: number): number {
     const pointer = this.functions.malloc(Math.max(bytes, 8));
     if (pointer === 0) throw new WispError(Status.noMemory, `there is no memory for ${bytes} bytes`);
@@ -159,7 +159,7 @@ export class Native {
     this.functions.free(pointer);
   }
 
-  /** Lends room for the time of a call. */
+  /** Allocates memory for the duration of a call. */
   withRoom<T>(bytes: number, use: (pointer: number) => T): T {
     const pointer = this.allocate(bytes);
     try {
@@ -169,18 +169,18 @@ export class Native {
     }
   }
 
-  /** Text that ends in a zero byte. */
+  /** Reads zero-terminated text. */
   text(pointer: number): string {
     const bytes = this.bytes;
     return this.decoder.decode(bytes.subarray(pointer, bytes.indexOf(0, pointer)));
   }
 
-  /** Throws what a function of the C ABI says is wrong. */
+  /** Throws the error of a C ABI function's status. */
   check(status: number): void {
     if (status !== Status.ok) throw new WispError(status, this.text(this.functions.wisp_last_error!()));
   }
 
-  /** Calls what may allocate; a module that found no memory has stopped for good. */
+  /** Runs work that may allocate; after an out-of-memory error the module is unusable. */
   allocating<T>(work: () => T): T {
     try {
       return work();

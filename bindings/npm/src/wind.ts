@@ -1,22 +1,22 @@
-// The wind that a microphone hears, from samples.
+// The wind estimator: wind from a microphone's samples.
 
 import * as at from './layout.js';
 import { Native } from './native.js';
 
 export interface WindOptions {
-  /** Samples a second of each channel, 8000 to 192000. */
+  /** Sampling rate of each channel, 8000 to 192000 Hz. */
   sampleRate: number;
-  /** Interleaved channels, 1 to 8; default 1. */
+  /** Number of interleaved channels, 1 to 8; default 1. */
   channels?: number;
-  /** Frames of wind a second, 1 to 1000; default 60. */
+  /** Frames of wind per second, 1 to 1000; default 60. */
   frameRate?: number;
-  /** Wind speed goes as the sound's RMS to this power, 0.1 to 2; default 0.5. */
+  /** Exponent of the sound's RMS that gives wind speed, 0.1 to 2; default 0.5. */
   exponent?: number;
-  /** Mean of the level over this time, 0 to 1 s; default 0. */
+  /** Averaging time of the level, 0 to 1 s; default 0. */
   smoothingSeconds?: number;
-  /** How fast the background is believed to grow, 0 to 60; default 1. */
+  /** Maximum rise of the background, dB a second, 0 to 60; default 1. */
   floorRiseDbPerSecond?: number;
-  /** Wind 1 before any blowing was heard, full scale 1; default 0.05. */
+  /** Initial RMS of wind 1, full scale 1; default 0.05. */
   firstGustRms?: number;
 }
 
@@ -28,32 +28,32 @@ export interface WindFrame {
   level: number;
   /** Proportional to wind speed; 1 is the 95th percentile while it blows. */
   speed: number;
-  /** A model's input: speed where it sounds like blowing, 0 where nothing is heard. */
+  /** Input for a model: speed where it sounds like blowing, 0 in silence. */
   wind: number;
-  /** 0 to 1: this is blowing, not talking. */
+  /** Confidence from 0 to 1 that the sound is blowing, not talking. */
   confidence: number;
   background: number;
   /** Share of samples at full scale. */
   clipped: number;
 }
 
-/** What a microphone in a room was found to be: kept, it spares the next start the finding. */
+/** Calibration of a microphone in a room; stored, it saves the next start from estimating it. */
 export interface WindCalibration {
   backgroundRms: number;
   backgroundLevel: number;
   floorDb: number;
-  /** 0: not known yet. */
+  /** 0: unknown. */
   gustRms: number;
 }
 
-/** What a guided calibration asks of whoever sits at the microphone, in the order of WISP_WIND_*. */
+/** Requests of a guided calibration to the user, in the order of WISP_WIND_*. */
 export const windAsks = ['breathe gently', 'blow hard'] as const;
 export type WindAsk = (typeof windAsks)[number];
 
 const samplesAtOnce = 4096;
 const framesAtOnce = 64;
 
-/** Made by `Wisp.windLevel()`. Frames do not depend on how the sound is cut into blocks. */
+/** Made by `Wisp.windLevel()`. Frames do not depend on the block size of the sound. */
 export class WindLevel {
   private pointer: number;
   private readonly samples: number;
@@ -92,8 +92,8 @@ export class WindLevel {
   }
 
   /**
-   * Takes interleaved samples, ±1 or 16 bits. Returns the frames that they complete.
-   * Throws when their count is not a multiple of the channels.
+   * Takes interleaved samples, ±1 or 16 bits. Returns the frames completed by them.
+   * Throws when their number is not a multiple of the channels.
    */
   feed(samples: Float32Array | Int16Array): WindFrame[] {
     this.living();
@@ -121,7 +121,7 @@ export class WindLevel {
     }
   }
 
-  /** The latest frame made; all zero before the first. */
+  /** The latest frame; all zero before the first. */
   get latest(): WindFrame {
     this.living();
     this.check(this.native.functions.wisp_wind_latest!(this.pointer, this.frames));
@@ -133,19 +133,19 @@ export class WindLevel {
     if (typeof ask === 'string') this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
-  /** Whether that time is still running. */
+  /** Whether a calibration is running. */
   get calibrating(): boolean {
     return this.native.functions.wisp_wind_calibrating!(this.pointer) === 1;
   }
 
-  /** Whether the last calibration is over and heard the requested sound. */
+  /** Whether the last calibration has ended and heard the requested sound. */
   get calibrated(): boolean {
     return this.native.functions.wisp_wind_calibrated!(this.pointer) === 1;
   }
 
   /**
-   * How much louder the room is by now than in its first seconds or ever since, dB, not below 0. From 6 on something
-   * steady has begun (rain, a fan) that may be taken for wind; after reset() it is the room.
+   * Rise of the room's level over its first seconds, or over its minimum since then, dB, ≥ 0. From 6 on something
+   * steady (rain, a fan) may be mistaken for wind; after reset() it counts as the room.
    */
   get roomRise(): number {
     return this.native.functions.wisp_wind_room_rise!(this.pointer);
@@ -176,17 +176,17 @@ export class WindLevel {
     this.check(native.functions.wisp_wind_set_calibration!(this.pointer, p));
   }
 
-  /** Seconds between wind and the frame that tells of it, beyond the frame itself. */
+  /** Seconds from wind to its frame, beyond the frame itself. */
   get latencySeconds(): number {
     return this.native.functions.wisp_wind_latency!(this.pointer);
   }
 
-  /** Forgets everything but the options. */
+  /** Resets everything except the options. */
   reset(): void {
     this.check(this.native.functions.wisp_wind_reset!(this.pointer));
   }
 
-  /** Gives its memory back; twice is fine. */
+  /** Frees its memory; may be called twice. */
   free(): void {
     if (this.pointer === 0) return;
     this.native.functions.wisp_wind_free!(this.pointer);
@@ -198,7 +198,7 @@ export class WindLevel {
     this.native.check(status);
   }
 
-  // A freed estimator has no room to write into either.
+  // A freed estimator has no sample buffer either.
   private living(): void {
     if (this.pointer === 0) this.check(this.native.functions.wisp_wind_reset!(0));
   }

@@ -1,19 +1,19 @@
-// The wind estimator off the main thread: an AudioWorklet processor with a copy of the WebAssembly module of its own.
+// The wind estimator off the main thread: an AudioWorklet processor with its own instance of the WebAssembly module.
 //
-// One file without imports: bundlers copy what AudioWorklet.addModule() loads as it is. The numbers are those of
-// layout.ts, which a compile-time check holds to the C ABI; a test holds these to layout.ts.
+// One file without imports, as bundlers copy the file of AudioWorklet.addModule() unchanged. Its numbers equal those of
+// layout.ts (a test compares them), which a compile-time check compares with the C ABI.
 
-/** What the processor is made with (`processorOptions`). */
+/** Options of the processor (`processorOptions`). */
 export interface WindProcessorOptions {
-  /** As from `Wisp.module`. */
+  /** The module, as from `Wisp.module`. */
   module: WebAssembly.Module;
-  /** Frames of wind a second. */
+  /** Frames of wind per second. */
   frameRate: number;
-  /** What was known of this microphone and room before. */
+  /** Earlier calibration of this microphone and room. */
   calibration?: { backgroundRms: number; backgroundLevel: number; floorDb: number; gustRms: number };
 }
 
-/** What it says: a frame of wind, a calibration that has ended, the one that was asked for, or why it does not work. */
+/** Messages: a frame of wind, the end of a calibration, a requested calibration, or an error. */
 export type WindMessage =
   | {
       type: 'wind';
@@ -25,9 +25,9 @@ export type WindMessage =
       rms: number;
       background: number;
       clipped: number;
-      /** How much louder the room is than it was, dB. */
+      /** Rise of the room's level, dB. */
       roomRise: number;
-      /** The audio clock at the end of the block that completed the frame, seconds. */
+      /** Audio time at the end of the block that completed the frame, seconds. */
       time: number;
     }
   | { type: 'calibration'; known: NonNullable<WindProcessorOptions['calibration']> }
@@ -39,7 +39,7 @@ export type WindMessage =
     }
   | { type: 'failed'; message: string };
 
-/** What it can be told. */
+/** Commands to the processor. */
 export type WindCommand =
   /** `ask`: one of WISP_WIND_*. */
   | { type: 'calibrate'; seconds: number; ask: number }
@@ -56,7 +56,7 @@ declare function registerProcessor(name: string, processor: new (options: AudioW
 
 type Functions = Record<string, (...values: number[]) => number>;
 
-// A block of 128 samples is all that comes today; engines may let it grow.
+// Blocks have 128 samples today; engines may allow more.
 const maxSamples = 4096;
 const maxFrames = 16;
 const frameBytes = 40;
@@ -88,7 +88,7 @@ class Ears {
     return this.functions.wisp_wind_calibrating!(this.wind) === 1;
   }
 
-  /** Feeds a block of one channel. Calls `each` with where a frame that it completed lies. */
+  /** Feeds a block of one channel. Calls `each` with the position of every frame it completed. */
   feed(block: Float32Array, each: (data: DataView, at: number) => void): void {
     new Float32Array(this.memory.buffer, this.samples, block.length).set(block);
     for (let taken = 0; taken < block.length; ) {
@@ -129,7 +129,7 @@ class Ears {
   }
 
   private create(frameRate: number): number {
-    // Options first, then the pointer to what was made; 64 bytes hold both.
+    // Memory layout: options first, then the pointer to the estimator; 64 bytes hold both.
     this.functions.wisp_wind_default_options!(this.scratch);
     const data = new DataView(this.memory.buffer);
     data.setFloat64(this.scratch + 8, sampleRate, true);
@@ -150,7 +150,7 @@ class Ears {
 
   private check(status: number): void {
     if (status === 0) return;
-    // There is no TextDecoder in a worklet; the ABI's sentences about wind are plain ASCII.
+    // Worklets have no TextDecoder; the ABI's sentences about wind are plain ASCII.
     const bytes = new Uint8Array(this.memory.buffer);
     const from = this.functions.wisp_last_error!();
     throw new Error(String.fromCharCode(...bytes.subarray(from, bytes.indexOf(0, from))));
@@ -170,7 +170,7 @@ class WindProcessor extends AudioWorkletProcessor {
     this.port.onmessage = (event: MessageEvent<WindCommand>) => this.guarded(() => this.obey(event.data));
   }
 
-  /** Called by the engine with each block; false lets the processor go. */
+  /** Called by the engine with each block; false releases the processor. */
   process(inputs: Float32Array[][]): boolean {
     const channels = inputs[0];
     if (this.ears && channels && channels.length > 0) this.guarded(() => this.listen(channels));
@@ -201,7 +201,7 @@ class WindProcessor extends AudioWorkletProcessor {
     this.wasCalibrating = ears.calibrating;
   }
 
-  // Microphones are asked for one channel; one that gives more is heard as their mean.
+  // One channel is requested of microphones; several are averaged.
   private mix(channels: Float32Array[]): Float32Array {
     if (channels.length === 1) return channels[0]!;
     const length = channels[0]!.length;

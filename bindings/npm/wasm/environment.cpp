@@ -1,5 +1,5 @@
-// The C library asks for environment variables when it starts. There are none here, and a host need not have a place to
-// ask.
+// Replaces the C library's read of environment variables at start: there are none, so that the host need not provide a
+// function for it.
 
 #include <cstddef>
 #include <cstdint>

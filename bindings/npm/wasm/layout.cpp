@@ -1,4 +1,4 @@
-// Holds the compiler to the numbers of src/layout.ts: where the fields of the ABI's structs lie.
+// Checks at compile time that the offsets in src/layout.ts are those of the ABI's structs.
 
 #include <cstddef>
 

@@ -1,6 +1,5 @@
-// Where memory comes from in WebAssembly. Without exceptions the C++ library would hand out null and go on, and address
-// 0 is memory like any other there: want of memory must stop the module. Where it can be said instead, nothrow is
-// asked.
+// Allocation in WebAssembly. Without exceptions the C++ library would return null on failure, and address 0 is ordinary
+// memory here, so failure must stop the module. Code that can report it uses nothrow.
 
 #include <cstdlib>
 #include <new>

@@ -1,5 +1,5 @@
-// The sentences of errors, without the C library's printf, which is more than 3 kB of what a page fetches: of its
-// formats those that this library uses. They are %s, %u, %zu, %016llx, and the %f of std::to_string().
+// Formats error sentences without the C library's printf, which would add over 3 kB to the download. It supports the
+// formats used here: %s, %u, %zu, %016llx, and the %f of std::to_string().
 
 #include <cmath>
 #include <cstdarg>
@@ -27,7 +27,7 @@ class Words {
     }
     while (count > 0) add(digits[--count]);
   }
-  // Six decimals. Of what has more than 18 digits before them the first ones.
+  // Writes six decimals. Of numbers with more than 18 digits before the point, the first digits.
   void add(double number) {
     if (std::isnan(number)) return add("nan");
     if (std::signbit(number)) add('-');
@@ -69,7 +69,7 @@ extern "C" int vsnprintf(char* out, std::size_t room, const char* format, std::v
     }
     while (*++format == 'z' || *format == 'l' || *format == '0' || *format == '1' || *format == '6') continue;
     if (*format == 's') words.add(va_arg(values, const char*));
-    if (*format == 'u') words.add(std::uint64_t{va_arg(values, unsigned)}, 10, 1);  // a size_t is no larger here
+    if (*format == 'u') words.add(std::uint64_t{va_arg(values, unsigned)}, 10, 1);  // size_t is no larger here
     if (*format == 'x') words.add(va_arg(values, unsigned long long), 16, 16);
     if (*format == 'f') words.add(va_arg(values, double));
   }

@@ -13,7 +13,7 @@ for _each in vars(_wisp).copy().values():
         _each.__module__ = "wisp"
 Error = _wisp.Error
 
-# Films need FFmpeg's libraries. They are loaded at their first use, so that learning and playing work without them.
+# Films need FFmpeg's libraries. They are loaded at first use, so that learning and playing work without them.
 _of_films = ("capture", "Captured", "ClipCapture", "FlameCapture")
 
 

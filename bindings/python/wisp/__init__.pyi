@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Path = Union[str, os.PathLike[str]]
-# Hears the stage and its share that is done (negative: unknown); False ends the work.
+# Called with the stage and its finished share (negative: unknown); returning False stops the work.
 Progress = Optional[Callable[[str, float], Optional[bool]]]
 
 __version__: str

@@ -1,16 +1,16 @@
-// The modules themselves: capture, learn and validate, one call after the other. In a page a worker has them; Node may call
-// them where they stand.
+// The modules that capture, learn and validate, one call at a time. A page runs them in a worker; Node may call them
+// directly.
 
 import { compiled, Module } from './module.js';
 import type { Captured, Learned, PictureSettings, Recipe, Region, Seen, Series, TableSettings } from './types.js';
 
-/** A picture as decoders lay it out. */
+/** A picture in a decoder's layout. */
 export interface RawPicture {
   layout: 'grey' | 'yuv' | 'rgb';
   width: number;
   height: number;
   data: Uint8Array;
-  /** one for grey, else three: where in `data` it begins, bytes a row, bytes from pixel to pixel */
+  /** one plane for grey, else three: offset in `data`, bytes per row, bytes per pixel */
   planes: { offset: number; stride: number; step: number }[];
   /** colour planes are 2^shift times smaller */
   shiftX?: number;
@@ -19,12 +19,12 @@ export interface RawPicture {
   bt709?: boolean;
 }
 
-/** What is captured, and from where. */
+/** Settings of a capture, and its source. */
 export interface CaptureSettings extends PictureSettings {
   name: string;
   /** frames a second */
   rate: number;
-  /** pictures, which have no sound */
+  /** numbered pictures, without sound */
   pictures?: boolean;
 }
 
@@ -47,11 +47,11 @@ type ReportText = Pick<Learned, 'report' | 'curves' | 'text'>;
 type RecordingText = Omit<Captured, 'csv' | 'series'> & { series: Omit<Series, 'samples'>[] };
 
 /**
- * Of `studio.wasm`: captures, and learns and judges everything but chains. Of `chains.wasm`: learns and judges chains and
- * leaves, from recordings. Each throws `Elsewhere` for what the other learns.
+ * `studio.wasm` captures, and learns and judges everything but chains. `chains.wasm` learns and judges chains and
+ * leaves, from recordings. Each throws `Elsewhere` for models of the other.
  */
 export class Engine extends Module {
-  /** Told of progress; returns whether to go on. */
+  /** Receives progress; returns whether to continue. */
   onProgress: (stage: string, share: number) => boolean = () => true;
   private frameAt = 0;
   private frameBytes = 0;
@@ -63,12 +63,12 @@ export class Engine extends Module {
     return new Engine(await compiled(module));
   }
 
-  /** Begins a capture; one that was going on is given up. */
+  /** Begins a capture; a running one is abandoned. */
   begin(settings: CaptureSettings): void {
     this.withText(JSON.stringify(settings), (at, size) => this.call('studio_begin', at, size));
   }
 
-  /** The next frame, and its time on any clock; or, before the first, a glimpse from anywhere in the clip. */
+  /** Takes the next frame with its time on any clock; or, before the first, a glimpse from anywhere in the clip. */
   frame(picture: RawPicture, seconds: number, glimpse = false): void {
     const { data, planes, width, height } = picture;
     this.width = width;
@@ -91,13 +91,13 @@ export class Engine extends Module {
     );
   }
 
-  /** The next sound, interleaved; of the first block `begin` counts, seconds after the first frame. */
+  /** Takes the next sound, interleaved; `begin` is used for the first block: seconds after the first frame. */
   sound(samples: Float32Array, channels: number, rate: number, begin: number): void {
     const bytes = new Uint8Array(samples.buffer, samples.byteOffset, samples.byteLength);
     this.withBytes(bytes, (at) => this.call('studio_sound', at, samples.length, channels, rate, begin));
   }
 
-  /** What the frames so far have shown. */
+  /** Findings in the frames so far. */
   seen(): Seen {
     this.call('studio_seen');
     const text = JSON.parse(this.text()) as SeenText;
@@ -123,7 +123,7 @@ export class Engine extends Module {
     return this.recording();
   }
 
-  /** Reads a recording or a table; its report, with `advise`, says what will spoil a model, and cures. */
+  /** Reads a recording or table; its report, with `advise`, lists defects that will harm a model, with remedies. */
   table(name: string, bytes: Uint8Array, settings: TableSettings = {}, how: 'table' | 'advise' = 'table'): Captured {
     this.read(`studio_${how}`, bytes, { ...settings, name });
     return this.recording();
@@ -149,7 +149,7 @@ export class Engine extends Module {
     for (const [k, bytes] of recordings.entries()) this.read('studio_add', bytes, { name: names[k] ?? 'recording.csv' });
   }
 
-  /** Hands a table to a function that reads it. */
+  /** Passes a table to a function that reads it. */
   private read(by: string, bytes: Uint8Array, settings: TableSettings & { name: string }): void {
     this.withBytes(bytes, (at, size) => this.withText(JSON.stringify(settings), (words, length) => this.call(by, at, size, words, length)));
   }

@@ -1,11 +1,11 @@
-// The module that makes files for other tools of a model.
+// The module that converts models to files for other tools.
 
 import { compiled, Module } from './module.js';
 import type { Exported, ExportSettings } from './types.js';
 
 const FORMATS = { glb: 0, json: 1, c: 2 } as const;
 
-/** As the program has them. */
+/** Defaults, equal to the program's. */
 const DEFAULTS = { seconds: 4, instances: 1, wind: 0, seed: 1, height: 512 } as const;
 
 export class Exporter extends Module {
@@ -13,7 +13,7 @@ export class Exporter extends Module {
     return new Exporter(await compiled(module));
   }
 
-  /** The files that the program's `export` writes, to the byte. Throws a StudioError that says why there are none. */
+  /** The files of the program's `export`, byte for byte. Throws a StudioError with the reason where there are none. */
   files(model: Uint8Array, settings: ExportSettings): Exported[] {
     const { format, name, loop } = settings;
     const { seconds, instances, wind, seed, height } = { ...DEFAULTS, ...settings };

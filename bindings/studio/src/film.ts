@@ -1,29 +1,29 @@
-// Films: taken apart by Mediabunny, decoded by the browser, frame by frame and block by block.
+// Films: demultiplexed by Mediabunny, decoded by the browser, frame by frame and block by block.
 
 import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, UnsupportedInputFormatError, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
 import type { CaptureSettings, Engine, RawPicture } from './engine.js';
 import { StudioError } from './module.js';
 import { rawOfFrame } from './pictures.js';
 
-/** What cameras and phones write, and browsers. */
+/** Formats written by cameras, phones and browsers. */
 const FORMATS = [MP4, QTFF, MATROSKA, WEBM];
 
-/** Places over the whole film that are looked at first. */
+/** Number of glimpses over the whole film before the first frame. */
 const GLIMPSES = 4;
 
-/** Rates that cameras have: a clock's rounding is not a rate of its own. */
+/** Rates of cameras; a rate within rounding of one of these is taken as it. */
 const RATES = [24_000 / 1001, 24, 25, 30_000 / 1001, 30, 48, 50, 60_000 / 1001, 60, 90, 100, 120_000 / 1001, 120, 240_000 / 1001, 240];
 
 /**
- * The rate of the grid that frames lie on: the camera's, by the usual time between frames, while not too many of its
- * frames were lost; else the mean rate.
+ * Rate of the frames' grid: the camera's, from the usual interval between frames, unless too many of its frames were
+ * lost; then the mean rate.
  */
 export function gridRate(times: readonly number[]): number {
   const sorted = [...times].sort((a, b) => a - b);
   const steps = sorted.slice(1).map((time, k) => time - sorted[k]!).filter((step) => step > 1e-4);
   if (steps.length === 0) return 0;
   const mean = (times.length - 1) / (sorted.at(-1)! - sorted[0]!);
-  // Times are rounded to a millisecond in some files: the usual step is a mean over those near the middle one.
+  // Some files round times to a millisecond: the usual interval is a mean over intervals near the median.
   const middle = steps.toSorted((a, b) => a - b)[steps.length >> 1]!;
   const usual = steps.filter((step) => Math.abs(step - middle) < 0.2 * middle);
   const nominal = usual.length / usual.reduce((sum, step) => sum + step, 0);
@@ -32,7 +32,7 @@ export function gridRate(times: readonly number[]): number {
   return rate / mean < 1.5 ? rate : mean;
 }
 
-/** Why a file shows nothing, and what to do. */
+/** Reason why a file cannot be shown, and what to do. */
 function unreadable(name: string, error: unknown): StudioError {
   if (error instanceof UnsupportedInputFormatError) {
     return new StudioError(`${name} is not a film that can be read here. MP4, MOV, WebM and MKV can: convert it to MP4, or give another`);
@@ -40,14 +40,14 @@ function unreadable(name: string, error: unknown): StudioError {
   return new StudioError(`${name} is damaged: ${error instanceof Error ? error.message : String(error)}; give another copy of it`);
 }
 
-/** Films without one are of sound alone, or end before MP4 says where everything is. */
+/** Error for files without pictures: sound only, or an MP4 truncated before its index. */
 async function withoutPicture(name: string, input: Input): Promise<StudioError> {
   const tracks = await input.getTracks();
   if (tracks.length > 0) return new StudioError(`${name} has sound and no picture: give a film`);
   return new StudioError(`${name} is cut off: its end, where it says what is in it, is missing; copy the whole film, or give another`);
 }
 
-/** What cameras call them. */
+/** Names of codecs in cameras. */
 const CODECS: Readonly<Record<string, string>> = { hevc: 'HEVC (H.265)', avc: 'H.264', av1: 'AV1', vp8: 'VP8', vp9: 'VP9' };
 
 function undecodable(name: string, codec: string | null): StudioError {
@@ -61,7 +61,7 @@ async function timesOf(track: InputVideoTrack): Promise<number[]> {
   return times;
 }
 
-/** Key frames at the ends of the film's quarters. */
+/** Passes key frames at the ends of the film's quarters to the engine. */
 async function glimpse(engine: Engine, track: InputVideoTrack, first: number, last: number, stated: VideoColorSpaceInit): Promise<void> {
   const packets = new EncodedPacketSink(track);
   const frames = new VideoSampleSink(track);
@@ -79,7 +79,7 @@ async function glimpse(engine: Engine, track: InputVideoTrack, first: number, la
   }
 }
 
-/** Hands the film's sound on, if it has any that can be decoded. Returns why not, or nothing. */
+/** Passes the film's sound to the engine if it can be decoded. Returns the reason if not, else ''. */
 async function hear(engine: Engine, input: Input, first: number): Promise<string> {
   const track = await input.getPrimaryAudioTrack();
   if (track === null) return '';

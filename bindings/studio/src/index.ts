@@ -1,4 +1,4 @@
-// Learning in the background: films, cameras and tables go in, models come out, and nothing leaves the machine.
+// Learning in the background: films, cameras and tables in, models out; no data leaves the machine.
 
 export type * from './types.js';
 export { StudioError } from './module.js';

@@ -1,4 +1,4 @@
-// What passes between a page and its worker.
+// Messages between a page and its worker.
 
 import type { CaptureSettings } from './engine.js';
 import type { Captured, Exported, ExportSettings, Learned, PictureSettings, Recipe, Seen, TableSettings } from './types.js';
@@ -14,7 +14,7 @@ export type Task =
   | { do: 'live'; settings: CaptureSettings }
   | { do: 'finish' };
 
-/** A task, what a live capture is fed, or that what was seen is on the screen; all bear the number of the work that they belong to. */
+/** A task, input of a live capture, or notice that a picture was drawn; each has the number of its work. */
 export type ToWorker =
   | { of: number; task: Task }
   | { of: number; shown: true }

@@ -1,27 +1,27 @@
-// A module of WebAssembly of the studio's: its memory, its calls, and what it asks for.
+// A WebAssembly module of the studio: its memory, calls and imports.
 
 type Functions = Record<string, (...values: number[]) => number>;
 
-/** Why something could not be done, in a sentence. */
+/** Reason of a failure, as a sentence. */
 export class StudioError extends Error {
   override name = 'StudioError';
 }
 
-/** What was wanted is done by the other module that learns. */
+/** Thrown where the other learning module is responsible. */
 export class Elsewhere extends StudioError {}
 
 const ELSEWHERE = 2;
 const NO_MEMORY = 'there is not enough memory for this: give a shorter film, or a smaller picture';
 const FAULT = 'Wisp stopped at a fault of its own; what was gathered before is kept. A report with this file would help to mend it';
 
-/** A module from its bytes, where it is not one yet. */
+/** Compiles a module from its bytes, unless it is compiled already. */
 export async function compiled(module: WebAssembly.Module | BufferSource): Promise<WebAssembly.Module> {
   return module instanceof WebAssembly.Module ? module : WebAssembly.compile(module);
 }
 
 /**
- * What an error that is no sentence means. Stacks that overflow are faults; whatever else browsers call out of range is
- * memory that they do not give.
+ * Meaning of an error without a sentence. Stack overflows are faults; other range errors of browsers mean that they
+ * refuse memory.
  */
 export function sentenceOf(error: unknown): unknown {
   if (error instanceof WebAssembly.RuntimeError || (error instanceof RangeError && /stack/i.test(error.message))) {
@@ -30,7 +30,7 @@ export function sentenceOf(error: unknown): unknown {
   return error instanceof RangeError ? new StudioError(NO_MEMORY, { cause: error }) : error;
 }
 
-/** Does something with memory; what it throws is a sentence. A module that failed so is of no more use. */
+/** Runs work that needs memory, and throws failures as sentences. After such a failure the module is unusable. */
 export function told<T>(work: () => T): T {
   try {
     return work();
@@ -50,17 +50,17 @@ export class Module {
     this.functions._initialize?.();
   }
 
-  /** Bytes of memory that it has by now; it grows and never shrinks. */
+  /** Current size of its memory in bytes; it grows and never shrinks. */
   get memoryBytes(): number {
     return this.memory.buffer.byteLength;
   }
 
-  /** Told of progress; returns whether to go on. */
+  /** Receives progress; returns whether to continue. */
   protected progress(_stage: string, _share: number): boolean {
     return true;
   }
 
-  /** Calls a function that answers, and throws the sentence where it fails. */
+  /** Calls a function with an answer, and throws its sentence on failure. */
   protected call(name: string, ...values: number[]): void {
     const asked = this.functions[name];
     if (asked === undefined) throw new Elsewhere('this module learns and does not capture; studio.wasm does');
@@ -104,7 +104,7 @@ export class Module {
     this.withBytes(new TextEncoder().encode(text), use);
   }
 
-  /** What the module asks for: progress is told, and what an operating system would do is not done. */
+  /** Imports of the module: progress is reported, and calls to an operating system fail. */
   private imports(module: WebAssembly.Module): WebAssembly.Imports {
     const imports: WebAssembly.Imports = {};
     const progress = (at: number, size: number, share: number): number => Number(this.progress(new TextDecoder().decode(this.bytes(at, size)), share));
@@ -116,12 +116,12 @@ export class Module {
   }
 }
 
-/** Ends the call that wants more memory than there is. What the module held is lost with it. */
+/** Ends a call that needs more memory than there is. The module's data are lost. */
 function outOfMemory(): never {
   throw new StudioError(NO_MEMORY, { cause: 'memory' });
 }
 
-/** There are no files, no clock and no environment. */
+/** Stub for a system call: there are no files, no clock and no environment. */
 function absent(name: string): () => number {
   if (name === 'emscripten_notify_memory_growth') return () => 0;
   const BAD_DESCRIPTOR = 8;

@@ -1,10 +1,10 @@
-// A decoder of films that does not run ahead of who looks at them. Mediabunny hands a decoder forty packets while no frame is
-// out, and each comes back as a frame that waits: 55 MB at 720p, 120 MB at 1080p. Here the packets wait.
+// A film decoder that does not run ahead of analysis. Mediabunny passes forty packets to a decoder while no frame is
+// out, and all would wait as frames: 55 MB at 720p, 120 MB at 1080p. Here packets wait instead.
 
-/** Frames that are out and not closed yet. Decoding and looking still go on at once. */
+/** Maximum number of open frames; decoding and analysis still overlap. */
 const MAX_FRAMES = 4;
 
-/** The browser's own decoder, so paced. */
+/** The browser's decoder class with that pacing. */
 export function paced(Native: typeof VideoDecoder): typeof VideoDecoder {
   return class PacedDecoder extends Native {
     private readonly waiting: EncodedVideoChunk[] = [];
@@ -23,7 +23,7 @@ export function paced(Native: typeof VideoDecoder): typeof VideoDecoder {
       this.addEventListener('dequeue', () => this.feed());
     }
 
-    /** Packets that are no frames yet, those that wait here too. */
+    /** Number of packets not yet decoded, including those waiting here. */
     override get decodeQueueSize(): number {
       return this.waiting.length + super.decodeQueueSize;
     }

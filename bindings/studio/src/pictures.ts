@@ -1,17 +1,17 @@
-// Decoded frames as the planes that they already have.
+// Decoded frames as pictures that use the frames' own planes.
 
 import type { RawPicture } from './engine.js';
 
-/** More pixels than this are made fewer: a flame's edge is known to a tenth of a pixel. */
+/** Maximum number of pixels, above which a picture is reduced: a flame's edge is located to a tenth of a pixel. */
 const MAX_PIXELS = 3840 * 2160;
 
 const SHIFTS: Record<string, [number, number]> = { I420: [1, 1], I422: [1, 0], I444: [0, 0], NV12: [1, 1] };
 
 let canvas: OffscreenCanvas | null = null;
-/** Where a frame's planes are put: each would else leave a megabyte to be collected. */
+/** Reused buffer for a frame's planes, which avoids a megabyte of garbage per frame. */
 let room = new Uint8Array(0);
 
-/** What a canvas shows, as packed colours. */
+/** Contents of a canvas as packed colours. */
 function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderingContext2D) => void): RawPicture {
   if (canvas === null || canvas.width !== width || canvas.height !== height) canvas = new OffscreenCanvas(width, height);
   const on = canvas.getContext('2d', { willReadFrequently: true })!;
@@ -28,7 +28,7 @@ function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderin
  */
 export const isBt709 = (stated: VideoColorSpaceInit | undefined, frame: VideoColorSpaceInit): boolean => (stated ?? frame).matrix === 'bt709';
 
-/** A frame of a decoder or a camera, which stands until the next. `turn`: degrees clockwise by which it is to be shown. */
+/** A frame of a decoder or camera, valid until the next. `turn`: clockwise rotation in degrees for display. */
 export async function rawOfFrame(frame: VideoFrame, turn = 0, stated?: VideoColorSpaceInit): Promise<RawPicture> {
   const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
   const shifts = SHIFTS[frame.format ?? ''];
@@ -48,7 +48,7 @@ export async function rawOfFrame(frame: VideoFrame, turn = 0, stated?: VideoColo
   return turn === 0 ? picture : turned(picture, turn / 90);
 }
 
-/** The same picture turned clockwise by quarters, plane by plane. */
+/** The picture rotated clockwise by quarter turns, plane by plane. */
 function turned(picture: RawPicture, quarters: number): RawPicture {
   const sideways = quarters % 2 !== 0;
   const { width, height, data, shiftX = 0, shiftY = 0 } = picture;
@@ -58,7 +58,7 @@ function turned(picture: RawPicture, quarters: number): RawPicture {
   const planes = picture.planes.map(({ offset, stride, step }, k) => {
     const [wide, tall] = sizes[k === 0 ? 0 : 1];
     const plane = { offset: next, stride: sideways ? tall : wide, step: 1 };
-    // What stands at the end of a row or of a column comes first.
+    // The end of a row or column comes first.
     const [outWidth, outHeight] = sideways ? [tall, wide] : [wide, tall];
     const [first, along, down] =
       quarters === 1 ? [offset + (tall - 1) * stride, -stride, step]

@@ -1,10 +1,9 @@
-// The small picture of a frame that is shown while a film is looked at, made of the frame's own planes. Drawn on a canvas, a
-// frame goes through the graphics card: where that is software, it and the worker want both cores, and the page draws five
-// pictures a second.
+// Small preview of a frame, made of the frame's own planes. Drawing a frame to a canvas uses the graphics card; where
+// that is software, it competes with the worker for two cores, and the page draws five pictures a second.
 
 import type { RawPicture } from './engine.js';
 
-/** Colours that ImageData takes. */
+/** A picture in the format of ImageData. */
 export interface SmallPicture {
   width: number;
   height: number;
@@ -12,16 +11,16 @@ export interface SmallPicture {
   data: Uint8ClampedArray<ArrayBuffer>;
 }
 
-/** Where small pictures and their planes are made: ten a second would else leave ten megabytes to be collected. */
+/** Reused buffers for previews and their planes, which avoid ten megabytes of garbage per second. */
 const rooms: Uint8ClampedArray<ArrayBuffer>[] = [];
 
-/** The k-th, of that many bytes. */
+/** The k-th buffer, with at least that many bytes. */
 function roomFor(k: number, bytes: number): Uint8ClampedArray<ArrayBuffer> {
   const room = rooms[k];
   return room?.length === bytes ? room : (rooms[k] = new Uint8ClampedArray(bytes));
 }
 
-/** The picture with at most `most` pixels to a side: each is the mean of those that it stands for. It stands until the next. */
+/** Preview with at most `most` pixels per side, each the mean of the pixels that it covers; valid until the next. */
 export function smallPicture(picture: RawPicture, most: number): SmallPicture {
   const share = Math.min(1, most / Math.max(picture.width, picture.height));
   const [width, height] = [Math.max(1, Math.round(picture.width * share)), Math.max(1, Math.round(picture.height * share))];
@@ -41,10 +40,10 @@ export function smallPicture(picture: RawPicture, most: number): SmallPicture {
   return { width, height, data };
 }
 
-/** Where each of `to` parts of `from` pixels begins, and the last ends. */
+/** Boundaries of `to` equal parts of `from` pixels. */
 const edges = (from: number, to: number): Int32Array => Int32Array.from({ length: to + 1 }, (_, k) => Math.floor((k * from) / to));
 
-/** One plane of it, 2^shift times smaller than the picture, as large as the small picture. */
+/** One plane of the preview, from a plane 2^shift times smaller than the picture. */
 function smallPlane({ data, planes, width: from, height: high }: RawPicture, k: number, shift: readonly [number, number], width: number, height: number): Uint8ClampedArray {
   const { offset, stride, step } = planes[k]!;
   const out = roomFor(k, width * height);
@@ -66,7 +65,7 @@ function smallPlane({ data, planes, width: from, height: high }: RawPicture, k: 
   return out;
 }
 
-/** Luma and its two colour differences as red, green and blue: BT.709 or BT.601. */
+/** Converts luma and colour differences to red, green and blue: BT.709 or BT.601. */
 function fromLuma({ fullRange = false, bt709 = false }: RawPicture, luma: Uint8ClampedArray, blue: Uint8ClampedArray, red: Uint8ClampedArray, data: Uint8ClampedArray): void {
   const [black, light, colour] = fullRange ? [0, 1, 1] : [16, 255 / 219, 255 / 224];
   const [ofRed, ofBlue] = bt709 ? [0.2126, 0.0722] : [0.299, 0.114];

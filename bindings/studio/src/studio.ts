@@ -1,26 +1,26 @@
-// The page's end of the worker.
+// The page's side of the worker.
 
 import { StudioError } from './module.js';
 import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
 import type { Captured, Exported, ExportSettings, Learned, PictureSettings, Recipe, TableSettings, Watch } from './types.js';
 
-/** A capture that is fed as things happen: a camera and a microphone. */
+/** A live capture from a camera and a microphone. */
 export interface LiveCapture {
-  /** Takes a frame (it is closed) with its time in seconds on any clock that sound is on too. */
+  /** Takes a frame (and closes it) with its time in seconds, on any clock common to frames and sound. */
   frame(frame: VideoFrame | ImageBitmap, seconds: number): void;
-  /** Takes a block of sound; `seconds`: time of its first sample, on the clock of the frames. It is mono. */
+  /** Takes a block of mono sound; `seconds`: time of its first sample, on the clock of the frames. */
   sound(samples: Float32Array, rate: number, seconds: number): void;
-  /** frames that wait to be looked at: where it grows, feed fewer */
+  /** number of frames waiting for analysis; if it grows, feed fewer */
   readonly waiting: number;
-  /** whether it still takes anything: false once its worker has stopped, and `finish` says why */
+  /** whether it accepts input: false once its worker has stopped; `finish` reports the reason */
   readonly alive: boolean;
-  /** Ends it. Rejects with a sentence where there is nothing to learn from. */
+  /** Ends the capture. Rejects with a sentence where nothing can be learned from. */
   finish(): Promise<Captured>;
-  /** Gives it up. */
+  /** Abandons the capture. */
   cancel(): void;
 }
 
-/** Work that the worker has not answered yet. */
+/** Work not yet answered by the worker. */
 interface Pending {
   watch: Watch;
   resolve: (outcome: Outcome) => void;
@@ -30,7 +30,7 @@ interface Pending {
 
 const stopped = (): DOMException => new DOMException('stopped', 'AbortError');
 
-/** Does something once the page has drawn what is there by now; at once where it draws nothing. */
+/** Calls `act` after the page has drawn its current state; immediately where it draws nothing. */
 function afterNextPicture(act: () => void): void {
   if (document.hidden) act();
   else requestAnimationFrame(() => requestAnimationFrame(act));
@@ -43,7 +43,7 @@ export class Studio {
 
   private constructor() {}
 
-  /** Starts the worker, which fetches the module. Rejects with a sentence where this browser cannot. */
+  /** Starts the worker, which loads the module. Rejects with a sentence where this browser cannot run it. */
   static async open(): Promise<Studio> {
     if (typeof Worker === 'undefined' || typeof WebAssembly === 'undefined') {
       throw new StudioError('this browser has no WebAssembly in workers, which learning needs: a current Firefox, Chrome, Edge or Safari does');
@@ -53,7 +53,7 @@ export class Studio {
     return studio;
   }
 
-  /** Captures a film file: sound and picture, decoded here. */
+  /** Captures a film file with sound and picture, decoded here. */
   film(file: File, settings: PictureSettings, watch: Watch = {}): Promise<Captured> {
     if (typeof VideoDecoder === 'undefined') {
       return Promise.reject(new StudioError('this browser cannot take films apart (it has no WebCodecs): a current Chrome, Edge, Safari or Firefox can'));
@@ -66,7 +66,7 @@ export class Studio {
     return this.ask({ do: 'pictures', files, rate, settings }, watch);
   }
 
-  /** Captures live. `rate`: what the camera says, frames a second. */
+  /** Captures live. `rate`: frames a second stated by the camera. */
   live(name: string, rate: number, settings: PictureSettings, watch: Watch = {}): LiveCapture {
     const of = ++this.count;
     const { pending } = this;
@@ -74,7 +74,7 @@ export class Studio {
     const ended = new Promise<Outcome>((resolve, reject) => {
       this.pending.set(of, { watch, resolve, reject, looked: () => (waiting -= 1) });
     });
-    // A failure is told by finish().
+    // finish() reports failures.
     ended.catch(() => undefined);
     this.send({ of, task: { do: 'live', settings: { ...settings, name, rate } } });
     return {
@@ -103,7 +103,7 @@ export class Studio {
     };
   }
 
-  /** Reads a recording or a table: CSV. Its report, with `advise`, says what in it will spoil a model, and cures. */
+  /** Reads a recording or table: CSV. Its report, with `advise`, lists defects that harm a model, with remedies. */
   table(name: string, bytes: Uint8Array, settings: TableSettings = {}, how: 'table' | 'advise' = 'table'): Promise<Captured> {
     return this.ask({ do: how, name, bytes, settings });
   }
@@ -118,12 +118,12 @@ export class Studio {
     return this.ask({ do: 'validate', model, recordings }, watch);
   }
 
-  /** Makes files of a model for other tools. What makes them is fetched the first time. */
+  /** Converts a model to files for other tools. The module for that is loaded at first use. */
   export(model: Uint8Array, settings: ExportSettings, watch: Watch = {}): Promise<Exported[]> {
     return this.ask({ do: 'export', model, settings }, watch);
   }
 
-  /** Ends the worker; everything is forgotten. */
+  /** Ends the worker and discards all data. */
   close(): void {
     this.dismiss(stopped());
   }
@@ -139,7 +139,7 @@ export class Studio {
     return worker;
   }
 
-  /** Everything that is going on fails; the next work is done by another worker. */
+  /** Fails all running work; later work uses a new worker. */
   private dismiss(why: unknown): void {
     this.worker?.terminate();
     this.worker = null;
@@ -156,7 +156,7 @@ export class Studio {
     if (signal?.aborted === true) return Promise.reject(stopped());
     const of = ++this.count;
     return new Promise<T>((resolve, reject) => {
-      // The module cannot hear while it computes: its worker is ended, and another begins when it is wanted.
+      // The module cannot receive messages while computing, so its worker is ended and a new one starts when needed.
       const stop = (): void => this.dismiss(stopped());
       const over = <V>(then: (value: V) => void) => (value: V): void => {
         signal?.removeEventListener('abort', stop);
@@ -183,7 +183,7 @@ export class Studio {
       if ('done' in message) work.resolve(message.done);
       else {
         work.reject(new StudioError(message.failed));
-        // Memory that ran out comes back with another worker.
+        // After running out of memory, a new worker starts with fresh memory.
         if (message.dead) this.dismiss(new StudioError(message.failed));
       }
     }

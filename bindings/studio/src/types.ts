@@ -1,4 +1,4 @@
-// What goes into learning and what comes out of it.
+// Inputs and results of learning.
 
 /** A rectangle of pixels. */
 export interface Region {
@@ -8,57 +8,57 @@ export interface Region {
   height: number;
 }
 
-/** How a film is captured. What is not said is the program's default. */
+/** Settings of a film's capture. Omitted ones have the program's defaults. */
 export interface PictureSettings {
   /** an outline that wind bends, or something light that falls before a plain wall; `either`: falls where the film has usable ones; `flame` */
   looks_for?: 'flame' | 'falls' | 'either';
-  /** of falls: how many metres of wall the picture shows from top to bottom; 1 */
+  /** for falls: height in metres of the wall in the picture; default 1 */
   height?: number;
-  /** which of several flames, 1 the largest; 0: whatever moves, flame or not */
+  /** index of the flame by size, from 1; 0: any moving object */
   flame?: number;
-  /** where to look; the whole picture */
+  /** searched region; default: the whole picture */
   region?: Region;
-  /** which brightness; the one that separates best */
+  /** brightness channel; default: the one that separates best */
   channel?: 'luma' | 'red' | 'green' | 'blue';
-  /** the thing is dark on a light ground */
+  /** whether the object is dark on a light background */
   dark?: boolean;
-  /** control points, 4 to 64; 8 */
+  /** number of control points, 4 to 64; default 8 */
   points?: number;
 }
 
-/** What has been seen by now of a film or a camera. */
+/** Findings so far in a film or camera stream. */
 export interface Seen {
-  /** frames so far, lost ones included */
+  /** number of frames so far, including lost ones */
   frame: number;
   width: number;
   height: number;
-  /** `waiting`: nothing that stands out yet; `following`: there is an outline; `gone`: not in this frame */
+  /** `waiting`: no object yet; `following`: an outline is found; `gone`: not in this frame */
   state: 'waiting' | 'following' | 'gone';
-  /** of falls: what moved since the frame before, pixels; null: nothing, or they are not looked for */
+  /** for falls: region that moved since the last frame, pixels; null: none, or not searched */
   moving: Region | null;
-  /** x and y of the outline's points by turns, pixels from the top left; empty where there is none */
+  /** x and y of the outline's points, alternating, pixels from the top left; empty without an outline */
   outline: Float32Array;
-  /** x, y, width, height of what was found, pixels; null while waiting */
+  /** box of the object, pixels; null while waiting */
   box: Region | null;
-  /** brightness at the edge, 0 to 255, once decided */
+  /** brightness threshold of the edge, 0 to 255, once decided */
   threshold: number | null;
   /** colour channel, once decided */
   channel: string | null;
-  /** share of the thing as bright in every channel as it gets, once decided */
+  /** share of the object saturated in every channel, once decided */
   clipped: number | null;
-  /** how many flames there are, once decided */
+  /** number of flames, once decided */
   flames: number | null;
-  /** the frame, small, for whoever shows it; the taker closes it. A film's only */
+  /** a small copy of the frame, for films only; the receiver closes it */
   picture?: ImageBitmap;
 }
 
-/** Who watches, and may stop. */
+/** Observer of work, which may stop it. */
 export interface Watch {
-  /** aborted: the work ends with an AbortError, what was captured before is kept */
+  /** when aborted, work ends with an AbortError; earlier captures are kept */
   signal?: AbortSignal;
-  /** the stage in words, and the share of it that is done: 0 to 1, negative where its length is unknown */
+  /** stage in words, and its finished share: 0 to 1, negative for unknown length */
   progress?: (stage: string, share: number) => void;
-  /** what is seen, some fifteen times a second of work */
+  /** findings, about fifteen times a second of work */
   seen?: (seen: Seen) => void;
 }
 
@@ -69,7 +69,7 @@ export interface Report {
   [figure: string]: unknown;
 }
 
-/** One time series of a recording. Missing samples are NaN. */
+/** A time series of a recording. Missing samples are NaN. */
 export interface Series {
   name: string;
   unit: string;
@@ -79,34 +79,34 @@ export interface Series {
 
 /** A recording. */
 export interface Captured {
-  /** as the program writes it: what is learned from, saved and sent */
+  /** as the program writes it, for learning, saving and sending */
   csv: Uint8Array;
   rate: number;
-  /** where the rate is from; empty where it was said */
+  /** source of the rate; empty where it was stated */
   why: string;
   rows: number;
-  /** rows at which episodes begin: stretches that history does not cross */
+  /** first rows of episodes, between which no history is used */
   episodes: number[];
   series: Series[];
   report: Report;
-  /** the report in words, as the program prints it */
+  /** the report as text, as printed by the program */
   text: string;
 }
 
-/** What is learned, and how; what is not said is the program's default. */
+/** Kind of model, and options; omitted ones have the program's defaults. */
 export interface Recipe {
   kind: 'flame' | 'outline' | 'arx' | 'leaf' | 'chain';
   name?: string;
-  /** what the recordings are called in what is said of them, and in the model; recording.csv */
+  /** names of the recordings in messages and in the model; default recording.csv */
   sources?: string[];
   seed?: number;
-  /** of falls: odd, rows that velocities are taken over, where positions are noisy; 0 */
+  /** for falls with noisy positions: odd number of rows for velocities; default 0 */
   smooth?: number;
-  /** lags of outputs and inputs of an ARX model; 0: the default */
+  /** lags of outputs and inputs of an ARX model; 0: default */
   order?: number;
-  /** an outline as in the paper: order of the systems, one a control point; 0: components of the shape */
+  /** outline as in the paper: order of one system per control point; 0: shape components */
   paper?: number;
-  /** lags of inputs and delay of an ARX model; names of its channels where the table does not say */
+  /** lags of inputs and delay of an ARX model; names of its channels where the table lacks roles */
   nb?: number;
   nk?: number;
   inputs?: string[];
@@ -116,7 +116,7 @@ export interface Recipe {
   kept_back?: number;
 }
 
-/** A curve to plot. */
+/** A curve for plotting. */
 export interface Curve {
   id: string;
   label: string;
@@ -126,31 +126,31 @@ export interface Curve {
   y: number[];
 }
 
-/** A model and what to think of it. */
+/** A model with its verdict. */
 export interface Learned {
   /** a .wisp file */
   model: Uint8Array;
   report: Report;
   curves: Curve[];
   text: string;
-  /** what the rows that were kept back say; absent where nothing was, or too little */
+  /** results on the rows kept back; absent if there were none or too few */
   judged?: Pick<Learned, 'report' | 'curves' | 'text'>;
 }
 
-/** What is made of a model for other tools; what is not said is the program's default. */
+/** Settings of an export; omitted ones have the program's defaults. */
 export interface ExportSettings {
   /** glTF, Lottie, C for microcontrollers */
   format: 'glb' | 'json' | 'c';
-  /** of the files, without what they end in; of all names in C */
+  /** base name of the files, and prefix of all names in C */
   name: string;
   seconds?: number;
-  /** seconds of a loop, instead of plain play */
+  /** seconds of a loop, in place of plain play */
   loop?: number;
   instances?: number;
-  /** a constant value of every input */
+  /** constant value of every input */
   wind?: number;
   seed?: number;
-  /** pixels, of Lottie */
+  /** height in pixels, for Lottie */
   height?: number;
 }
 
@@ -160,7 +160,7 @@ export interface Exported {
   bytes: Uint8Array;
 }
 
-/** Columns of a table, and its rows a second, where it does not say itself. */
+/** Columns of a table, and its rate in rows per second where the table lacks it. */
 export interface TableSettings {
   rate?: number;
   inputs?: string[];

@@ -1,4 +1,4 @@
-// The worker: the engine, and what decodes for it.
+// The worker: the engine, with decoding.
 
 import { Engine, type RawPicture } from './engine.js';
 import { Exporter } from './exporter.js';
@@ -10,16 +10,16 @@ import { rawOfBitmap, rawOfFrame } from './pictures.js';
 import { smallPicture } from './small.js';
 import type { Captured, Seen } from './types.js';
 
-// Whatever decodes in this worker does it so; tables are learned where nothing decodes.
+// All decoding in this worker is paced; tables are also learned in engines without a decoder.
 if (typeof VideoDecoder !== 'undefined') globalThis.VideoDecoder = paced(VideoDecoder);
 
 const SHOWN_EVERY_MS = 100;
-/** Share of a film after which something is shown in any case: a strip of a small one, looked at in no time, wants pictures too. */
+/** Share of a film after which a picture is shown in any case, since short films are analysed too fast otherwise. */
 const SHOWN_SHARE = 1 / 16;
 const SHOWN_PIXELS = 512;
-/** Longest wait until the page has drawn what was seen: a page that nobody sees draws nothing. */
+/** Maximum wait for the page to draw: hidden pages draw nothing. */
 const SHOWN_WITHIN_MS = 200;
-/** Holes in live sound that are longer than this are silence. */
+/** Longer gaps in live sound are silence. */
 const LOST_SECONDS = 0.05;
 
 async function fetched(address: URL): Promise<ArrayBuffer> {
@@ -28,7 +28,7 @@ async function fetched(address: URL): Promise<ArrayBuffer> {
   return response.arrayBuffer();
 }
 
-/** A module that is fetched when it is first wanted, and again after that failed. */
+/** Loads a module at first use, and again after a failure. */
 function onDemand<T>(start: () => Promise<T>): () => Promise<T> {
   let started: Promise<T> | null = null;
   return () => {
@@ -40,20 +40,20 @@ function onDemand<T>(start: () => Promise<T>): () => Promise<T> {
   };
 }
 
-// Whole addresses, which bundlers know again.
+// Literal addresses, which bundlers recognise.
 const engine = fetched(new URL('./studio.wasm', import.meta.url)).then((bytes) => Engine.start(bytes));
 const chains = onDemand(async () => Engine.start(await fetched(new URL('./chains.wasm', import.meta.url))));
 const exporter = onDemand(async () => Exporter.start(await fetched(new URL('./export.wasm', import.meta.url))));
 
-// It is awaited, and told of, by whoever asks first.
+// The first caller awaits it and reports its failure.
 engine.catch(() => undefined);
 
 const tell = (message: FromWorker, carried: Transferable[] = []): void => self.postMessage(message, { transfer: carried });
 
-/** Told when the page has drawn what was seen. */
+/** Called when the page has drawn the findings. */
 let shown: () => void = () => undefined;
 
-/** Until then. Where few processors do everything, the page would else draw when the film is over. */
+/** Waits for that. With few processors, the page would otherwise draw only after the film's end. */
 const drawn = (): Promise<void> =>
   new Promise((resolve) => {
     const late = setTimeout(resolve, SHOWN_WITHIN_MS);
@@ -63,7 +63,7 @@ const drawn = (): Promise<void> =>
     };
   });
 
-/** Tells what is seen now and then, with a small picture of the frame where there is one. */
+/** Reports findings at intervals, with a small picture of the frame where there is one. */
 class Showing {
   private shown = 0;
   private share = 0;
@@ -83,20 +83,20 @@ class Showing {
     }
     if (share >= 0) tell({ of: this.of, progress: { stage: 'capturing', share } });
     tell({ of: this.of, seen }, seen.picture === undefined ? [] : [seen.picture]);
-    // A camera does not wait.
+    // Not for cameras, which do not wait.
     if (picture !== null) await drawn();
     this.shown = performance.now();
   }
 }
 
-/** A capture that is fed as things happen. */
+/** A live capture. */
 class Live {
   private first: number | null = null;
   private early: { sound: Float32Array; rate: number; seconds: number }[] = [];
   private heardTo: number | null = null;
-  /** why it cannot go on */
+  /** reason why it cannot continue */
   private failure: unknown = null;
-  /** whether it was given up: the engine captures something else by now */
+  /** whether it was abandoned: the engine then captures something else */
   private abandoned = false;
   private work: Promise<void> = Promise.resolve();
   private readonly showing: Showing;
@@ -134,7 +134,7 @@ class Live {
     });
   }
 
-  /** What still waits is not the next capture's. */
+  /** Discards waiting input, which does not belong to the next capture. */
   abandon(): void {
     this.abandoned = true;
   }
@@ -156,7 +156,7 @@ class Live {
       const lost = this.heardTo === null ? 0 : seconds - this.heardTo;
       if (lost > LOST_SECONDS) this.engine.sound(new Float32Array(Math.round(lost * rate)), 1, rate, 0);
       this.engine.sound(sound, 1, rate, seconds - (this.first ?? 0));
-      // Times jitter, samples do not: only what is lost moves the clock.
+      // Time stamps jitter, samples do not: only lost sound moves the clock.
       this.heardTo = (this.heardTo === null || lost > LOST_SECONDS ? seconds : this.heardTo) + sound.length / rate;
     } catch (error) {
       this.failure ??= error;
@@ -191,7 +191,7 @@ async function pictures(of: number, wisp: Engine, files: File[], rate: number, s
   return wisp.finish();
 }
 
-/** Tells of its progress. */
+/** Reports an engine's progress. */
 function watched(of: number, wisp: Engine): Engine {
   wisp.onProgress = (stage, share) => {
     tell({ of, progress: { stage, share } });
@@ -200,7 +200,7 @@ function watched(of: number, wisp: Engine): Engine {
   return wisp;
 }
 
-/** Work of whichever module does it. */
+/** Runs work in the module responsible for it. */
 async function byEither<T>(of: number, work: (wisp: Engine) => T): Promise<T> {
   try {
     return work(watched(of, await engine));
@@ -248,7 +248,7 @@ async function answer(of: number, task: Task): Promise<void> {
     if (done !== null) tell({ of, done });
   } catch (thrown) {
     const error = sentenceOf(thrown);
-    // Who has a cause has lost the module with it.
+    // An error with a cause has made the module unusable.
     tell({ of, failed: error instanceof Error ? error.message : String(error), dead: error instanceof StudioError && error.cause !== undefined });
   }
 }
@@ -259,7 +259,7 @@ self.addEventListener('message', ({ data }: MessageEvent<ToWorker>) => {
   else if ('frame' in data) {
     if (live !== null) live.frame(data.frame, data.seconds);
     else {
-      // The module is still on its way: what is not looked at does not wait either.
+      // The module is still loading: frames that cannot be analysed are dropped.
       data.frame.close();
       tell({ of: data.of, looked: 1 });
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What a call answers with: a text, bytes and numbers, kept until the next call, for the host to read in place.
+// Answer of a call: text, bytes and numbers, kept until the next call for the host to read in place.
 
 #include <cstddef>
 #include <string>
@@ -10,23 +10,23 @@
 namespace wisp::studio {
 
 struct Answer {
-  std::string text;  ///< JSON; where the call failed the sentence that says why
+  std::string text;  ///< JSON; after a failure the sentence with the reason
   std::vector<std::byte> bytes;
   std::vector<double> numbers;
 };
 
-/// The one answer.
+/// The only answer.
 Answer& answer();
 
-/// What a call returns.
+/// Return values of calls.
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;
-inline constexpr int kElsewhere = 2;  ///< failed: the other module does it
+inline constexpr int kElsewhere = 2;  ///< failed: the other module is responsible
 
-/// Begins a new answer.
+/// Clears the answer for a new call.
 Answer& fresh();
 
-/// Answers with the sentence.
+/// Sets the answer to an error's sentence.
 int fail(const Error& error);
 
 }  // namespace wisp::studio

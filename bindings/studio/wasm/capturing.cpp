@@ -1,4 +1,4 @@
-// Capture as functions of WebAssembly: pictures and sound go in, a recording comes out.
+// Capture as WebAssembly functions: pictures and sound in, a recording out.
 
 #include <optional>
 #include <span>
@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-// What is being captured.
+// State of the current capture.
 struct Desk {
   std::optional<LiveCapture> capture;
-  std::optional<FallCapture> falls;  // beside the other, where it is not known which of the two a film shows
+  std::optional<FallCapture> falls;  // beside `outline`, where the film may show either
   std::optional<FrameGrid> grid;
   std::string source;
 };
@@ -42,14 +42,14 @@ ClipCapture capture_options(const json& from) {
   return options;
 }
 
-// Of small pictures, one byte a pixel: half a minute of a wide film at 60 frames a second takes 100 MB.
+// Limit of reduced pictures, one byte per pixel: half a minute of a wide film at 60 frames a second takes 100 MB.
 constexpr std::size_t kMaxFallBytes = 192u << 20;
 
 FallOptions fall_options(const json& from) {
   return {.height_metres = from.value("height", 0.0), .region = region_of(from), .max_bytes = kMaxFallBytes};
 }
 
-// Takes the frame into whatever captures. What looks for falls beside a flame gives up where the film is too long.
+// Passes a frame to all active captures. The search for falls beside a flame is abandoned where the film is too long.
 Result<void> take_in(Desk& all, const Picture& picture, double seconds) {
   const std::int64_t before = all.grid->last();
   const int lost = static_cast<int>(all.grid->place(seconds) - before - 1);
@@ -82,8 +82,8 @@ using namespace wisp::studio;
 
 extern "C" {
 
-// Begins a capture: {name, rate, pictures, looks_for, flame, points, dark, channel, region, height}. It looks for a
-// "flame", for "falls", or for "either".
+// Begins a capture: {name, rate, pictures, looks_for, flame, points, dark, channel, region, height}. `looks_for` is
+// "flame", "falls" or "either".
 WISP_STUDIO(begin) int studio_begin(const char* text, std::size_t size) {
   const json settings = parsed(text, size);
   Desk& all = desk();
@@ -106,7 +106,7 @@ WISP_STUDIO(begin) int studio_begin(const char* text, std::size_t size) {
   return kDone;
 }
 
-// A frame of three planes as decoders lay them out. `glimpse`: from anywhere in the clip, before the first frames.
+// Takes a frame of three planes in a decoder's layout. `glimpse`: from anywhere in the clip, before the first frames.
 WISP_STUDIO(frame)
 int studio_frame(int layout, int width, int height, const std::uint8_t* first, int first_stride,
                  const std::uint8_t* second, int second_stride, const std::uint8_t* third, int third_stride, int step,
@@ -130,7 +130,7 @@ int studio_frame(int layout, int width, int height, const std::uint8_t* first, i
   return fed ? kDone : fail(fed.error());
 }
 
-// Interleaved samples that begin so many seconds after the first frame.
+// Takes interleaved samples that begin `begin` seconds after the first frame.
 WISP_STUDIO(sound)
 int studio_sound(const float* samples, std::size_t count, int channels, double rate, double begin) {
   Desk& all = desk();
@@ -139,8 +139,8 @@ int studio_sound(const float* samples, std::size_t count, int channels, double r
   return heard ? kDone : fail(heard.error());
 }
 
-// {frames, decided, channel, threshold, clipped, flames, box}; numbers: the outline's points. Of falls alone {frames,
-// moving}: the box of what moves.
+// Returns {frames, decided, channel, threshold, clipped, flames, box}; numbers: the outline's points. For falls only
+// {frames, moving}, with the box of the motion.
 WISP_STUDIO(seen) int studio_seen() {
   Desk& all = desk();
   if (all.falls && !all.capture) {
@@ -166,7 +166,7 @@ WISP_STUDIO(seen) int studio_seen() {
   return kDone;
 }
 
-// The recording.
+// Ends the capture and returns the recording.
 WISP_STUDIO(finish) int studio_finish() {
   Desk& all = desk();
   if (!all.capture && !all.falls) return fail({"no capture has begun"});

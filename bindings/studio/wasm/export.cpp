@@ -1,4 +1,4 @@
-// What makes files for other tools: a module of its own, fetched when somebody wants one.
+// Conversion of models to files for other tools: a separate module, loaded at first use.
 
 #include "wisp/export/export.hpp"
 
@@ -12,9 +12,9 @@ void hand_over(std::span<const std::byte> bytes) { fresh().bytes.assign(bytes.be
 
 enum class Format { kGltf, kLottie, kC };
 
-// The file; of C the source, and its header as the text.
+// Writes the file; for C the source, with its header as the answer's text.
 Result<void> write(const Model& model, Format format, const TakeOptions& options, int height, const char* name) {
-  // A lamp has no input, a linear system has one.
+  // A linear system has inputs, a lamp has none.
   if (format == Format::kC && std::holds_alternative<PlainView>(model.view) && !model.inputs.empty()) {
     auto plant = plant_text(model, PlantLanguage::kC, name);
     if (!plant) return plant.error();

@@ -1,4 +1,4 @@
-// Learning and judging as functions of WebAssembly: JSON and recordings go in, models and reports come out.
+// Learning and validation as WebAssembly functions: JSON and recordings in, models and reports out.
 
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
 
-// The host is told of progress, and answers whether to go on.
+// Reports progress to the host, which returns whether to continue.
 extern "C" __attribute__((import_module("env"), import_name("studio_progress"))) int studio_progress(const char* stage,
                                                                                                      std::size_t size,
                                                                                                      double share);
@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-// What has been gathered to learn from.
+// Recordings added for learning.
 std::vector<Recording>& recordings() {
   static std::vector<Recording> all;
   return all;
@@ -31,7 +31,7 @@ Progress progress() {
   return [](std::string_view stage, double share) { return studio_progress(stage.data(), stage.size(), share) != 0; };
 }
 
-// What the settings say of a recipe's fields, by their names; anything may be missing.
+// Reads a recipe's fields by name from the settings; any may be missing.
 template <class SomeRecipe>
 SomeRecipe with_settings(const json& from, SomeRecipe recipe) {
   for_each_field(recipe, [&](const auto& field) {
@@ -52,7 +52,7 @@ SomeRecipe with_settings(const json& from, SomeRecipe recipe) {
   return recipe;
 }
 
-// Of what the other module learns the kind alone.
+// The recipe; for models of the other module its kind only.
 Recipe recipe_of(const json& from) {
   const std::string kind = from.value("kind", "flame");
   const bool chain = kind == "chain" || kind == "leaf";
@@ -71,8 +71,7 @@ Recipe recipe_of(const json& from) {
   }
 }
 
-// What the last `share` of the rows says of a model that was learned from those before; nothing where either part is
-// too short for that.
+// Judges, on the last `share` of the rows, a model learned from the rows before; empty where either part is too short.
 std::optional<json> judged_on_the_end(const std::vector<Recording>& recordings, const Recipe& recipe, double share) {
   std::vector<Recording> begins, ends;
   for (const Recording& recording : recordings) {
@@ -104,7 +103,7 @@ using namespace wisp::studio;
 
 extern "C" {
 
-// Puts a recording, as CSV, beside the others that are to be learned from; {name, rate, inputs, outputs}.
+// Adds a recording, as CSV, to those to be learned from; {name, rate, inputs, outputs}.
 WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
   auto recording = read_recording(bytes, size, parsed(text, text_size));
   if (!recording) return fail(recording.error());
@@ -114,8 +113,8 @@ WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char*
 
 WISP_STUDIO(clear) void studio_clear() { recordings().clear(); }
 
-// Learns from what was added, or answers that the other module does. Bytes: the model. With `kept_back` what the last
-// part of the rows says is `judged`.
+// Learns from the added recordings, or answers that the other module is responsible. Bytes: the model. With
+// `kept_back`, `judged` has the results on the last rows.
 WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
   const json settings = parsed(text, size);
   const Recipe recipe = recipe_of(settings);
@@ -134,7 +133,7 @@ WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
   return kDone;
 }
 
-// Judges a model on what was added.
+// Judges a model on the added recordings.
 WISP_STUDIO(validate) int studio_validate(const std::byte* bytes, std::size_t size) {
   const auto model = parse_model({bytes, size}, "the model");
   if (!model) return fail(model.error());

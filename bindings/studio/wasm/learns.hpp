@@ -1,5 +1,5 @@
 #pragma once
-// Two modules learn: one chains, of what falls; the other everything else, and it captures.
+// Two modules learn: one learns chains, from falls; the other everything else, and it captures.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace wisp::studio {
 
-/// Which of the two this is.
+/// Whether this is the module of chains.
 inline constexpr bool kLearnsChains = WISP_LEARNS_CHAINS;
 
-/// Why something is learned by neither.
+/// Error for models that neither module learns.
 inline Error left_out(const char* what) { return Error{std::string(what) + " are not learned here; use the program"}; }
 
 }  // namespace wisp::studio

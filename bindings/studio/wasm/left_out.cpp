@@ -1,6 +1,6 @@
-// What is learned by the program alone, for nobody films it in a page: models that switch, and lamps' flicker. Linked
-// before the library, this is what the linker takes; with what each of the two modules leaves to the other it is a
-// quarter of the code.
+// Stubs for models learned only by the program, as pages do not film them: switched models and flicker of lamps. The
+// linker takes them before the library. Together with the parts left to the other module, that saves a quarter of the
+// code.
 
 #include "learn/flicker/learn_flicker.hpp"
 #include "learn/markov/learn_markov.hpp"
@@ -20,7 +20,7 @@ Result<Report> validate_switched(const Model&, const Recording&, const Validatio
   return left_out("models that switch");
 }
 
-// Nothing comes to this.
+// Never called.
 void markov::describe(const SwitchedArxModel&, const std::string&, ReportSection&) {}
 
 }  // namespace wisp

@@ -1,6 +1,6 @@
-// Where memory comes from. Without exceptions the C++ library would hand out null and go on, and address 0 is memory
-// like any other in WebAssembly: the host is told, which ends the call. It begins at whole vectors, as the program's
-// does: sums begin there, and are the same.
+// Allocation. Without exceptions the C++ library would return null on failure, and address 0 is ordinary memory in
+// WebAssembly: so failure is reported to the host, which ends the call. Blocks are aligned to whole vectors as in the
+// program, so that vectorised sums are the same.
 
 #include <cstdlib>
 #include <new>
@@ -8,7 +8,7 @@
 extern "C" __attribute__((import_module("env"), import_name("studio_out_of_memory"))) void studio_out_of_memory();
 
 namespace {
-// Null where there is none.
+// Allocates aligned memory; null if there is none.
 void* whole_vectors(std::size_t size) {
   void* memory = nullptr;
   return posix_memalign(&memory, 16, size) == 0 ? memory : nullptr;

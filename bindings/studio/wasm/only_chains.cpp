@@ -1,4 +1,4 @@
-// What chains.wasm leaves out: everything that is no chain, and of chains a fall's answer to gusts, which wants pairs
+// Stubs for the parts missing from chains.wasm: everything but chains, and a chain's gust response, which needs pairs
 // of recordings.
 
 #include "learn/chain/gusts/gust_play.hpp"
@@ -12,7 +12,7 @@ namespace wisp {
 
 using studio::left_out;
 
-// Nothing comes to these.
+// Never called.
 Result<Fit> learn_arx(std::span<const Recording>, const ArxRecipe&, const Progress&) { return Error{}; }
 Result<Fit> learn_outline(std::span<const Recording>, const OutlineRecipe&, const Progress&) { return Error{}; }
 Result<Report> validate_arx(const Model&, const Recording&, const ValidationOptions&, const Progress&) {
@@ -30,7 +30,7 @@ namespace chain {
 Result<GustPairs> gust_pairs(const Recording&, const Recording&) {
   return left_out("pairs of a windy recording and its calm twin");
 }
-// Nothing comes to these.
+// Never called.
 Result<GustFit> learn_gusts(const GustPairs&, std::size_t) { return Error{}; }
 Result<GustPlay> play_gusts(const Model&, const GustPairs&, std::size_t, std::uint64_t) { return Error{}; }
 ReportSection gusts_section(const GustPlayFigures&) { return {}; }

@@ -1,5 +1,5 @@
 #pragma once
-// Recordings as they come, and as answers, as reports are.
+// Reads recordings, and returns recordings and reports as answers.
 
 #include <nlohmann/json.hpp>
 
@@ -9,13 +9,13 @@
 
 namespace wisp::studio {
 
-/// The report as the program's --json has it, its text and, for pictures, its series.
+/// The report as in the program's --json, with its text and, for plots, its series.
 nlohmann::json report_json(const Report& report);
 
-/// A table or a recording, as CSV: {name, rate, inputs, outputs}.
+/// Reads a table or a recording from CSV: {name, rate, inputs, outputs}.
 Result<Recording> read_recording(const char* bytes, std::size_t size, const nlohmann::json& settings);
 
-/// A recording: its CSV as bytes, its channels' samples as numbers, one channel after the other.
+/// Answers with a recording: its CSV as bytes, its samples as numbers, channel after channel.
 int hand_over(const Recording& recording, const Report& report);
 
 }  // namespace wisp::studio

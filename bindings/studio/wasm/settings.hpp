@@ -1,5 +1,5 @@
 #pragma once
-// What a call is told: JSON, in which anything may be missing.
+// Settings of a call: JSON, in which any field may be missing.
 
 #include <cstddef>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Tables and recordings that are read for the host to show. Those that are learned from are added (learning.cpp).
+// Reads tables and recordings for display. Those to be learned from are added in learning.cpp.
 
 #include "reported.hpp"
 #include "settings.hpp"
@@ -16,7 +16,7 @@ WISP_STUDIO(table) int studio_table(const char* bytes, std::size_t size, const c
   return hand_over(*recording, {});
 }
 
-// The same, with what a table shows before any model as its report. Samples stand in the answer once.
+// Reads a table and reports remarks that need no model. Samples are in the answer once.
 WISP_STUDIO(advise) int studio_advise(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
   const auto recording = read_recording(bytes, size, parsed(text, text_size));
   if (!recording) return fail(recording.error());

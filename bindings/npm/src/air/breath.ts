@@ -1,16 +1,16 @@
-// The breath of a frame: what microphone and keys blow, together.
+// Breath per frame, from microphone and keys together.
 
 import type { Air } from '../stage/scene.js';
 import { KeyBreath } from './keys.js';
 
-/** Milliseconds for which the microphone's last wind counts; without a newer one it has fallen silent. */
+/** Milliseconds for which the microphone's last wind is used; after that it counts as silent. */
 const STALE = 250;
 
-/** When the sound came that a picture shows: for measuring the way from one to the other. */
+/** Frames in which sound arrived and was first shown, for measuring latency. */
 export interface SoundPath {
-  /** blocks of wind that came from the microphone so far */
+  /** number of wind blocks received from the microphone */
   heard: number;
-  /** the frame of the page in which the latest came, and the one that first used it */
+  /** frame of the page in which the latest block arrived, and the frame that first used it */
   heardAtFrame: number;
   usedAtFrame: number;
 }
@@ -18,12 +18,12 @@ export interface SoundPath {
 export class Breath {
   readonly keys = new KeyBreath();
   readonly path: SoundPath = { heard: 0, heardAtFrame: 0, usedAtFrame: 0 };
-  /** of this frame: keys blow across, and whoever blows into the microphone sits where the eye is */
+  /** breath of this frame: keys blow across; the microphone blows from the eye's position */
   air: Air = { right: 0, away: 0 };
   private microphone = 0;
   private at = -Infinity;
 
-  /** Wind from the microphone: not negative. It blows from the eye, or from the left at what has no other sides. */
+  /** Takes wind from the microphone, ≥ 0. It blows from the eye, or from the left in a scene with a fixed view. */
   hear(wind: number, frame: number): void {
     this.microphone = wind;
     this.at = performance.now();
@@ -35,7 +35,7 @@ export class Breath {
     this.microphone = 0;
   }
 
-  /** The breath of this frame, signed towards the right; 1 is strong. */
+  /** Breath of this frame, positive to the right; 1 is strong. */
   update(seconds: number, frame: number): number {
     if (performance.now() - this.at > STALE) this.microphone = 0;
     if (this.path.usedAtFrame < this.path.heardAtFrame) this.path.usedAtFrame = frame;

@@ -1,20 +1,20 @@
-// Breath that crosses a table: it comes from the side that it blows from, later and weaker the farther it has to go, and what
-// stands in its way shelters what is behind.
+// Breath that crosses a table from the side it blows from: delayed and weakened with distance, and blocked by candles
+// in its way.
 
-/** Room units a second. */
+/** Speed of breath, room units a second. */
 const SPEED = 7;
-/** Half of the way across the table, where the breath begins. */
+/** Half of the path length across the table, where breath enters. */
 const EDGE = 2;
 /** Share that is lost on the way to the far side. */
 const LOST = 0.3;
-/** Off the line of the breath it is weaker: this much a unit, squared. */
+/** Weakening with the squared distance from the breath's axis, per square unit. */
 const NARROW = 0.1;
 
 const KEPT = 256;
 
-/** Share of a wind that a candle right in front takes, half of the width of its wake, and how far that reaches. */
+/** Wake of a candle: share of the wind blocked directly behind it, half width, and length. */
 const WAKE = { share: 0.45, wide: 0.16, long: 1.1 };
-/** Least share of the wind that is left behind any number of them. */
+/** Minimum share of the wind behind any number of candles. */
 const SHELTERED = 0.5;
 
 interface Place {
@@ -22,7 +22,7 @@ interface Place {
   z: number;
 }
 
-/** The share of a wind in direction (x, z), of length 1, that the others leave of it at a place. */
+/** Share of a wind with unit direction (x, z) that the other candles leave at a place. */
 export function shelter(at: Place, others: readonly Place[], x: number, z: number): number {
   let left = 1;
   for (const other of others) {
@@ -39,7 +39,7 @@ export class WindDelay {
   private newest = 0;
   private clock = 0;
 
-  /** The breath of this frame. */
+  /** Takes the breath of this frame. */
   push(seconds: number, wind: number): void {
     this.clock += seconds;
     this.newest = (this.newest + 1) % KEPT;
@@ -47,7 +47,7 @@ export class WindDelay {
     this.times[this.newest] = this.clock;
   }
 
-  /** Wind at a place that lies so far along the way of a positive wind from the middle of the table, and so far off it. */
+  /** Wind at a place with coordinate x along a positive wind from the table's middle, and z across it. */
   at(x: number, z: number): number {
     return this.from(1, x, z) + this.from(-1, x, z);
   }

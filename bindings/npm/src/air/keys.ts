@@ -1,12 +1,12 @@
-// Breath from keys: held longer it grows, let go it dies down; and it is never quite steady, as breath is not.
+// Breath from keys: it grows while a key is held, decays after its release, and fluctuates like real breath.
 
-/** What each held key blows: strength, signed towards the right, and seconds in which it gets there. */
+/** Breath of each key: strength, positive to the right, and rise time in seconds. */
 const BREATHS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowRight: [0.85, 0.22],
   ArrowLeft: [-0.85, 0.22],
   ArrowUp: [0.4, 0.3],
   Space: [3, 0.12],
-  /** no key: a visitor's arrival */
+  /** pseudo-key: a visitor's arrival */
   arrival: [0.4, 0.3],
 };
 
@@ -15,7 +15,7 @@ export class KeyBreath {
   private strength = 0;
   private clock = 0;
 
-  /** Whether that key (KeyboardEvent.code) blows. */
+  /** Whether a key (KeyboardEvent.code) blows. */
   static blows(code: string): boolean {
     return code in BREATHS;
   }
@@ -28,12 +28,12 @@ export class KeyBreath {
     this.held.delete(code);
   }
 
-  /** As when the window loses the keyboard. */
+  /** Releases all keys, as when the window loses the keyboard focus. */
   releaseAll(): void {
     this.held.clear();
   }
 
-  /** The breath after that time, signed; 1 is strong. */
+  /** Advances by a time and returns the signed breath; 1 is strong. */
   update(seconds: number): number {
     this.clock += seconds;
     let goal = 0;

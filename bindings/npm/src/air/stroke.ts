@@ -1,35 +1,35 @@
-// Wind that a moving pointer stirs up around a flame: strong when it passes near and fast, gone in a moment.
+// Wind stirred up around a flame by a moving pointer: strong where it passes near and fast, and quickly gone.
 
 import type { Acting, Air } from '../stage/scene.js';
 
-/** Pointer speed, in flame heights a second, that makes wind 1 where it passes through the flame. */
+/** Pointer speed through the flame that makes a wind of 1, flame heights a second. */
 const SPEED_OF_ONE = 7;
-/** Seconds in which what was stirred up settles: a pass of a single frame blows for as long as a slower one. */
+/** Decay time of stirred air, seconds: a pass of a single frame blows for as long as a slower one. */
 const SETTLES = 0.22;
-/** Seconds in which the flame feels a gust: air has mass, and a flame that jumps looks wrong. */
+/** Rise time of a gust at the flame, seconds: air has inertia, and a jump would look wrong. */
 const ARRIVES = 0.05;
-/** Strongest gust of a stroke. */
+/** Maximum wind of a stroke. */
 const STRONGEST = 3.2;
 const STILL: Readonly<Air> = { right: 0, away: 0 };
 
 const strength = ({ right, away }: Readonly<Air>): number => Math.hypot(right, away);
 
-/** What strokes stir up around one flame. The same strokes blow alike at any frame rate, to the length of one frame. */
+/** Wind of strokes around one flame; independent of the frame rate up to one frame's length. */
 export class Stroke {
-  /** the wind that the flame feels */
+  /** wind at the flame */
   readonly wind: Air = { right: 0, away: 0 };
-  /** the gust that the last stroke made, as far as it has not settled */
+  /** gust of the last stroke, decayed so far */
   private gust: Readonly<Air> = STILL;
 
-  /** Stillness around the flame. */
+  /** Makes the air around the flame still. */
   settle(): void {
     this.gust = STILL;
     Object.assign(this.wind, STILL);
   }
 
   /**
-   * One frame. `busy`: the pointer carries something and stirs nothing. The flame's middle and the pixels of one flame
-   * height are of the picture.
+   * Updates one frame. `busy`: the pointer carries something and stirs no air. The flame's middle and height are in
+   * pixels of the picture.
    */
   update(acting: Acting, busy: boolean, flameX: number, flameY: number, height: number): void {
     const { seconds } = acting;
@@ -44,7 +44,7 @@ export class Stroke {
   }
 }
 
-/** How the pointer's way since the last frame blows on a flame: what goes up the picture goes away over the table. */
+/** Wind of the pointer's path since the last frame on a flame; upwards in the picture is away over the table. */
 function blow({ pointer }: Acting, flameX: number, flameY: number, height: number): Air {
   const near = Math.exp((-0.5 * nearest2(pointer, flameX, flameY)) / (height * height));
   const [right, away] = [pointer.speedX, 0.4 * pointer.speedY];
@@ -53,7 +53,7 @@ function blow({ pointer }: Acting, flameX: number, flameY: number, height: numbe
   return { right: wind * right, away: wind * away };
 }
 
-/** How near the pointer came to a place since the last frame, squared: it may have jumped past. */
+/** Squared minimum distance of the pointer's path since the last frame from a place. */
 function nearest2(pointer: Acting['pointer'], x: number, y: number): number {
   const wayX = pointer.x - pointer.fromX;
   const wayY = pointer.y - pointer.fromY;

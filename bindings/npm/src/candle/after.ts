@@ -1,4 +1,4 @@
-// What comes after the first flame: glare, the air with its smoke, the match. One piece, fetched while the flame burns.
+// Parts needed after the first flame: glare, air with smoke, match. One bundle, fetched while the flame burns.
 
 import { Program, type Quad, Warming } from '../stage/gl.js';
 import { Air } from './air.js';

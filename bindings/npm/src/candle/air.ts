@@ -1,5 +1,5 @@
-// The air of the room, in the plane of the picture: heat rises in it, breath and hand stir it, smoke is carried by it.
-// A fluid on a coarse grid, and smoke on a finer one.
+// Air in the picture plane: heat rises, breath and hand stir it, and it carries smoke. A fluid on a coarse grid, with
+// smoke on a finer one.
 
 import { Program, type Quad, Target } from '../stage/gl.js';
 import carryFragment from './shaders/carry.frag.js';
@@ -12,34 +12,34 @@ import sootFragment from './shaders/soot.frag.js';
 import wholeVertex from './shaders/whole.vert.js';
 import { Words } from './words.js';
 
-/** Cells of the air's grid, and how much finer that of the smoke is. */
+/** Number of cells of the air's grid, and refinement of the smoke's grid. */
 const CELLS = 22_000;
 const FINER = 3;
-/** Steps towards the pressure in a frame; the last frame's is where they begin. */
+/** Jacobi iterations of the pressure per frame, starting from the last frame's pressure. */
 const PRESSINGS = 10;
 const WISH_FONT = '600 96px ui-rounded, "Trebuchet MS", system-ui, sans-serif';
-/** Half of a line's height, at most. */
+/** Maximum half height of a line of smoke writing. */
 const WISH_LINE = 0.05;
-/** Longest step; a longer frame makes two of them. */
+/** Maximum step in seconds; longer frames take two steps. */
 const LONGEST = 1 / 30;
 
-/** What acts on the air during a frame. Heights of the picture, from its lower left corner; seconds. */
+/** Forces on the air during a frame. Units: picture heights from its lower left corner; seconds. */
 export interface Stirring {
   seconds: number;
   clock: number;
-  /** x, y, width, strength of each: four numbers a source */
+  /** x, y, width and strength of each source */
   heats: Float32Array;
   wicks: Float32Array;
   count: number;
   breath: number;
   breathHeight: number;
   hand: readonly [x: number, y: number, speedX: number, speedY: number];
-  /** what smoke is to say now, '' nothing; and where its middle is */
+  /** text for smoke to write now ('' for none), and its centre */
   wish: string;
   wishAt: readonly [x: number, y: number];
 }
 
-/** A pair of pictures: one is read while the other is written. */
+/** A pair of textures: one is read while the other is written. */
 class Pair {
   now: Target;
   private next: Target;
@@ -62,7 +62,7 @@ class Pair {
     }
   }
 
-  /** Where the next picture is written; call turn() afterwards. */
+  /** Target of the next pass; call turn() afterwards. */
   begin(): void {
     this.next.begin();
   }
@@ -103,12 +103,12 @@ export class Air {
     };
   }
 
-  /** The flow, with heat in its third number. */
+  /** Velocity field, with heat in its third component. */
   get state(): Target {
     return this.flow.now;
   }
 
-  /** Lets time pass in a picture of that shape. */
+  /** Advances by a time in a picture of that aspect ratio. */
   update(aspect: number, stirring: Stirring): void {
     this.fit(aspect);
     const steps = stirring.seconds > LONGEST ? 2 : 1;
@@ -117,7 +117,7 @@ export class Air {
     for (let step = 0; step < steps; ++step) this.step(seconds, stirring);
   }
 
-  /** Draws the smoke over what is there. `lamps`: as sources, x, y, reach, light. */
+  /** Draws the smoke over the current target. `lamps`: x, y, reach and light of each. */
   draw(lamps: Float32Array, count: number, moon: number): void {
     const { width, height } = this.smoke.now;
     this.smoke.now.bindTexture(0);
@@ -136,10 +136,10 @@ export class Air {
     for (const program of Object.values(this.programs)) program.dispose();
   }
 
-  /** Square cells, about as many in every shape of picture. */
+  /** Sets up square cells, about as many for every aspect ratio. */
   private fit(aspect: number): void {
     this.aspect = aspect;
-    // A picture that is only drawn coarser differs by its rounding: the smoke in it stays.
+    // Keeps the smoke when only the resolution changes, as the grid then differs by rounding.
     const there = this.flow.now;
     if (Math.abs((aspect * there.height) / there.width - 1) < 0.02) return;
     const height = Math.round(Math.sqrt(CELLS / aspect));

@@ -1,4 +1,4 @@
-// What only a cake needs of the room; fetched when there is one.
+// Parts of the room needed by a cake only, fetched when there is one.
 
 export { default as cake } from './shaders/cake.glsl.js';
 export { Lettering } from './lettering.js';

@@ -1,19 +1,19 @@
-// One candle that lives: where it stands, how it moves, the wind that it feels, its flame, its ember and smoke.
+// One live candle: position, motion, wind, flame, ember and smoke.
 
 import type { DrawnCandle } from './renderer.js';
 import { FlameShape } from './flame_shape.js';
 import { Stroke } from '../air/stroke.js';
 import { flameFoot, type Stand } from './room.js';
 
-/** Wind that a base moving at one flame height a second puts the flame into. */
+/** Wind at the flame while its base moves at one flame height a second. */
 const MOTION_WIND = 0.3;
-/** Strongest wind that dragging makes: it bends the flame, and takes a jerk to put it out. */
+/** Maximum wind of dragging: it bends the flame; only a jerk extinguishes it. */
 const MAX_MOTION_WIND = 1.15;
 
-/** Seconds for which a wick smokes that has gone out. */
+/** Seconds for which an extinguished wick smokes. */
 const SMOKES = 4.2;
 
-/** How much a wick smokes so long after it went out, 0 to 1. */
+/** Smoking of a wick, 0 to 1, as a function of the seconds since extinction. */
 export function smokeAfter(sinceOut: number): number {
   if (!(sinceOut < SMOKES)) return 0;
   return Math.min(1, 0.3 + sinceOut / 0.3) * (1 - sinceOut / SMOKES) ** 1.2;
@@ -24,22 +24,22 @@ export class Candle implements DrawnCandle {
   smoking = 0;
   size = 1;
   ember = 0;
-  /** seconds since it went out; Infinity while it burns */
+  /** seconds since extinction; Infinity while it burns */
   sinceOut = Infinity;
-  /** what the pointer's strokes have stirred up around it */
+  /** wind of the pointer's strokes around it */
   readonly stroke = new Stroke();
-  /** wind of the last frame, all sources together, signed */
+  /** signed wind of the last frame from all sources */
   wind = 0;
-  /** seconds for which a hand shelters it from strokes, since that hand has just lit it */
+  /** seconds for which the hand that lit it shelters it from strokes */
   sheltered = 0;
-  /** its flame in the bank that lends the answer to wind; null: its own model has one */
+  /** instance in the lender's bank; null: its own model responds to wind */
   lent: bigint | null = null;
-  /** how far its tip leans away from the eye, and its middle towards it, flame units */
+  /** lean of its tip away from the eye and of its middle towards it, flame units */
   tipAway = 0;
   nearer = 0;
   private speed = 0;
   private lastX: number;
-  /** where it stands about the table's middle, seen from where the flame was filmed */
+  /** position relative to the table's middle, seen from where the flame was filmed */
   readonly seat: readonly [x: number, z: number];
 
   constructor(
@@ -50,7 +50,7 @@ export class Candle implements DrawnCandle {
     this.seat = [stand.x, stand.z];
   }
 
-  /** The eye moved, and not the candle. */
+  /** Sets the position after the eye moved, without wind from motion. */
   put(x: number, z: number): void {
     this.lastX += x - this.stand.x;
     this.stand.x = x;
@@ -66,7 +66,7 @@ export class Candle implements DrawnCandle {
     return flameFoot(this.stand);
   }
 
-  /** Wind in the flame's frame because the candle moves. Call once a frame. */
+  /** Wind at the flame from the candle's own motion. Call once a frame. */
   motionWind(seconds: number): number {
     if (seconds <= 0) return 0;
     const speed = (this.stand.x - this.lastX) / seconds / this.stand.unit;
@@ -75,7 +75,7 @@ export class Candle implements DrawnCandle {
     return Math.max(-MAX_MOTION_WIND, Math.min(MAX_MOTION_WIND, -MOTION_WIND * this.speed));
   }
 
-  /** Takes over how the flame looks now. `sinceOut`: seconds, Infinity while it burns. */
+  /** Takes the flame's current appearance. `sinceOut`: seconds, Infinity while it burns. */
   show(outline: Float32Array, size: number, sinceOut: number): void {
     this.size = size;
     this.sinceOut = sinceOut;

@@ -1,4 +1,4 @@
-// <wisp-candle>: a candle, or a cake with several, on anybody's page.
+// <wisp-candle>: a candle, or a cake with several, for any page.
 
 import type { Model } from '../index.js';
 import { define, numberOf, SceneElement, type SceneAttributes } from '../stage/element.js';
@@ -7,14 +7,14 @@ import { MAX_CANDLES } from './room.js';
 import { CandleScene } from './scene.js';
 
 /**
- * Attributes beside those of every scene: `candles`, 1 to 100. Events: `load`, `error`, `extinguish` when the last flame
- * goes out, `light` when all burn again.
+ * Attributes in addition to those of every scene: `candles`, 1 to 100. Events: `load`, `error`, `extinguish` when the
+ * last flame goes out, `light` when all burn again.
  */
 export class WispCandle extends SceneElement {
   protected readonly usualModel = new URL('../models/flame.wisp', import.meta.url);
   private lit = true;
 
-  /** How many burn, of how many. */
+  /** Number of burning candles, and of all candles. */
   get burning(): { lit: number; of: number } {
     return this.scene instanceof CandleScene ? this.scene.burning() : { lit: 0, of: 0 };
   }

@@ -1,29 +1,29 @@
-// What is drawn of a flame, from its model's outline: a closed shape with a rounded base, and what it amounts to.
+// Drawn shape of a flame from its model's outline: closed with a rounded base, and its extents and light.
 
-/** Most points of an outline that are drawn. */
+/** Maximum number of drawn points of an outline. */
 export const MAX_POINTS = 64;
 
 /** Area of a calm flame in square flame units; its light is 1. */
 const CALM_AREA = 0.17;
 
-/** Height, as a share of the flame's, below which the outline is chance and the drop around the wick takes over. */
+/** Share of the flame's height below which the noisy outline is replaced by a drop around the wick. */
 const SHOULDER = 0.2;
 
 export class FlameShape {
-  /** x, y and height along the outline (0 base, 1 tip), three numbers a point */
+  /** x, y and height along the outline (0 base, 1 tip) of each point */
   readonly points = new Float32Array(3 * MAX_POINTS);
   count = 0;
-  /** in flame units; empty when left > right */
+  /** bounds in flame units; empty when left > right */
   left = 1;
   right = -1;
   bottom = 0;
   top = 0;
   tipX = 0;
   tipY = 0;
-  /** the middle of its area */
+  /** centre of its area */
   middleX = 0;
   middleY = 0;
-  /** 1 for a calm flame */
+  /** light relative to a calm flame */
   light = 0;
   /** mean width of its body */
   width = 0.25;
@@ -34,8 +34,8 @@ export class FlameShape {
   }
 
   /**
-   * Takes over an outline: x, y in turn, from the base's left over the tip to the base's right. `size` is how much of
-   * the flame is seen, 0 to 1; its light goes with it.
+   * Takes an outline: x, y alternating, from the base's left over the tip to the base's right. `size`: visible share of
+   * the flame, 0 to 1, which also scales its light.
    */
   update(outline: Float32Array, size: number): void {
     this.count = Math.min(MAX_POINTS, outline.length >> 1);
@@ -89,7 +89,7 @@ export class FlameShape {
     this.width = Math.max(0.02, (0.95 * Math.abs(this.area())) / reach);
   }
 
-  /** How high up the flame each point of the outline is: by its length, on either side of the tip. */
+  /** Computes each point's height along the outline, by arc length on either side of the tip. */
   private climb(): void {
     const { points, count } = this;
     let tip = 0;

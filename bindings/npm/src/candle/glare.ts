@@ -1,11 +1,11 @@
-// Light that strays in the eye: a chain of ever smaller pictures, added up on the way back.
+// Glare in the eye: a chain of pictures of decreasing size, added up on the way back.
 
 import { Program, type Quad, Target } from '../stage/gl.js';
 import glareFragment from './shaders/glare.frag.js';
 import wholeVertex from './shaders/whole.vert.js';
 
 const LEVELS = 6;
-/** Share of the coarser picture at each level, the finest last. */
+/** Weight of the coarser picture at each level, finest last. */
 const SPREAD = [0.5, 0.5, 0.5, 0.48, 0.45];
 
 export class Glare {
@@ -22,7 +22,7 @@ export class Glare {
     this.program = new Program(gl, wholeVertex, glareFragment);
   }
 
-  /** Makes the glare of a picture; what is returned is half as large. */
+  /** Computes the glare of a picture, at half its size. */
   of(picture: Target): Target {
     this.program.use().setInteger('uFrom', 0).setInteger('uFiner', 1);
     let from = picture;

@@ -1,9 +1,9 @@
-// The answer to wind of one flame model, lent to another that has never felt any: how far the outline moves from its rest,
-// and whether it burns.
+// Lends one flame model's response to wind to another model that was learned without wind: the outline's displacement
+// from rest, and extinction.
 
 import type { Bank, FlameState, Instance, Model } from '../index.js';
 
-/** Below this size a flame's outline says nothing of how it leans. */
+/** Flame size below which the outline does not show its lean. */
 const MIN_SIZE = 0.05;
 const SETTLES = 2e9;
 
@@ -14,7 +14,7 @@ export class Lender {
 
   constructor(model: Model, capacity: number, points: number) {
     this.bank = model.bank({ capacity, polylinePoints: points });
-    // Noise off: the borrower has its own.
+    // Noise off: the borrowing model has its own.
     this.bank.setNoise(0);
     const still = this.bank.spawn();
     this.bank.advance(SETTLES);
@@ -23,7 +23,7 @@ export class Lender {
     this.bank.end(still);
   }
 
-  /** A flame of the borrower as it is in this one's wind. `own`: its outline in still air. */
+  /** A borrowing flame as displaced by this model's wind. `own`: its outline in still air. */
   lend(instance: Instance, own: Float32Array, state: Readonly<FlameState>): Float32Array {
     const { moved, rest } = this;
     moved.set(own);

@@ -1,4 +1,4 @@
-// What only a cake has: a plaque with a name, and candles that are digits.
+// Parts of a cake only: a plaque with a name, and candles shaped as digits.
 
 import { Program } from '../stage/gl.js';
 import boardVertex from './shaders/board.vert.js';
@@ -6,12 +6,12 @@ import figureFragment from './shaders/figure.frag.js';
 import { Words } from './words.js';
 
 const FONT = 'italic 600 92px "Snell Roundhand", "Segoe Script", "URW Chancery L", Georgia, serif';
-/** Half of the plaque's height, and of its width at most, in the room. */
+/** Half height and maximum half width of the plaque, room units. */
 const PLAQUE = { high: 0.2, wide: 1.25 };
 
 type Place = readonly [number, number];
 
-/** Part of an ellipse, degrees from its right, anticlockwise. */
+/** Arc of an ellipse, in degrees from its right end, anticlockwise. */
 const arc = (x: number, y: number, wide: number, high: number, from: number, to: number): Place[] =>
   Array.from({ length: 13 }, (_, k): Place => {
     const turn = ((from + ((to - from) * k) / 12) * Math.PI) / 180;
@@ -20,7 +20,7 @@ const arc = (x: number, y: number, wide: number, high: number, from: number, to:
 
 const SIX: readonly Place[] = [[0.74, 1], [0.46, 0.86], [0.24, 0.6], ...arc(0.5, 0.31, 0.35, 0.31, 165, -195)];
 
-/** Strokes of the digits in a box of 1 by 1, y up: places that a smooth line passes through; one given twice is a corner. */
+/** Strokes of the digits in a unit box, y up: points of a smooth line; a repeated point is a corner. */
 const STROKES: Readonly<Record<string, readonly Place[]>> = {
   '0': arc(0.5, 0.5, 0.36, 0.5, 90, 450),
   '1': [[0.22, 0.78], [0.56, 1], [0.56, 1], [0.56, 0]],
@@ -33,12 +33,12 @@ const STROKES: Readonly<Record<string, readonly Place[]>> = {
   '8': [...arc(0.5, 0.755, 0.29, 0.245, -90, 270), ...arc(0.5, 0.255, 0.36, 0.255, 90, -270)],
   '9': SIX.map(([x, y]): Place => [1 - x, 1 - y]),
 };
-/** Points of each drawn stroke, as many as an outline has. */
+/** Number of points of each drawn stroke, equal to an outline's. */
 const POINTS = 64;
-/** Width over height. */
+/** Width / height of a digit. */
 const NARROW = 0.66;
 
-/** The smooth line through places. */
+/** Point at a parameter of the smooth line through places. */
 function through(places: readonly Place[], at: number): [number, number] {
   const k = Math.min(places.length - 2, Math.floor(at * (places.length - 1)));
   const t = at * (places.length - 1) - k;
@@ -64,21 +64,21 @@ export class Lettering {
     this.words = new Words(gl);
   }
 
-  /** Binds a name to a unit. Returns half of its plaque's width and height in the room; none where there is no name. */
+  /** Binds a name's texture to a unit. Returns half width and height of its plaque in the room; 0 without a name. */
   name(name: string, unit: number): [number, number] {
     const shape = this.words.write(name, FONT, 99, unit);
     const wide = Math.min(PLAQUE.wide, 0.8 * PLAQUE.high * shape);
     return name === '' ? [0, 0] : [wide, Math.min(PLAQUE.high, (1.4 * wide) / shape)];
   }
 
-  /** The stroke of a digit below its upper end at 0, where its wick is, x to its right. */
+  /** Stroke of a digit below its upper end at 0 (its wick), x to the right. */
   figure(digit: string, height: number): Float32Array {
     const key = `${digit} ${height}`;
     let made = this.figures.get(key);
     if (made === undefined) {
       const line = Array.from({ length: POINTS }, (_, k) => through(STROKES[digit] ?? STROKES['0']!, k / (POINTS - 1)));
       const [wick, top] = line.reduce((best, one) => (one[1] > best[1] + 1e-6 ? one : best));
-      // Where the highest part is level, its wick is in the middle.
+      // Where the highest part is level, the wick is at its middle.
       const level = line.filter(([, y]) => y > top - 0.02).map(([x]) => x);
       const middle = level.length > 2 ? (Math.min(...level) + Math.max(...level)) / 2 : wick;
       made = Float32Array.from(line.flatMap(([x, y]) => [NARROW * height * (x - middle), height * (y - top), 0]));

@@ -1,10 +1,10 @@
-// The match: it lies in wait, burns while it is carried, lights wicks that its flame touches, and goes back.
+// The match: it lies ready, burns while carried, lights wicks that its flame touches, and returns.
 
 import { FlameShape } from './flame_shape.js';
 import type { DrawnMatch } from './renderer.js';
 import { smokeAfter } from './candle.js';
 
-/** Seconds that a match takes on its own to a wick, and to be struck before that: how far, and how long it flares. */
+/** Seconds of a match's own way to a wick, and of its striking before that: distance, and duration of the flare. */
 const ERRAND = 0.75;
 const STRIKE = 0.22;
 const STRUCK = 0.34;
@@ -20,7 +20,7 @@ export class Match implements DrawnMatch {
   y = 0;
   size = 0;
   burning = false;
-  /** an instance of the model while it burns */
+  /** instance of the model while it burns */
   id: bigint | null = null;
   held = false;
   homeX = 0;
@@ -29,7 +29,7 @@ export class Match implements DrawnMatch {
   private goalX = 0;
   private goalY = 0;
   private errand: { left: number } | null = null;
-  /** seconds of the stroke that lights it that are still to come; it burns at 0 */
+  /** remaining seconds of the strike; it burns at 0 */
   private striking = 0;
   speedX = 0;
 
@@ -37,7 +37,7 @@ export class Match implements DrawnMatch {
     return !this.held && this.errand === null && !this.burning;
   }
 
-  /** Where it lies while nobody needs it: in front of what stands there. */
+  /** Sets its resting place, in front of what stands there. */
   rest(x: number, z: number): void {
     this.homeX = x;
     this.homeY = z > 2 ? 0.3 : 0.52;
@@ -48,7 +48,7 @@ export class Match implements DrawnMatch {
     }
   }
 
-  /** Whether a press there takes it up: room coordinates at its depth. */
+  /** Whether a press at room coordinates (at its depth) takes it up. */
   near(x: number, y: number): boolean {
     const along = (x - this.x) / 0.3;
     return Math.abs(x - this.x - 0.12) < 0.42 && y - this.y < 0.3 && y - this.y > -0.75 && along > -1.4;
@@ -64,7 +64,7 @@ export class Match implements DrawnMatch {
     if (!this.burning && this.striking === 0) this.striking = STRIKE;
   }
 
-  /** Carries itself to a wick. */
+  /** Moves to a wick by itself. */
   send(x: number, y: number): void {
     this.errand = { left: ERRAND + 0.5 };
     this.strike();
@@ -84,24 +84,24 @@ export class Match implements DrawnMatch {
     this.goalY = this.homeY;
   }
 
-  /** Whether it is to burn: it is held or on its way, and has been struck. */
+  /** Whether it should burn: held or moving by itself, and struck. */
   get wanted(): boolean {
     return (this.held || this.errand !== null) && this.striking === 0;
   }
 
-  /** Its head catches. */
+  /** Ignites its head. */
   catchFire(): void {
     this.flare = 1;
   }
 
-  /** Moves it on. */
+  /** Advances its motion. */
   update(seconds: number): void {
     if (seconds <= 0) return;
     this.flare *= Math.exp(-seconds / FLARES);
     if (this.flare < 0.01) this.flare = 0;
     this.smoking = Math.max(0.5 * this.flare, this.burning ? 0 : 0.7 * smokeAfter(this.sinceOut + 1.6));
     if (this.striking > 0) {
-      // Along the table, quickly, and only then where it is wanted.
+      // First quickly along the table, then up to the target.
       this.striking = Math.max(0, this.striking - seconds);
       this.x -= (STRUCK * seconds) / STRIKE;
       this.speedX = 0;

@@ -1,15 +1,15 @@
-// The eye that goes round the table: where it is, what winds are to it, and what it sees of a body.
+// The eye that circles the table: its position, winds relative to it, and its view of a body.
 
-/** Turn of the eye when the picture is dragged from one edge to the other, radians. */
+/** Rotation of the eye for a drag across the whole picture, radians. */
 const ACROSS = Math.PI;
-/** Widths of the picture a second from which on a drag is a stroke. */
+/** Drag speed above which it is a stroke, picture widths a second. */
 const SWIPE = 1.2;
 const RING = 6;
 
 export class Orbit {
-  /** radians anticlockwise from above, from where the flame was filmed */
+  /** anticlockwise from above, radians; 0 where the flame was filmed */
   azimuth = 0;
-  /** how far the middle and the tip of the last body that was seen lean away from the eye */
+  /** lean of the last seen body's middle and tip away from the eye */
   middleAway = 0;
   tipAway = 0;
   private held: { x: number; azimuth: number } | null = null;
@@ -27,10 +27,10 @@ export class Orbit {
     this.held = null;
   }
 
-  /** The pointer is there, in a picture of that width, at that speed. True where the eye has moved. */
+  /** Pointer position in a picture of that width, and its speed. Returns whether the eye has moved. */
   drag(x: number, speed: number, width: number): boolean {
     if (this.held === null) return false;
-    // A hand that passes quickly makes wind, and turns nothing.
+    // A fast stroke makes wind and does not rotate.
     if (Math.abs(speed) > SWIPE * width) this.held = null;
     else return this.turnTo(this.held.azimuth - ((x - this.held.x) / Math.max(1, width)) * ACROSS);
     return false;
@@ -42,21 +42,21 @@ export class Orbit {
     return azimuth !== before;
   }
 
-  /** A place about the table's middle as the eye sees it: to its right, and towards it. */
+  /** Position relative to the table's middle as seen by the eye: to its right, and towards it. */
   seen(x: number, z: number): readonly [right: number, near: number] {
     const c = Math.cos(this.azimuth);
     const s = Math.sin(this.azimuth);
     return [c * x - s * z, s * x + c * z];
   }
 
-  /** A wind to the eye's right and one away from it, as a model in the round takes it: x and z. */
+  /** Converts a wind to the eye's right and away from it to a body model's x and z. */
   wind(right: number, away: number): readonly [x: number, z: number] {
     const c = Math.cos(this.azimuth);
     const s = Math.sin(this.azimuth);
     return [c * right - s * away, -s * right - c * away];
   }
 
-  /** The outline of a body's rings; `flatness`: the share of a level circle's width that is seen as height. */
+  /** Outline of a body's rings; `flatness`: height / width of a level circle in the picture. */
   see(rings: Float32Array, flatness: number): Float32Array {
     const count = rings.length / RING;
     if (this.outline.length !== 4 * count) this.outline = new Float32Array(4 * count);

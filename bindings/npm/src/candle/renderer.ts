@@ -1,4 +1,4 @@
-// Draws the candle's room with WebGL2: light is added up in a picture of high range and developed onto the canvas.
+// Draws the candle's room with WebGL2: light is accumulated in an HDR picture and tone-mapped onto the canvas.
 
 import { drawToCanvas, hasRange, Program, Quad, Target, Warming } from '../stage/gl.js';
 import type { SceneLook } from '../stage/scene.js';
@@ -19,32 +19,32 @@ import room from './shaders/room.glsl.js';
 import surfaceFragment from './shaders/surface.frag.js';
 import table from './shaders/table.glsl.js';
 
-/** Most lights: of the candles, the match, one to spare. */
+/** Maximum number of lights: candles, match, one to spare. */
 const MAX_LIGHTS = MAX_LAMPS + 2;
-/** How much of the light strays in the eye. */
+/** Share of the light that becomes glare. */
 const GLARING = 0.13;
-/** How far heat shifts what is behind it, shares of the picture. */
+/** Displacement of the background by heat, in picture sizes. */
 const SHIMMER = 0.0035;
-/** Least width of rising air, heights of the picture: what is narrower than two cells of its grid does not rise. */
+/** Minimum width of rising air, picture heights: plumes narrower than two grid cells do not rise. */
 const MIN_PLUME = 0.02;
-/** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
+/** Exposure in lit and dark rooms, and adaptation times in seconds to more and to less light. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
-/** A candle with its flame, as it is to be drawn. */
+/** Drawing state of a candle with its flame. */
 export interface DrawnCandle {
   stand: Stand;
   shape: FlameShape;
-  /** how much of the flame is seen, 0 to 1 */
+  /** visible share of the flame, 0 to 1 */
   size: number;
-  /** the wick's glowing end, 0 to 1 */
+  /** brightness of the wick's glowing end, 0 to 1 */
   ember: number;
-  /** how much it smokes, 0 to 1 */
+  /** strength of smoking, 0 to 1 */
   smoking: number;
-  /** how far the flame's middle leans towards the eye, flame units */
+  /** displacement of the flame's middle towards the eye, flame units */
   nearer: number;
 }
 
-/** The match: where the middle of its head is, in the room. */
+/** Drawing state of the match; x, y, z: middle of its head in the room. */
 export interface DrawnMatch {
   x: number;
   y: number;
@@ -53,33 +53,33 @@ export interface DrawnMatch {
   burning: boolean;
   shape: FlameShape;
   size: number;
-  /** on the table */
+  /** lies on the table */
   lying: boolean;
-  /** how fiercely its head flares up, 0 to 1 */
+  /** strength of its head's flare, 0 to 1 */
   flare: number;
-  /** how much it smokes, 0 to 1 */
+  /** strength of smoking, 0 to 1 */
   smoking: number;
 }
 
-/** All that one picture shows. */
+/** Contents of one picture. */
 export interface CandlePicture {
   setting: Setting;
   candles: DrawnCandle[];
   match: DrawnMatch;
-  /** time since the picture before, and since the beginning */
+  /** seconds since the last picture, and since the start */
   seconds: number;
   clock: number;
-  /** what stirs the air: breath, 1 is strong; the pointer, pixels and pixels a second */
+  /** sources of moving air: breath (1 is strong); pointer in pixels and pixels a second */
   breath: number;
   hand: { x: number; y: number; speedX: number; speedY: number; present: boolean };
-  /** of the eye round the table, radians */
+  /** rotation of the eye round the table, radians */
   turn: number;
-  /** on the cake; and what smoke says by now, '' nothing */
+  /** name on the cake, and text written by smoke so far ('' for none) */
   name: string;
   wish: string;
 }
 
-/** What draws the room with what stands in it. */
+/** Programs that draw the room and its contents. */
 interface Room {
   surface: Program;
   light: Program;
@@ -98,7 +98,7 @@ export class CandleRenderer {
   private readonly surface: Target;
   private readonly picture: Target;
   private readonly programs: Record<'candle' | 'flame' | 'develop', Program>;
-  /** of the room: with nothing on the table, and with a cake, once that has come */
+  /** programs per setting: an empty table, and a cake once loaded */
   private readonly rooms: Partial<Record<'table' | 'cake', Room>> = {};
   private readonly warming: Warming;
   private readonly lights = new Float32Array(4 * MAX_LIGHTS);
@@ -113,7 +113,7 @@ export class CandleRenderer {
   private surfaceOf = '';
   private after: After | null = null;
   private bringing = false;
-  /** what only a cake needs: its name, candles that are figures */
+  /** parts for a cake only: its name and digit candles */
   private lettering: Lettering | null = null;
   private exposure = EXPOSURES.lit;
   private gone = false;
@@ -130,7 +130,7 @@ export class CandleRenderer {
     this.warming = new Warming(Object.values(this.programs));
   }
 
-  /** Draws one picture on the canvas, which is view.width by view.height pixels. False: what it needs is still to come. */
+  /** Draws a picture of view.width × view.height pixels. Returns false while parts are still loading. */
   draw(view: RoomView, shown: CandlePicture, look: SceneLook): boolean {
     const { gl } = this;
     const room = this.room(shown.setting);
@@ -177,7 +177,7 @@ export class CandleRenderer {
     }
   }
 
-  /** The programs of the room that is to be drawn; null while those of a cake are on their way. */
+  /** Programs for a setting; null while those of a cake are loading. */
   private room(setting: Setting): Room | null {
     if (!this.warming.done()) return null;
     const name = setting.cake === null ? 'table' : 'cake';
@@ -205,7 +205,7 @@ export class CandleRenderer {
     this.rooms[name] = { surface, light, warming: new Warming([surface, light]) };
   }
 
-  /** Fetches what comes after the first picture. */
+  /** Loads the parts for the time after the first picture. */
   private bring(): void {
     if (this.bringing || this.after !== null || !hasRange(this.gl)) return;
     this.bringing = true;
@@ -220,7 +220,7 @@ export class CandleRenderer {
     return this.after.warming.done() ? this.after : null;
   }
 
-  /** The eye gets used to how much light there is. */
+  /** Adapts the exposure to the amount of light. */
   private adapt({ seconds }: CandlePicture): void {
     const light = this.lamps.reduce((sum, lamp) => sum + lamp.light, 0);
     const dim = Math.min(1, light / 0.35);
@@ -260,7 +260,7 @@ export class CandleRenderer {
     if (match.burning) this.addLamp(view, [match], null);
   }
 
-  /** One light of flames that are side by side; of one alone, and the stand that hides it. */
+  /** Adds one light for adjacent flames, and for a lone flame its stand, which shades it. */
   private addLamp(view: RoomView, flames: readonly { x: number; y: number; z: number; unit: number; shape: FlameShape }[], stand: Stand | null): void {
     const k = this.lamps.length;
     const lamp: Lamp = { x: 0, y: 0, z: 0, light: 0 };
@@ -268,12 +268,12 @@ export class CandleRenderer {
       lamp.x += (x + unit * shape.middleX) / flames.length;
       lamp.y += (y + unit * Math.max(0.2, shape.middleY)) / flames.length;
       lamp.z += z / flames.length;
-      // Small flames on a cake are many, and of a hundred each is less than of one.
+      // Each of many small flames on a cake is dimmer than a lone one.
       lamp.light += shape.empty ? 0 : (shape.light * unit ** 1.3) / flames.length ** 0.6;
     }
     this.lamps.push(lamp);
     this.lights.set([lamp.x, lamp.y, lamp.z, lamp.light], 4 * k);
-    // Their glow lies along them: from the first one's base to the last one's tip.
+    // The glow extends from the first flame's base to the last one's tip.
     const [first, last] = [flames[0]!, flames.at(-1)!];
     this.halos[4 * k] = view.pixelX(first.x, first.z);
     this.halos[4 * k + 1] = view.pixelY(first.y + 0.25 * first.unit * first.shape.tipY, first.z);
@@ -283,7 +283,7 @@ export class CandleRenderer {
     this.standNumbers.set(stand === null ? [0, 0, 0.01, 0] : [stand.x, stand.z, stand.radius, stand.height], 4 * k);
   }
 
-  /** `lies`: the match is drawn, and on the table. */
+  /** `lies`: the match is drawn lying on the table. */
   private drawLight(program: Program, view: RoomView, shown: CandlePicture, lies: boolean): void {
     this.surface.bindTexture(0);
     const { match } = shown;
@@ -301,7 +301,7 @@ export class CandleRenderer {
       .setNumbers('uSpread', this.spread);
     if (shown.setting.cake !== null) {
       this.sticks.fill(0);
-      // The streaks of more would be no streaks.
+      // Streaks of more candles would merge.
       if (shown.candles.length <= MAX_LAMPS) shown.candles.forEach(({ stand }, k) => stand.figure === null && this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
       program.setVectors4('uSticks', this.sticks);
     }
@@ -320,7 +320,7 @@ export class CandleRenderer {
       .set('uBox', ...box);
   }
 
-  /** Light that the other flames throw on a candle: from the left, from the right, from behind, on the whole. */
+  /** Light of the other flames on a candle: from the left, right and behind, and overall. */
   private lightFromOthers(candle: DrawnCandle): [number, number, number, number] {
     const { stand, shape } = candle;
     const sum: [number, number, number, number] = [0, 0, 0, 0];
@@ -347,7 +347,7 @@ export class CandleRenderer {
     const height = stand.height / stand.unit;
     const upper = view.flatness(top, stand.z);
     const lower = view.flatness(stand.ground, stand.z);
-    // Without a table each stands in a dish of its own.
+    // Without a table each candle has its own dish.
     const saucer = (view.clear && stand.saucer === 0 ? 2.7 * stand.radius : stand.saucer) / stand.unit;
     const wide = Math.max(radius, saucer) + 0.12;
     const box = [-wide, -height - Math.max(radius, saucer) * lower - 0.05, wide, 0.34];
@@ -368,7 +368,7 @@ export class CandleRenderer {
     this.quad.draw();
   }
 
-  /** A candle that is a digit. */
+  /** Draws a candle shaped as a digit. */
   private drawFigure(view: RoomView, { stand, shape, ember }: DrawnCandle): void {
     const { lettering } = this;
     if (lettering === null) return;
@@ -416,7 +416,7 @@ export class CandleRenderer {
     if (match.burning) this.drawFlame(view, match, match, match.y, clock);
   }
 
-  /** Light of all flames at a place of the room. */
+  /** Total light of all flames at a place in the room. */
   private lightAt(x: number, y: number, z: number): number {
     let sum = 0;
     for (const lamp of this.lamps) {
@@ -426,7 +426,7 @@ export class CandleRenderer {
     return Math.min(1.2, 1.6 * sum);
   }
 
-  /** What acts on the air, in heights of the picture. */
+  /** Forces on the air, in picture heights. */
   private stirring(view: RoomView, { candles, match, seconds, clock, breath, hand, wish }: CandlePicture): Stirring {
     this.heats.fill(0);
     this.wicks.fill(0);
@@ -439,7 +439,7 @@ export class CandleRenderer {
       this.wicks.set([...at, 0.015 * scale + 0.001, 24 * smoking], 4 * count);
       count += 1;
     };
-    // Of many, one for each light.
+    // With many candles, one source per light.
     const apart = Math.ceil(candles.length / MAX_LAMPS);
     for (const [k, { stand, shape, smoking }] of candles.entries()) {
       if (k % apart !== 0) continue;
@@ -459,7 +459,7 @@ export class CandleRenderer {
       breathHeight: blown,
       hand: hand.present ? [hand.x / tall, hand.y / tall, hand.speedX / tall, hand.speedY / tall] : [0, 0, 0, 0],
       wish,
-      // Above what smokes, where the picture has room for it.
+      // Above the smoking wicks, as far as the picture has room.
       wishAt: [view.width / 2 / tall, Math.min(0.7, blown + 0.2)],
     };
   }

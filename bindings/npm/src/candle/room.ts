@@ -1,48 +1,48 @@
-// Where things stand in the candle's room, and where that is in the picture.
+// Positions of things in the candle's room, and their projection to the picture.
 //
 // Room units: 1 is the height of a lone candle's calm flame. x right, y up from the table, z towards the eye. The eye
-// looks straight ahead, so that verticals stay vertical and a flame is a flat board that faces it.
+// looks horizontally, so verticals stay vertical and a flame is a flat board facing the eye.
 
-/** A candle as it stands. */
+/** Position and size of a candle. */
 export interface Stand {
   x: number;
   z: number;
-  /** height of what it stands on */
+  /** height of its support */
   ground: number;
   height: number;
   radius: number;
-  /** room units a flame unit */
+  /** room units per flame unit */
   unit: number;
   wax: readonly [number, number, number];
   striped: boolean;
-  /** radius of the dish that it stands in; 0: none */
+  /** radius of its dish; 0: none */
   saucer: number;
   seed: number;
-  /** which of at most MAX_LAMPS lights its flame belongs to: those of many candles shine together */
+  /** index below MAX_LAMPS of the light of its flame; many candles share lights */
   lamp: number;
-  /** the digit that the candle is; null: a stick */
+  /** digit shape of the candle; null: a stick */
   figure: string | null;
 }
 
-/** What stands on the table. */
+/** Arrangement on the table. */
 export interface Setting {
   stands: Stand[];
   cake: { x: number; radius: number; height: number } | null;
 }
 
-/** Most candles on a cake, and most lights that they are to the room. */
+/** Maximum number of candles on a cake, and of lights in the room. */
 export const MAX_CANDLES = 100;
 export const MAX_LAMPS = 12;
-/** Digits of the largest number that stands on a cake. */
+/** Maximum digits of a number on a cake. */
 const MAX_DIGITS = 3;
 
-/** Figures instead of candles: what of a text can stand on a cake. */
+/** Digit candles for a text: its first MAX_DIGITS digits. */
 export const figuresOf = (text: string): string => text.replace(/\D/g, '').slice(0, MAX_DIGITS);
 
-/** From the upper end of a candle to the base of its flame, in flame units. */
+/** Distance from a candle's upper end to its flame's base, flame units. */
 const WICK_GAP = 0.085;
 
-/** Height of the base of a candle's flame in the room. */
+/** Height in the room of the base of a candle's flame. */
 export const flameFoot = ({ ground, height, unit }: Stand): number => ground + height + WICK_GAP * unit;
 
 const PASTELS: readonly (readonly [number, number, number])[] = [
@@ -53,7 +53,7 @@ const PASTELS: readonly (readonly [number, number, number])[] = [
   [0.72, 0.54, 0.86],
 ];
 
-/** One candle by itself, or a cake with 2 to MAX_CANDLES of them; or with figures in their place. */
+/** A single candle, or a cake with 2 to MAX_CANDLES candles or with digit candles. */
 export function settingFor(candles: number, figures = ''): Setting {
   const plain = { lamp: 0, figure: null, striped: false, saucer: 0, z: 0, ground: 0 };
   if (candles <= 1 && figures === '') {
@@ -68,7 +68,7 @@ export function settingFor(candles: number, figures = ''): Setting {
     const stands = [...figures].map((figure, k): Stand => ({ ...on, x: 0.92 * (k - middle), z: 0.5, height: FIGURE_HEIGHT, radius: 0.1, unit: 0.5, wax: hue(k), seed: k + 1, lamp: k, figure }));
     return { cake, stands };
   }
-  // The more there are, the smaller they are.
+  // More candles are smaller.
   const small = candles <= MAX_LAMPS ? 1 : Math.max(0.5, (MAX_LAMPS / candles) ** 0.3);
   const spots = candles <= MAX_LAMPS ? places(candles) : rings(candles);
   const stands = spots.map(
@@ -85,14 +85,14 @@ export function settingFor(candles: number, figures = ''): Setting {
       lamp: candles <= MAX_LAMPS ? k : Math.floor((k * MAX_LAMPS) / candles),
     }),
   );
-  // The farthest first: nearer ones are drawn over them.
+  // Sorted from far to near, as nearer ones are drawn over them.
   return { cake, stands: stands.sort((a, b) => a.z - b.z) };
 }
 
-/** Of a candle that is a figure. */
+/** Height of a digit candle. */
 export const FIGURE_HEIGHT = 0.95;
 
-/** Places of many candles: on rings, as far apart on each as the rings are. */
+/** Positions of many candles on rings, with equal spacing within and between rings. */
 function rings(candles: number): [number, number][] {
   const radii = [1.42, 1.16, 0.9, 0.64, 0.38, 0.12].slice(0, candles <= 30 ? 2 : candles <= 50 ? 3 : 6);
   const around = radii.reduce((sum, radius) => sum + radius, 0);
@@ -111,10 +111,10 @@ function rings(candles: number): [number, number][] {
 
 const DISTANCE = 11;
 
-/** How much larger things look at that depth than at z = 0. */
+/** Scale at a depth relative to z = 0. */
 const nearnessAt = (z: number): number => DISTANCE / (DISTANCE - z);
 
-/** Places around the cake, by turns in front and behind, evenly side by side as they are seen: none hides another. */
+/** Positions around the cake, alternately in front and behind, evenly spaced in the view: none hides another. */
 function places(candles: number): [x: number, z: number][] {
   const ring = candles < 4 ? 0.85 : 1.36;
   return Array.from({ length: candles }, (_, k): [number, number] => {
@@ -130,7 +130,7 @@ function places(candles: number): [x: number, z: number][] {
   });
 }
 
-/** A picture of the room. Pixels, y up from the lower edge. */
+/** Projection of the room to a picture. Pixels, y up from the lower edge. */
 export class RoomView {
   readonly eye = 3.4;
   readonly distance = DISTANCE;
@@ -138,16 +138,16 @@ export class RoomView {
   footer = 0;
   clear = false;
   height = 1;
-  /** pixels a unit at z = 0 */
+  /** pixels per unit at z = 0 */
   scale = 1;
-  /** pixel of x = 0 */
+  /** pixel column of x = 0 */
   middle = 0;
-  /** pixel of the eye's height */
+  /** pixel row of the eye's height */
   horizon = 0;
 
   /**
-   * Frames what stands on the table in a picture of that size. `footer`: share of its height that controls cover below;
-   * `clear`: a cake's candles are drawn without it; `above`: how much higher than sticks what stands on the cake is.
+   * Fits the setting into a picture of that size. `footer`: share of its height covered by controls below; `clear`: a
+   * cake's candles without the cake; `above`: extra height of digits over sticks.
    */
   frame(width: number, height: number, cake: boolean, footer: number, clear: boolean, above = 0): void {
     this.width = width;
@@ -155,17 +155,17 @@ export class RoomView {
     this.footer = footer;
     this.clear = clear;
     const free = height * (1 - footer);
-    // Height from the nearest edge of what is drawn to above the highest flame, its width, and where that edge is.
+    // Height from the nearest drawn edge to above the highest flame, width, and height of that edge.
     const [tall, wide, low] = cake ? (clear ? [1.95, 3.4, -0.6] : [4 + above, 5, 0.94]) : [3.6, 2.9, 0.4];
     this.scale = Math.min(free / tall, width / wide);
     this.middle = width / 2;
-    // Where the picture is tall, what stands there stays near its middle.
+    // In tall pictures the setting stays near the middle.
     const spare = Math.max(0, free - this.scale * tall);
     const foot = height * footer + 0.42 * spare + this.scale * low;
     this.horizon = foot + this.scale * this.eye;
   }
 
-  /** How much larger things look at that depth than at z = 0. */
+  /** Scale at a depth relative to z = 0. */
   nearness(z: number): number {
     return nearnessAt(z);
   }
@@ -186,7 +186,7 @@ export class RoomView {
     return this.eye + (pixel - this.horizon) / (this.nearness(z) * this.scale);
   }
 
-  /** How round a level circle at that height and depth looks: the share of its width that is seen as height. */
+  /** Height / width in the picture of a level circle at that height and depth. */
   flatness(y: number, z: number): number {
     return Math.max(0.02, (this.eye - y) / (this.distance - z));
   }

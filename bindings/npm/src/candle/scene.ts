@@ -1,4 +1,4 @@
-// The candle: a flame model, alive, in a dark room; and the cake, several of them in one wind.
+// The candle scene: a live flame model in a dark room; and the cake, several flames in one wind.
 
 import { WispError, type Bank, type FlameState, type Instance, type Model } from '../index.js';
 import type { Acting, Air, Pointer, Reading, Scene, SceneLook, SceneSettings } from '../stage/scene.js';
@@ -10,13 +10,13 @@ import { CandleRenderer } from './renderer.js';
 import { MAX_CANDLES, RoomView, settingFor, type Setting } from './room.js';
 import { shelter, WindDelay } from '../air/delay.js';
 
-/** Points of a flame's outline; smooth at 500 pixels' height. */
+/** Points of a flame's outline; looks smooth up to a height of 500 pixels. */
 const OUTLINE_POINTS = 40;
 const NANOSECONDS = 1e9;
-/** Seconds after the last flame went out between which a wish rises. */
+/** Seconds after the last extinction at which smoke writing starts and ends. */
 const WISH = { from: 0.9, to: 5 };
 
-/** The model in the round; null where it is no flame of symmetric and antisymmetric components. */
+/** The model as a body of revolution; null unless it is a flame of symmetric and antisymmetric components. */
 function roundOf(model: Model): Model | null {
   try {
     return model.inTheRound();
@@ -31,19 +31,19 @@ export class CandleScene implements Scene {
   readonly answerName = 'tip, sideways';
   private readonly view = new RoomView();
   private readonly match = new Match();
-  /** wind across the table, and away from the eye */
+  /** wind across the table and away from the eye */
   private readonly across = new WindDelay();
   private readonly away = new WindDelay();
   private setting: Setting = settingFor(1);
   private candles: Candle[] = [];
   private renderer: CandleRenderer | null = null;
-  /** seconds since the last picture, and since the beginning */
+  /** seconds since the last picture, and since the start */
   private passed = 0;
   private clock = 0;
   private breath = 0;
   private hand: Pointer = { x: 0, y: 0, fromX: 0, fromY: 0, speedX: 0, speedY: 0, present: false };
   private dragged: { offset: number; goal: number } | null = null;
-  /** the model in the round, which plays in its place; null: it has no other sides */
+  /** body model played in place of the outline; null: only one view exists */
   private readonly round: Model | null;
   readonly orbit = new Orbit();
   private settings: SceneSettings;
@@ -61,7 +61,7 @@ export class CandleScene implements Scene {
     this.seat();
   }
 
-  /** Takes its answer to wind from another flame model; that one may be freed afterwards. */
+  /** Borrows the wind response of another flame model, which may be freed afterwards. */
   async borrow(from: Model): Promise<void> {
     const { Lender } = await import('./lender.js');
     if (this.disposed) return;
@@ -77,9 +77,9 @@ export class CandleScene implements Scene {
     this.followPointer(acting);
     this.match.update(seconds);
     this.tendMatch();
-    // What has no other sides is blown along one line.
+    // A model with a single view is blown along one axis.
     const air = this.round === null ? { right: acting.breath, away: 0 } : (acting.air ?? { right: acting.breath, away: 0 });
-    // Smoke has only the picture's plane to go.
+    // Smoke moves in the picture plane only.
     this.breath = air.right + 0.5 * air.away;
     this.across.push(seconds, air.right);
     this.away.push(seconds, air.away);
@@ -93,7 +93,7 @@ export class CandleScene implements Scene {
 
   reading(): Reading {
     const first = this.candles[this.candles.length - 1];
-    // In the round a breath comes from the eye: the tip leans away from it.
+    // For bodies breath comes from the eye, so the tip leans away from it.
     return { wind: first?.wind ?? 0, answer: first?.shape.empty === false ? first.shape.tipX + first.tipAway : 0 };
   }
 
@@ -143,7 +143,7 @@ export class CandleScene implements Scene {
     if (nearest !== null) this.relight(nearest);
   }
 
-  /** Goes round what stands there; false where it has no other sides. */
+  /** Rotates the view round the setting; false where the model has a single view. */
   goRound(radians: number): boolean {
     if (this.round === null) return false;
     if (this.orbit.turnTo(this.orbit.azimuth + radians)) this.turn();
@@ -172,23 +172,23 @@ export class CandleScene implements Scene {
     return `A cake${name === '' ? '' : ` for ${name}`} with ${what}, ${lit} of them burning.`;
   }
 
-  /** Whether the last flame has gone out so lately that its smoke still says what was wished. */
+  /** Whether the smoke of the last extinction still shows the wish. */
   private wishing(): boolean {
     const latest = Math.min(...this.candles.map(({ sinceOut }) => sinceOut));
     return this.candles.every(({ lit }) => !lit) && latest > WISH.from && latest < WISH.to;
   }
 
-  /** How many burn, of how many. */
+  /** Number of burning candles, and of all candles. */
   burning(): { lit: number; of: number } {
     return { lit: this.candles.filter((candle) => candle.lit).length, of: this.candles.length };
   }
 
-  /** Where the first candle stands. */
+  /** x of the first candle. */
   get firstX(): number {
     return this.candles[0]?.stand.x ?? 0;
   }
 
-  /** Pixels of the first wick and of the match's head. */
+  /** Pixel positions of the first wick and of the match's head. */
   places(): { wick: readonly [number, number]; match: readonly [number, number] } {
     const { view, match } = this;
     const { stand } = this.candles[0] as Candle;
@@ -219,7 +219,7 @@ export class CandleScene implements Scene {
     this.match.rest(Math.min(edge - 0.55, cake ? 2.3 : 1.35), z);
   }
 
-  /** Sets up the table anew. */
+  /** Sets the table up again. */
   private seat(): void {
     for (const { id, lent } of this.candles) {
       this.bank.end(id);
@@ -238,7 +238,7 @@ export class CandleScene implements Scene {
     if (bank.inputs === 2) bank.setInstanceInputs(id, this.orbit.wind(right, away));
   }
 
-  /** Where things stand, as the eye sees it: what is farthest comes first. Digits face it. */
+  /** Computes positions as seen by the eye, far to near; digits face the eye. */
   private turn(): void {
     const { cake } = this.setting;
     for (const candle of this.candles) {
@@ -272,7 +272,7 @@ export class CandleScene implements Scene {
     for (const candle of this.candles) candle.stand.x += way;
   }
 
-  /** The air at a candle of a cake: later where it has farther to go, weaker behind others. */
+  /** Air at a candle of a cake: delayed by distance, weakened behind others. */
   private airAt({ stand }: Candle, cake: { x: number }): Air {
     const stands = this.candles.map((candle) => candle.stand);
     const right = this.across.at(stand.x - cake.x, stand.z);
@@ -334,7 +334,7 @@ export class CandleScene implements Scene {
     }
   }
 
-  /** After one wick, to the next one that is out, where the match goes by itself. */
+  /** Sends the match, moving by itself, to the next extinguished wick. */
   private sendOn(): void {
     if (this.match.held) return;
     const next = this.candles.find((candle) => !candle.lit && !this.stateOf(candle).lit);
@@ -361,7 +361,7 @@ export class CandleScene implements Scene {
     candle.sheltered = 0.6;
   }
 
-  /** Where the match has to be to light it: its flame at the wick, at the match's depth. */
+  /** Position of the match that lights a wick: its flame at the wick, at the match's depth. */
   private wickOf(candle: Candle): [number, number] {
     const { view, match } = this;
     const { stand } = candle;
@@ -390,7 +390,7 @@ export class CandleScene implements Scene {
     return Math.abs(view.roomX(x, 0) - cake.x) < cake.radius && dy > -0.5 && dy < cake.height + 0.3 ? first : null;
   }
 
-  /** The candle that a tap there lights: the nearest that is out, anywhere on it or near its wick. */
+  /** The nearest extinguished candle to a tap on it or near its wick. */
   private nearestOut(x: number, y: number): Candle | null {
     let best: Candle | null = null;
     let least = Infinity;

@@ -1,9 +1,9 @@
-// Words as a picture that shaders read: white on black, in lines that are about as wide as one another.
+// Text as a texture for shaders: white on black, in lines of about equal width.
 
-/** Pixels of a line. */
+/** Height of a line, pixels. */
 const LINE = 128;
 
-/** Lines of about so many letters, alike, broken between words. */
+/** Breaks text between words into lines of about equal length, near `about` characters. */
 export function brokenLines(text: string, about: number): string[] {
   const lines: string[] = [''];
   const most = text.length / Math.ceil(text.length / about) + 3;
@@ -25,12 +25,12 @@ export class Words {
     this.texture = gl.createTexture() as WebGLTexture;
   }
 
-  /** Writes it, where it is news, and binds the picture to a unit. Returns its width over its height. */
+  /** Draws the text if it changed, and binds the texture to a unit. Returns width / height. */
   write(text: string, font: string, about: number, unit: number): number {
     const { gl } = this;
     gl.activeTexture(gl.TEXTURE0 + unit);
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
-    // What was said last stays while it is not needed.
+    // The last text stays while no new one is set.
     if (text === this.written || (text === '' && this.written !== null)) return this.shape;
     this.written = text;
     const lines = brokenLines(text, about);

@@ -1,4 +1,4 @@
-// Where the leaves are seen from: metres, z up; the eye looks along +y.
+// Camera of the leaves: metres, z up; the eye looks along +y.
 
 const EYE = [0, -2.75, 1.12] as const;
 const TARGET_HEIGHT = 0.93;
@@ -8,9 +8,9 @@ const FAR = 30;
 
 export class LeafCamera {
   readonly eye = EYE;
-  /** world to clip, column by column */
+  /** world to clip space, column-major */
   readonly matrix = new Float32Array(16);
-  /** sine and cosine of how far the eye looks down */
+  /** sine and cosine of the eye's pitch (downwards) */
   private readonly sine: number;
   private readonly cosine: number;
   aspect = 1;
@@ -23,7 +23,7 @@ export class LeafCamera {
     this.cosine = Math.cos(down);
   }
 
-  /** Half of what is seen at a metre's distance: across, and up. */
+  /** Half extents of the view at a distance of one metre: across and up. */
   get half(): readonly [number, number] {
     return [HALF_VIEW * this.aspect, HALF_VIEW];
   }
@@ -37,7 +37,7 @@ export class LeafCamera {
     this.height = height;
     this.aspect = width / Math.max(1, height);
     const { sine: s, cosine: c } = this;
-    // Rows: right is x; up is (0, s, c); ahead is (0, c, −s).
+    // Rows: right is x; up is (0, s, c); the view direction is (0, c, −s).
     const fx = 1 / (HALF_VIEW * this.aspect);
     const fy = 1 / HALF_VIEW;
     const depth = (FAR + NEAR) / (FAR - NEAR);
@@ -50,12 +50,12 @@ export class LeafCamera {
     this.matrix.set([-fx * ex, -fy * up, -depth * ahead - (2 * FAR * NEAR) / (FAR - NEAR), -ahead], 12);
   }
 
-  /** Half of the width in view at that depth y, at the ground. */
+  /** Half width of the view at depth y, at ground level. */
   halfWidth(y: number): number {
     return (y - EYE[1]) * this.cosine * HALF_VIEW * this.aspect;
   }
 
-  /** The place at depth y that a pixel shows: x and z. */
+  /** Position (x and z) shown by a pixel at depth y. */
   at(pixelX: number, pixelY: number, y: number): [number, number] {
     const across = ((2 * pixelX) / this.width - 1) * HALF_VIEW * this.aspect;
     const up = ((2 * pixelY) / this.height - 1) * HALF_VIEW;

@@ -1,4 +1,4 @@
-// <wisp-leaves>: leaves that fall, on anybody's page.
+// <wisp-leaves>: falling leaves, for any page.
 
 import type { Model } from '../index.js';
 import { define, numberOf, SceneElement, type SceneAttributes } from '../stage/element.js';
@@ -8,7 +8,7 @@ import { LeavesScene } from './scene.js';
 
 const USUAL = 200;
 
-/** Attributes beside those of every scene: `leaves`, 1 to 10000. Events: `load`, `error`. */
+/** Attributes in addition to those of every scene: `leaves`, 1 to 10000. Events: `load`, `error`. */
 export class WispLeaves extends SceneElement {
   protected readonly usualModel = new URL('../models/leaf.wisp', import.meta.url);
 

@@ -1,56 +1,56 @@
-// Leaves that fall for ever: instances of one chain, each with its own way through the air, its rest on the ground, and
-// its return to the top. The bank moves them; this says where they begin, what wind they feel, and which are in view.
+// Endlessly falling leaves: instances of one chain, each with its fall, its rest on the ground, and its return to the
+// top. The bank moves them; this module sets where they start, their wind, and which are in view.
 
 import type { Bank, Instance } from '../index.js';
 import type { LeafCamera } from './camera.js';
 
-/** Leaves live between these depths and below that height, metres. */
+/** Range of depths and maximum height of leaves, metres. */
 const NEAREST = -1.35;
 const FARTHEST = 3.4;
 const TOP = 2.75;
-/** Below this a leaf lies on the ground. */
+/** Height below which a leaf lies on the ground. */
 const LYING = 0.035;
-/** Heaps: the ground is counted in cells of that size, metres; what a leaf adds to one, and the most that lie in one. */
+/** Heaps: cell size of the ground in metres; height added per leaf, and maximum height per cell. */
 const CELL = 0.16;
 const HALF_COLUMNS = 40;
 const LAYER = 0.0045;
 const MAX_LAYERS = 30;
-/** How much longer leaves lie where heaps are. */
+/** Factor by which leaves lie longer in heaps. */
 const LONGER = 6;
-/** Leaves that are placed anew in one frame, at most: each looks through all segments. */
+/** Maximum number of leaves placed anew per frame, as each search covers all segments. */
 const PLACINGS = 6;
-/** Milliseconds that a frame may spend on leaves that are still to come, beyond those. */
+/** Milliseconds per frame for starting further leaves. */
 const FILLING = 1.5;
 const FADES = 0.7;
-/** Wind that lifts a leaf off the ground, metres a second, and for how long it is carried up. */
+/** Wind that lifts a leaf off the ground, metres a second, and duration of the lift. */
 const LIFTING = 0.9;
 const LIFT_SECONDS = 0.45;
-/** How far a gust of the pointer reaches, metres, squared. */
+/** Squared reach of the pointer's gust, metres². */
 const REACH2 = 1.4;
-/** Numbers an instance on the graphics card: x, y, z, how much of it is seen; quaternion w, x, y, z. */
+/** Numbers per instance on the graphics card: x, y, z, opacity; quaternion w, x, y, z. */
 export const LEAF_NUMBERS = 8;
 
-/** A gust of a place: an upright column of moving air. */
+/** A local gust: an upright column of moving air. */
 export interface Gust {
-  /** where, and how fast that air moves, metres and metres a second */
+  /** position and velocity of that air, metres and metres a second */
   x: number;
   z: number;
   speedX: number;
   speedZ: number;
-  /** wind everywhere, along x */
+  /** wind along x in the whole scene */
   everywhere: number;
-  /** an upward push at the ground around a place; 0: none */
+  /** upward impulse at the ground around a place; 0: none */
   kick: number;
   kickX: number;
   kickY: number;
-  /** how far it reaches, metres */
+  /** reach of the impulse, metres */
   kickReach: number;
 }
 
 export class LeafFall {
   readonly shown: Float32Array;
   count = 0;
-  /** how many lie on the ground */
+  /** number of leaves on the ground */
   lying = 0;
   private readonly ids: Instance[] = [];
   private readonly offsetX: Float32Array;
@@ -59,7 +59,7 @@ export class LeafFall {
   private readonly rests: Float32Array;
   private readonly lift: Float32Array;
   private readonly seen: Float32Array;
-  /** of the ground: how many leaves lie in each of its cells; the cell and layer of each leaf that lies, −1 and 0 of others */
+  /** number of leaves in each ground cell; cell and layer of each lying leaf, −1 and 0 for others */
   private readonly heights = new Uint8Array(2 * HALF_COLUMNS * Math.ceil((FARTHEST - NEAREST) / CELL));
   private readonly cells: Int32Array;
   private readonly layers: Float32Array;
@@ -90,7 +90,7 @@ export class LeafFall {
     bank.setGround(0);
   }
 
-  /** Wants so many; they come and go over the next frames. */
+  /** Sets the wanted number of leaves; they appear or disappear over the next frames. */
   want(count: number): void {
     this.wanted = Math.min(count, this.bank.capacity);
     while (this.ids.length > this.wanted) {
@@ -100,7 +100,7 @@ export class LeafFall {
     this.count = Math.min(this.count, this.ids.length);
   }
 
-  /** Lets time pass. */
+  /** Advances by a time. */
   update(seconds: number, gust: Gust): void {
     this.clock += seconds;
     let placings = PLACINGS;
@@ -115,7 +115,7 @@ export class LeafFall {
   }
 
   private chance(): number {
-    // xorshift: cheap, and the same for the same seed.
+    // xorshift: fast, and reproducible for a seed.
     let word = this.random;
     word ^= word << 13;
     word ^= word >>> 17;
@@ -131,9 +131,9 @@ export class LeafFall {
     this.count = this.ids.length;
   }
 
-  /** Lets a leaf fall from that height, somewhere. */
+  /** Starts a leaf at a height, at a random place. */
   private start(slot: number, height: number): void {
-    // Denser near the eye, where the view is narrow, than even over the ground.
+    // Denser near the eye, where the view is narrow, than a uniform distribution over the ground.
     const y = NEAREST + (FARTHEST - NEAREST) * Math.pow(this.chance(), 0.72);
     const half = this.camera.halfWidth(y) + 0.3;
     this.offsetX[slot] = (2 * this.chance() - 1) * half;
@@ -151,7 +151,7 @@ export class LeafFall {
     });
   }
 
-  /** Gives every leaf its wind. */
+  /** Sets the wind of every leaf. */
   private blow(gust: Gust): void {
     const { bank, shown, lift, clock } = this;
     if (bank.inputs !== 3 || this.ids.length === 0) return;
@@ -186,7 +186,7 @@ export class LeafFall {
     bank.setInputs(winds);
   }
 
-  /** Reads where the leaves are, and starts again those that have lain long enough. */
+  /** Reads positions, and restarts leaves that have lain long enough. */
   private gather(seconds: number, gust: Gust, placings: number): void {
     const outputs = this.bank.outputsView();
     const { shown, seen } = this;
@@ -227,7 +227,7 @@ export class LeafFall {
     for (const slot of kicked) this.kick(slot, gust);
   }
 
-  /** Counts a leaf's rest. Returns whether it has lain long enough: in a heap longer, so that heaps grow. */
+  /** Advances a leaf's rest. Returns whether it has lain long enough, which takes longer in heaps so that they grow. */
   private rest(slot: number, x: number, y: number, z: number, seconds: number): boolean {
     if (z >= LYING) {
       this.rested[slot] = 0;
@@ -269,7 +269,7 @@ export class LeafFall {
     return wind > LIFTING && wind > LIFTING * (1 + 2 * this.chance());
   }
 
-  /** Throws a lying leaf up. */
+  /** Throws a lying leaf upwards. */
   private kick(slot: number, gust: Gust): void {
     const outputs = this.bank.instanceOutputs(this.ids[slot] as Instance);
     const spread = (): number => this.chance() - 0.5;
@@ -287,20 +287,20 @@ export class LeafFall {
   }
 }
 
-/** How much of a heap a place is: two of them, where the wind has swept leaves together. */
+/** Density of the two heaps at a place, where wind has swept leaves together. */
 function heap(x: number, y: number): number {
   const left = ((x + 0.75) / 0.55) ** 2 + ((y - 0.9) / 0.45) ** 2;
   const right = ((x - 1.15) / 0.7) ** 2 + ((y - 1.6) / 0.5) ** 2;
   return Math.exp(-left) + Math.exp(-right);
 }
 
-/** How much of a gust is felt at that distance, squared: a bell that ends. */
+/** Share of a gust at a squared distance: a bell curve with finite support. */
 function nearness(far2: number): number {
   const share = Math.max(0, 1 - far2 / REACH2);
   return share * share * share;
 }
 
-/** What goes out of the range on one side comes in on the other. */
+/** Wraps a value into a range. */
 function wrapped(value: number, low: number, high: number): number {
   const range = high - low;
   return value - range * Math.floor((value - low) / range);

@@ -1,2 +1,2 @@
-/** Most leaves at once. */
+/** Maximum number of leaves. */
 export const MAX_LEAVES = 10_000;

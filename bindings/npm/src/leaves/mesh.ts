@@ -1,11 +1,11 @@
-// What a leaf is drawn on: a sheet that is folded along its midrib and bent, large enough for every species' outline,
-// which the fragment shader cuts out of it. y along the midrib towards the tip, x across, z out of the upper side;
-// lengths are shares of half the leaf's width (x) and length (y).
+// Mesh of a leaf: a sheet folded along its midrib and curved, large enough for every species; the fragment shader cuts
+// the outline out. y along the midrib to the tip, x across, z out of the upper side; x and y are in units of half the
+// leaf's width and length.
 
-/** Numbers a vertex: x, y, z, then across (−1 … 1) and along (below 0 the stalk, 1 the tip). */
+/** Numbers per vertex: x, y, z, then across (−1 … 1) and along (below 0 the stalk, 1 the tip). */
 export const MESH_NUMBERS = 5;
 
-/** Where the stalk ends. */
+/** Coordinate along of the stalk's end. */
 const STALK = -0.28;
 
 export interface LeafMesh {
@@ -13,7 +13,7 @@ export interface LeafMesh {
   indices: Uint16Array;
 }
 
-/** A mesh with so many rows along and columns across. */
+/** A mesh of `rows` along and `columns` across. */
 export function leafMesh(rows: number, columns: number): LeafMesh {
   const vertices: number[] = [];
   const indices: number[] = [];

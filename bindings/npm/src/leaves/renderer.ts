@@ -1,5 +1,5 @@
-// Draws leaves with WebGL2: one instanced call for all leaves, one for all their shadows. Poses go to the card as the
-// bank gives them and are turned there.
+// Draws leaves with WebGL2: one instanced call for all leaves, one for their shadows. Poses are uploaded as the bank
+// returns them, and rotated on the card.
 
 import { drawToCanvas, Program, Quad, Target } from '../stage/gl.js';
 import noise from '../candle/shaders/noise.glsl.js';
@@ -15,13 +15,13 @@ import shadowVertex from './shaders/shadow.vert.js';
 import species from './shaders/species.glsl.js';
 import skyFragment from './shaders/sky.frag.js';
 
-/** The more leaves, the fewer triangles each: up to so many leaves, so many rows and columns of them. */
+/** Resolution of a leaf's mesh by the number of leaves: up to `most` leaves have that many rows and columns. */
 const MESHES: readonly (readonly [most: number, rows: number, columns: number])[] = [
   [120, 10, 4],
   [1200, 5, 2],
   [Infinity, 3, 2],
 ];
-/** Leaves are drawn this much larger than they are. */
+/** Magnification of drawn leaves. */
 const ENLARGED = 1.45;
 
 interface Shape {
@@ -72,7 +72,7 @@ export class LeafRenderer {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
-    // Outlines are cut out of sheets: their edge is spread over a pixel's samples.
+    // Outlines are cut out of sheets: alpha to coverage antialiases their edges.
     gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     this.programs.leaf.use().setMatrix('uMatrix', camera.matrix).set('uHalfSize', ...size).set('uEye', ...camera.eye);
     const { shape } = this.leaves.find(({ most }) => count <= most) as { shape: Shape };

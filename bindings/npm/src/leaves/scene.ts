@@ -1,4 +1,4 @@
-// Leaves that fall for ever in autumn light, settle, and are kicked up again.
+// Endlessly falling leaves in autumn light, which settle and are kicked up again.
 
 import type { Bank, Model } from '../index.js';
 import { MAX_LEAVES } from './limits.js';
@@ -7,17 +7,17 @@ import { LeafCamera } from './camera.js';
 import { LeafFall, type Gust } from './fall.js';
 import { LeafRenderer } from './renderer.js';
 
-/** Depth at which the pointer stirs the air, metres. */
+/** Depth of the pointer's gusts, metres. */
 const STIRRED_DEPTH = 0.4;
-/** Strongest wind of the pointer, metres a second, and its share of the pointer's own speed. */
+/** Maximum wind of the pointer, metres a second, and wind as a share of the pointer's speed. */
 const STRONGEST = 4.5;
 const CARRIED = 0.75;
-/** Wind of a breath of 1, metres a second. */
+/** Wind at a breath of 1, metres a second. */
 const BREATH = 2.2;
-/** Seconds that a kick works. */
+/** Duration of a kick, seconds. */
 const KICKS = 0.25;
 
-/** A leaf of a model that does not say how large it is. */
+/** Half width and half length of a leaf whose model lacks its size, metres. */
 const USUAL_HALF_SIZE = [0.0245, 0.0365] as const;
 
 export class LeavesScene implements Scene {
@@ -82,7 +82,7 @@ export class LeavesScene implements Scene {
 
   release(x: number, y: number, tap: boolean): void {
     if (!tap) return;
-    // Where on the ground that is, or below it in the air.
+    // Position on the ground, or below it in the air.
     const [near] = this.camera.at(x, y, STIRRED_DEPTH);
     this.gust.kickX = near;
     this.gust.kickY = this.groundDepth(y);

@@ -1,5 +1,4 @@
-// What the package's elements have in common: a canvas in a shadow of its own, a model, wind, and one WebAssembly module
-// for all of them.
+// Base of the package's elements: a canvas in a shadow root, a model, wind, and one WebAssembly module shared by all.
 
 import { type Library, loadLibrary } from '../library.js';
 import type { Model } from '../model.js';
@@ -22,13 +21,13 @@ button[aria-pressed=true]::before { content: ''; display: inline-block; width: 8
 p { position: absolute; inset: auto 6% 62px; margin: 0; text-align: center; font: inherit; font-size: 14px; text-shadow: 0 0 4px #000, 0 0 8px #000; }
 [hidden] { display: none; }`;
 
-/** CSS pixels that the button covers at the lower edge. */
+/** CSS pixels covered by the button at the lower edge. */
 const BUTTON = 56;
 
-/** Where there is no document (a server that renders pages) the module can be imported all the same. */
+/** Without a document (on a server that renders pages) the module can still be imported. */
 const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
 
-/** Names an element, once, where there are elements. */
+/** Registers an element once, where custom elements exist. */
 export function define(name: string, element: typeof SceneElement & (new () => SceneElement)): void {
   if (globalThis.customElements !== undefined && !customElements.get(name)) customElements.define(name, element);
 }
@@ -41,7 +40,7 @@ export function shared(): Promise<Library> {
   return wisp;
 }
 
-/** What a tag of an element takes in JSX. */
+/** Attributes of an element's tag in JSX. */
 export interface SceneAttributes {
   src?: string;
   wind?: 'pointer' | 'mic' | 'none';
@@ -51,7 +50,7 @@ export interface SceneAttributes {
   [attribute: string]: unknown;
 }
 
-/** A number of an attribute, in a range; `otherwise` where there is none. */
+/** Numeric value of an attribute, clamped to a range; `otherwise` if missing. */
 export function numberOf(element: Element, name: string, low: number, high: number, otherwise: number): number {
   const text = element.getAttribute(name);
   const value = text === null || text.trim() === '' ? NaN : Number(text);
@@ -60,7 +59,7 @@ export function numberOf(element: Element, name: string, low: number, high: numb
 
 /**
  * An element that plays a model. Attributes: `src`, the model's address; `wind`: `pointer` (default), `mic` or `none`;
- * `seed`; `noise`; `clear`: on a transparent canvas. Keys, where it has the focus: arrows and Space blow, Enter acts.
+ * `seed`; `noise`; `clear`: transparent canvas. Keys, when focused: arrows and Space blow, Enter acts.
  */
 export abstract class SceneElement extends Base {
   static readonly observedAttributes: readonly string[] = ['src', 'wind', 'seed', 'noise', 'candles', 'leaves'];
@@ -72,7 +71,7 @@ export abstract class SceneElement extends Base {
   private stage: Stage | null = null;
   private model: Model | null = null;
   private microphone: Microphone | null = null;
-  /** count loads and openings of the microphone: one that was overtaken is dropped */
+  /** incremented by loads and by opening the microphone: outdated ones are dropped */
   private turn = 0;
   private asked = 0;
   private seen: IntersectionObserver | null = null;
@@ -88,7 +87,7 @@ export abstract class SceneElement extends Base {
     this.words.hidden = true;
     this.words.setAttribute('role', 'status');
     const shadow = this.attachShadow({ mode: 'open' });
-    // A sheet that is made by script: a page's policy may forbid those that are written into it.
+    // A constructed style sheet, as a page's policy may forbid inline ones.
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(STYLE);
     shadow.adoptedStyleSheets = [sheet];
@@ -96,10 +95,10 @@ export abstract class SceneElement extends Base {
     this.listenToKeys();
   }
 
-  /** The address of the model where the page names none. */
+  /** Address of the model where the page gives none. */
   protected abstract readonly usualModel: URL;
   protected abstract sceneOf(model: Model, settings: SceneSettings): Promise<Scene>;
-  /** How many of what there are to be. */
+  /** Number of candles or leaves. */
   protected abstract count(): number;
   /** Called after each frame. */
   protected abstract watch(scene: Scene): void;
@@ -120,7 +119,7 @@ export abstract class SceneElement extends Base {
     );
     this.stage.take();
     this.stage.start();
-    // What nobody sees costs nothing.
+    // Scenes out of view are not drawn.
     this.seen = new IntersectionObserver(([entry]) => {
       if (entry?.isIntersecting === true) this.stage?.start();
       else this.stage?.stop();
@@ -134,7 +133,7 @@ export abstract class SceneElement extends Base {
     this.seen?.disconnect();
     this.stage?.stop();
     this.closeMicrophone();
-    // A browser has some sixteen contexts. One that is only moved within the page is connected again by then.
+    // Browsers allow about sixteen contexts. An element that only moves within the page is connected again by then.
     setTimeout(() => {
       if (!this.isConnected) this.stage?.giveBack();
     });
@@ -147,7 +146,7 @@ export abstract class SceneElement extends Base {
     else this.scene?.apply(this.settings());
   }
 
-  /** What its own action does: lights candles, kicks leaves. */
+  /** The scene's own action: lights candles, kicks leaves. */
   act(): void {
     this.scene?.act();
   }
@@ -187,7 +186,7 @@ export abstract class SceneElement extends Base {
     }
   }
 
-  /** Says anew what is to be seen: out, or burning. */
+  /** Updates the accessible description: extinguished, or burning. */
   protected relabel(): void {
     if (this.scene !== null) this.canvas.setAttribute('aria-label', this.scene.describe());
   }
@@ -220,12 +219,12 @@ export abstract class SceneElement extends Base {
   }
 
   private async toggleMicrophone(): Promise<void> {
-    if (this.microphone?.asleep === true) return; // the click has woken it
+    if (this.microphone?.asleep === true) return; // the click has resumed it
     if (this.microphone !== null) return this.closeMicrophone();
     const asked = ++this.asked;
     this.say('');
     try {
-      // Fetched when somebody wants to blow, not before.
+      // Loaded only when the user wants to blow.
       const [library, { openMicrophone }] = await Promise.all([shared(), import('../microphone.js')]);
       const microphone = await openMicrophone(library, {
         onWind: ({ wind }) => this.wind.hear(wind, this.stage?.frames ?? 0),

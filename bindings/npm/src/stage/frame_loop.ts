@@ -1,18 +1,18 @@
-// What is done once a picture of the screen, until it is stopped.
+// A loop that runs once per screen refresh until it is stopped.
 
 export class FrameLoop {
   private running = 0;
   private last = 0;
 
-  /** `frame` is told the seconds since the one before, 0 after a start, and the time as animation frames have it. */
+  /** `frame` receives the seconds since the last frame (0 after a start) and the animation frame's time. */
   constructor(private readonly frame: (seconds: number, now: number) => void) {}
 
-  /** Runs; twice is fine. */
+  /** Starts the loop; may be called twice. */
   start(): void {
     this.running ||= requestAnimationFrame((now) => this.next(now));
   }
 
-  /** Stands still until start(). */
+  /** Stops the loop until start(). */
   stop(): void {
     cancelAnimationFrame(this.running);
     this.running = 0;

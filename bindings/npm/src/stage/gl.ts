@@ -1,4 +1,4 @@
-// The little of WebGL2 that the scenes need: a context, programs, buffers of quads, a target of high range.
+// WebGL2 helpers of the scenes: context, programs, quads, and an HDR target.
 
 /** A program; each uniform's location is looked up once. */
 export class Program {
@@ -7,7 +7,7 @@ export class Program {
   private readonly locations = new Map<string, WebGLUniformLocation | null>();
   private checked = false;
 
-  /** Begins to compile. Whether that went well is asked at the first use: until then it goes on beside us. */
+  /** Starts compiling. The result is queried at first use, so that compilation runs in parallel. */
   constructor(
     private readonly gl: WebGL2RenderingContext,
     vertex: string,
@@ -19,26 +19,26 @@ export class Program {
     gl.linkProgram(this.program);
   }
 
-  /** Whether it can be used without waiting for the compiler; true where the machine does not tell. */
+  /** Whether it is usable without waiting for the compiler; true where this cannot be queried. */
   private get ready(): boolean {
     const told = this.gl.getExtension('KHR_parallel_shader_compile');
     return told === null || this.gl.getProgramParameter(this.program, told.COMPLETION_STATUS_KHR) !== false;
   }
 
-  /** Whether it is compiled, with nothing left to be asked. */
+  /** Whether compilation is complete and its result has been read. */
   warm(): boolean {
     if (this.ready) this.use();
     return this.checked;
   }
 
-  /** Throws an Error with the compiler's words when the sources are wrong; a lost context passes. */
+  /** Throws an Error with the compiler's log if the sources are wrong; a lost context is ignored. */
   use(): this {
     if (!this.checked) this.check();
     this.gl.useProgram(this.program);
     return this;
   }
 
-  /** Sets a uniform of 1 to 4 numbers; one that the compiler left out is passed over. */
+  /** Sets a uniform of 1 to 4 numbers; uniforms that the compiler removed are ignored. */
   set(name: string, ...values: number[]): this {
     const at = this.at(name);
     if (values.length === 1) this.gl.uniform1f(at, values[0] as number);
@@ -104,11 +104,11 @@ function begun(gl: WebGL2RenderingContext, kind: number, source: string): WebGLS
   return shader;
 }
 
-/** Programs that are waited for one after another, one a frame: together they would hold a frame up. */
+/** Waits for programs one per frame, as all together would delay a frame. */
 export class Warming {
   constructor(private readonly programs: Program[]) {}
 
-  /** Looks at the next of them. True: all can be used. */
+  /** Checks the next program. Returns true once all are usable. */
   done(): boolean {
     const next = this.programs[0];
     if (next === undefined) return true;
@@ -117,7 +117,7 @@ export class Warming {
   }
 }
 
-/** A square from (−1, −1) to (1, 1), as two vectors a vertex at attribute 0 of whatever program draws it. */
+/** A square from (−1, −1) to (1, 1): two vectors per vertex at attribute 0. */
 export class Quad {
   private readonly array: WebGLVertexArrayObject;
   private readonly buffer: WebGLBuffer;
@@ -145,17 +145,17 @@ export class Quad {
   }
 }
 
-/** A picture to draw into, read as a texture afterwards. */
+/** A picture that is drawn to, then read as a texture. */
 export class Target {
   readonly texture: WebGLTexture;
   private readonly frame: WebGLFramebuffer;
   private depth: WebGLRenderbuffer | null = null;
-  /** where several samples a pixel are drawn, before they are put together */
+  /** multisampled buffer, before resolving */
   private sampled: { frame: WebGLFramebuffer; colour: WebGLRenderbuffer } | null = null;
   width = 0;
   height = 0;
 
-  /** `range`: light brighter than 1 is kept, where the machine can do that. */
+  /** `range`: HDR, where the machine supports it. */
   constructor(
     private readonly gl: WebGL2RenderingContext,
     private readonly options: { range: boolean; depth?: boolean; samples?: number },
@@ -164,7 +164,7 @@ export class Target {
     this.frame = gl.createFramebuffer() as WebGLFramebuffer;
   }
 
-  /** Makes it that large. Returns whether that was news. */
+  /** Resizes the target. Returns whether the size changed. */
   resize(width: number, height: number): boolean {
     if (this.width === width && this.height === height) return false;
     const { gl } = this;
@@ -183,13 +183,13 @@ export class Target {
     return true;
   }
 
-  /** What is drawn from now on goes here. */
+  /** Directs drawing to this target. */
   begin(): void {
     this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, this.sampled?.frame ?? this.frame);
     this.gl.viewport(0, 0, this.width, this.height);
   }
 
-  /** Puts the samples of each pixel together; before the texture is read. */
+  /** Resolves the samples of each pixel; call before reading the texture. */
   finish(): void {
     if (this.sampled === null) return;
     const { gl, width, height } = this;
@@ -230,12 +230,12 @@ export class Target {
   }
 }
 
-/** Whether light brighter than 1 can be drawn here. */
+/** Whether drawing to HDR targets is supported. */
 export function hasRange(gl: WebGL2RenderingContext): boolean {
   return (gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float')) !== null;
 }
 
-/** What is drawn from now on goes to the canvas. */
+/** Directs drawing to the canvas. */
 export function drawToCanvas(gl: WebGL2RenderingContext): void {
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);

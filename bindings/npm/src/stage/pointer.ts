@@ -1,17 +1,17 @@
-// Mouse, finger or pen over the canvas, as one pointer with a speed.
+// Mouse, finger or pen over the canvas as one pointer with a speed.
 
 import type { Pointer } from './scene.js';
 
-/** Speeds are means over about this long, seconds. */
+/** Averaging time of the speed, seconds. */
 const MEAN = 0.035;
-/** A press that ends within so many CSS pixels of where it began is a tap. */
+/** Maximum distance in CSS pixels between press and release of a tap. */
 const TAP = 8;
 
 export interface PointerEvents {
   press(x: number, y: number): void;
   release(x: number, y: number, tap: boolean): void;
   hover(x: number, y: number): 'none' | 'grab';
-  /** anything at all happened */
+  /** any event occurred */
   touched(): void;
 }
 
@@ -34,7 +34,7 @@ export class PointerReader {
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
-  /** Makes the speed of this frame from where the pointer is now. Call once a frame, before it is used. */
+  /** Computes this frame's speed from the current position. Call once a frame, before use. */
   update(seconds: number): void {
     const { now } = this;
     if (seconds <= 0) return;
@@ -63,7 +63,7 @@ export class PointerReader {
     this.place(event);
     this.fresh = true;
     this.pressed = { id: event.pointerId, x: event.clientX, y: event.clientY, tap: true };
-    // A made-up event has no pointer to capture.
+    // Synthetic events have no pointer to capture.
     if (event.isTrusted) this.canvas.setPointerCapture(event.pointerId);
     this.events.press(this.now.x, this.now.y);
     this.canvas.classList.toggle('grabbing', this.events.hover(this.now.x, this.now.y) === 'grab');
@@ -87,7 +87,7 @@ export class PointerReader {
     this.pressed = null;
     this.canvas.classList.remove('grabbing');
     this.events.release(this.now.x, this.now.y, whole && tap);
-    // A finger that was lifted is nowhere.
+    // A lifted finger has no position.
     if (event.pointerType === 'touch') this.now.present = false;
   }
 

@@ -1,4 +1,4 @@
-// What the stage asks of a scene. A scene lives without a picture too: the picture comes and goes with the context.
+// Interface between stage and scene. A scene also lives without a picture, as the context comes and goes.
 
 import type { Bank, Model } from '../index.js';
 
@@ -6,89 +6,89 @@ import type { Bank, Model } from '../index.js';
 export interface Pointer {
   x: number;
   y: number;
-  /** where it was a frame ago */
+  /** position one frame ago */
   fromX: number;
   fromY: number;
-  /** pixels a second, smoothed over some 30 ms */
+  /** pixels a second, averaged over 35 ms */
   speedX: number;
   speedY: number;
-  /** over the canvas, or touching it */
+  /** whether it is over the canvas or touching it */
   present: boolean;
 }
 
-/** Wind along the table as the eye sees it: to its right, and away from it. */
+/** Wind along the table relative to the eye: to its right, and away from it. */
 export interface Air {
   right: number;
   away: number;
 }
 
-/** What acts on a scene during one frame. */
+/** Influences on a scene during one frame. */
 export interface Acting {
-  /** time since the last frame, as scenes count it: at most a tenth of a second, 0 while paused */
+  /** seconds since the last frame in scene time: at most 0.1, 0 while paused */
   seconds: number;
-  /** from microphone and keys together, signed towards the right, 1 is a strong breath: for what is blown along one line */
+  /** from microphone and keys, positive to the right, 1 is a strong breath: for scenes blown along one axis */
   breath: number;
-  /** the same for what stands in the round */
+  /** the breath as a vector, for bodies */
   air?: Air;
   pointer: Pointer;
 }
 
-/** What the drawer plots of the last frame. */
+/** Values of the last frame plotted by the drawer. */
 export interface Reading {
-  /** in the model's own unit */
+  /** wind in the model's unit */
   wind: number;
-  /** what the wind moves */
+  /** response to the wind */
   answer: number;
 }
 
-/** Settings that scenes share; each takes what it knows. */
+/** Settings shared by scenes; each uses those that it knows. */
 export interface SceneSettings {
   seed: number;
   /** scale of the learned noise */
   noise: number;
-  /** how many candles, or leaves */
+  /** number of candles or leaves */
   count: number;
-  /** a number that stands on a cake in figures, whose name is on it, and what its smoke says */
+  /** number shown as digit candles; name on the cake; text written by smoke */
   figures?: string;
   name?: string;
   wish?: string;
 }
 
-/** How a picture is to be drawn. */
+/** Options for drawing a picture. */
 export interface SceneLook {
-  /** 0 black, 1 all of it */
+  /** brightness from 0 (black) to 1 (full) */
   fade: number;
-  /** share of the picture's height that controls cover below */
+  /** share of the picture's height covered by controls below */
   footer: number;
-  /** what burns or falls alone, without a room around it */
+  /** whether to draw only the burning or falling things, without a room */
   clear: boolean;
-  /** without what costs most: frames come too slowly */
+  /** whether to leave out expensive effects, because frames are slow */
   plain: boolean;
 }
 
 export interface Scene {
   readonly model: Model;
   readonly bank: Bank;
-  /** what the answer of a reading is called */
+  /** name of a reading's response */
   readonly answerName: string;
-  /** Lets time pass. Allocates nothing large: it runs every frame. */
+  /** Advances by a time. Runs every frame, so it must not allocate much. */
   update(acting: Acting): void;
   reading(): Reading;
-  /** Makes what the graphics card holds; once more after it lost that. */
+  /** Creates the resources on the graphics card; again after they were lost. */
   attach(gl: WebGL2RenderingContext): void;
-  /** Draws on the canvas of the attached context. False: what it needs is still to come, and nothing was drawn. */
+  /** Draws to the canvas of the attached context. Returns false, drawing nothing, while parts are loading. */
   draw(width: number, height: number, look: SceneLook): boolean;
-  /** Says what pressing there would take hold of; for the shape of the pointer. */
+  /** What a press at a place would take hold of, for the shape of the cursor. */
   hover(x: number, y: number): 'none' | 'grab';
   press(x: number, y: number): void;
-  /** `tap`: it did not move in between */
+  /** `tap`: the pointer did not move in between */
   release(x: number, y: number, tap: boolean): void;
-  /** What the key of the scene's own action does: lights candles, kicks leaves. */
+  /** The scene's own action: lights candles, kicks leaves. */
   act(): void;
   apply(settings: SceneSettings): void;
-  /** Leaves in the air and on the ground, in a scene that has any. */
+  /** Number of leaves in the air and on the ground, in a scene with leaves. */
   leaves?(): { count: number; lying: number };
-  /** A sentence about what is to be seen, for who does not see it. */
+  /** A sentence that describes the picture, for screen readers. */
   describe(): string;
   dispose(): void;
 }

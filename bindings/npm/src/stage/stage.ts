@@ -1,69 +1,69 @@
-// The stage: a canvas with its WebGL2 context, the loop of frames, and whatever scene is on.
+// The stage: a canvas with its WebGL2 context, the frame loop, and the current scene.
 
 import { FrameLoop } from './frame_loop.js';
 import { PointerReader } from './pointer.js';
 import type { Air, Scene } from './scene.js';
 
-/** Longest time that a frame stands for; after a pause the scene goes on where it was. */
+/** Maximum time per frame; after a pause the scene continues where it was. */
 const LONGEST_FRAME = 0.1;
-/** Most pixels drawn; more would not be seen and would warm a phone. */
+/** Maximum number of drawn pixels: more are invisible and heat a phone. */
 const MAX_PIXELS = 2.6e6;
 const MIN_DETAIL = 0.5;
-/** Coarser than this, a picture is drawn without what costs most. */
+/** Resolution below which expensive effects are left out. */
 const PLAIN = 0.6;
-/** A picture every so many seconds is smooth enough; slower ones are drawn coarser. */
+/** Seconds per frame that count as smooth; slower pictures are drawn at lower resolution. */
 const SMOOTH = 1 / 42;
-/** Frames between looks at how smooth it is. */
+/** Number of frames between checks of smoothness. */
 const LOOK_EVERY = 45;
-/** Where frames are few, a look after so many seconds and frames. */
+/** At low frame rates: seconds and frames before a check. */
 const LOOK_SECONDS = 1.2;
 const LOOK_FRAMES = 5;
 const FAR_TOO_SLOW = 1 / 16;
 const FADE_SECONDS = 0.45;
 
-/** What a frame cost us, milliseconds of this thread's time, ours alone. */
+/** Cost of a frame: milliseconds of this thread. */
 export interface FrameCost {
   update: number;
   draw: number;
 }
 
 export interface StageEvents {
-  /** breath at this frame: microphone and keys, signed */
+  /** signed breath of this frame, from microphone and keys */
   breath(seconds: number): number;
-  /** that breath as a vector of the table: breath() is called first in every frame */
+  /** that breath as a vector on the table; breath() is called first in every frame */
   air?(): Air;
   touched(): void;
-  /** the graphics card took the picture away, or gave it back */
+  /** the context was lost, or restored */
   context(state: 'absent' | 'lost' | 'back'): void;
   framed(cost: FrameCost, seconds: number): void;
 }
 
 export interface StageOptions {
-  /** what burns alone, on a transparent canvas */
+  /** only the burning things, on a transparent canvas */
   clear?: boolean;
-  /** CSS pixels at the lower edge that controls lie over */
+  /** CSS pixels at the lower edge covered by controls */
   covered?: number;
 }
 
 export class Stage {
   readonly pointer: PointerReader;
   readonly clear: boolean;
-  /** CSS pixels at the lower edge that controls lie over */
+  /** CSS pixels at the lower edge covered by controls */
   covered: number;
   frames = 0;
-  /** whether the last frame showed a picture */
+  /** whether the last frame drew a picture */
   shown = false;
   paused = false;
-  /** of time: 1 as it is, less for who asks for less motion */
+  /** speed of time: 1, or less for users who prefer reduced motion */
   pace = 1;
-  /** fixed pixels for each of the screen's; 0: as many as keep it smooth */
+  /** fixed drawn pixels per screen pixel; 0: as many as stay smooth */
   detail = 0;
   private footer = 0;
   private gl: WebGL2RenderingContext | null = null;
   private given = false;
   private loser: WEBGL_lose_context | null = null;
   private scene: Scene | null = null;
-  /** nothing that passes makes wind */
+  /** whether the moving pointer makes no wind */
   still = false;
   private wanted: BlobCallback | null = null;
   private readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
@@ -91,7 +91,7 @@ export class Stage {
     this.open();
   }
 
-  /** Puts a scene on; the one before is done with and disposed of. */
+  /** Shows a scene; the one before is disposed of. */
   show(scene: Scene): void {
     this.scene?.dispose();
     this.scene = scene;
@@ -100,17 +100,17 @@ export class Stage {
     this.canvas.setAttribute('aria-label', scene.describe());
   }
 
-  /** Runs; twice is fine. */
+  /** Starts; may be called twice. */
   start(): void {
     this.loop.start();
   }
 
-  /** Stands still until start(). */
+  /** Stops until start(). */
   stop(): void {
     this.loop.stop();
   }
 
-  /** Gives the graphics card's context back: a browser has few of them. take() brings it again. */
+  /** Releases the context, as a browser has few of them; take() gets it back. */
   giveBack(): void {
     this.given = true;
     this.loser ??= this.gl?.getExtension('WEBGL_lose_context') ?? null;
@@ -144,7 +144,7 @@ export class Stage {
     event.preventDefault();
     if (this.given) return;
     this.events.context('lost');
-    // It was given back and is wanted again before its loss was told.
+    // It was released and is needed again before its loss was reported.
     if (this.loser !== null) setTimeout(() => this.restore());
   }
 
@@ -177,7 +177,7 @@ export class Stage {
       this.shown = drawn;
     }
     if (this.wanted !== null) {
-      // A canvas keeps its picture only until this frame is over.
+      // A canvas keeps its picture only until this frame ends.
       this.canvas.toBlob(this.wanted, 'image/png');
       this.wanted = null;
     }
@@ -200,13 +200,13 @@ export class Stage {
     this.canvas.height = height;
   }
 
-  /** Draws coarser where frames come too slowly, and never finer again: changing to and fro is seen. */
+  /** Lowers the resolution where frames are slow, and never raises it, as alternation would be visible. */
   private lookHowSmooth(now: number): void {
     this.framesSinceLook += 1;
     const seconds = (now - this.lookedAt) / 1000;
     if (this.framesSinceLook < LOOK_EVERY && (seconds < LOOK_SECONDS || this.framesSinceLook < LOOK_FRAMES)) return;
     const mean = seconds / this.framesSinceLook;
-    // Far too slow: all that costs most goes at once.
+    // Far too slow: removes all expensive effects at once.
     const coarser = mean > FAR_TOO_SLOW ? 0.5 : 0.8;
     if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(MIN_DETAIL, this.adapted * coarser);
     this.lookedAt = now;

@@ -1,5 +1,5 @@
-// Eigen includes what MMX offers and uses none of it; WebAssembly has nothing of the kind.
+// Eigen includes MMX intrinsics without using them; WebAssembly has none.
 #pragma once
-// It also takes clang for an old GCC, and goes round a bug of that in x86's own assembler.
+// Eigen also mistakes clang for an old GCC, and works around that GCC's bug in x86 assembler.
 #undef EIGEN_COMP_GNUC
 #define EIGEN_COMP_GNUC 0

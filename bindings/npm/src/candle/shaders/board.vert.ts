@@ -1,11 +1,11 @@
 export default /* glsl */ `
-// A rectangle that faces the eye, in units of the room around a foot; p is how near it is.
+// A rectangle facing the eye, in units around a foot; p is its nearness.
 uniform vec4 uView;
 uniform float uEye;
 uniform vec3 uFoot;   // in the room
-uniform vec4 uBox;    // left, bottom, right, top, around the foot, in units of the board
-uniform float uUnit;  // of the room, a unit of the board
-uniform vec2 uSize;   // of the picture, pixels
+uniform vec4 uBox;    // left, bottom, right, top, relative to the foot, board units
+uniform float uUnit;  // room units per board unit
+uniform vec2 uSize;   // picture size, pixels
 layout(location = 0) in vec2 corner;
 out vec2 vAt;
 void main() {

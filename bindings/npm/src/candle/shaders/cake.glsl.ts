@@ -1,11 +1,11 @@
 export default /* glsl */ `
-// A cake on its plate: where the eye meets it, what it is made of, and the shadows of the candles on it.
+// A cake on its plate: intersection with view rays, material, and shadows of its candles.
 #define SAMPLES 4
 uniform sampler2D uName;
-uniform vec2 uPlaque;      // half of its width and height; 0: there is none
+uniform vec2 uPlaque;      // half width and half height; 0: no plaque
 uniform vec4 uSticks[12];  // each candle on the cake: foot x, z; radius; height over the cake
 
-// First k > 0 where the ray meets the standing cylinder of that radius; 0: never.
+// Smallest k > 0 at which a ray meets an upright cylinder; 0: none.
 float cylinder(vec2 way, float radius, float middle) {
   float d2 = uView.w * uView.w;
   float a = way.x * way.x + d2;
@@ -36,7 +36,7 @@ Hit hitOf(vec2 pixel) {
   return hit;
 }
 
-// A raspberry seen from above: drupelets, each round and shining. place is 1 long at its edge.
+// A raspberry seen from above, made of shiny drupelets; place has length 1 at its edge.
 vec3 raspberry(vec2 place, float chance) {
   vec2 q = 2.7 * place + chance;
   vec2 cell = vec2(q.x + 0.5 * floor(q.y), q.y);
@@ -47,7 +47,7 @@ vec3 raspberry(vec2 place, float chance) {
   return fruit * (0.62 + 0.38 * sqrt(max(0.0, 1.0 - dot(place, place))));
 }
 
-// Cream from a star-shaped nozzle, wound to one side or the other; the candles stand where place.y is negative.
+// A rosette of cream from a star nozzle, wound either way; the candles are at negative place.y.
 vec3 rosette(vec2 place, float chance) {
   float far = length(place);
   float ridges = cos(6.0 * atan(place.y, place.x) + (chance < 0.5 ? 7.0 : -7.0) * far + 6.28 * chance);
@@ -61,7 +61,7 @@ vec4 cakeTop(vec3 at) {
   float turn = atan(at.z, at.x);
   float swirl = 0.5 + 0.5 * sin(r * 26.0 + 2.2 * sin(turn * 3.0));
   vec3 colour = vec3(0.93, 0.89, 0.86) * (0.92 + 0.06 * swirl + 0.05 * fractal(at.xz * 9.0));
-  // A ring of piped rosettes, no two alike, and raspberries between them.
+  // A ring of different piped rosettes with raspberries between them.
   float cells = 34.0;
   float which = floor(turn / 6.2832 * cells);
   float along = (fract(turn / 6.2832 * cells) - 0.5) * 6.2832 * (uCake.x - 0.15) / cells;
@@ -71,7 +71,7 @@ vec4 cakeTop(vec3 at) {
   float scallops = berry ? 0.0 : 0.07 * cos(12.0 * atan(place.y, place.x) + 6.28 * chance);
   float high = 1.0 - dot(place, place) * (1.0 + scallops);
   float piped = smoothstep(0.0, 0.10, high);
-  // What stands there shades the icing on its outer side.
+  // Rosettes and berries shade the icing on their outer side.
   vec2 behind = place - vec2(0.0, 0.22);
   colour *= 1.0 - 0.45 * smoothstep(-0.55, 0.15, 1.0 - dot(behind, behind)) * (1.0 - piped);
   colour = mix(colour, berry ? raspberry(place, chance) : rosette(place, chance), piped);
@@ -94,7 +94,7 @@ vec4 cakeSide(vec3 at) {
   vec3 sponge = mix(vec3(0.34, 0.190, 0.110), vec3(0.56, 0.345, 0.210), crumb);
   float layer = smoothstep(0.045, 0.03, abs(at.y - 0.46 * uCake.y + 0.012 * crumb));
   sponge = mix(sponge, vec3(0.90, 0.82, 0.74), layer);
-  // Thick cream: rounded towards its lower edge, which shades the sponge; a drop shines along its shoulder and at its end.
+  // Thick cream, rounded at its lower edge, which shades the sponge; drips shine at shoulder and end.
   float inside = drop - below;
   float bulge = pow(0.5 + 0.5 * sin(run), 1.6);
   vec3 cream = vec3(0.84, 0.80, 0.77) * (0.66 + 0.34 * smoothstep(0.0, 0.09, inside)) * (0.90 + 0.10 * bulge);
@@ -112,7 +112,7 @@ vec4 cakeSide(vec3 at) {
   return vec4(mix(mix(sponge, cream, icing), pink, foot), 0.40 * icing);
 }
 
-// A plaque of white chocolate that leans on the side, with a name in dark chocolate.
+// A plaque of white chocolate leaning on the side, with a name in dark chocolate.
 vec4 plaque(vec3 at, vec4 side) {
   vec2 p = vec2((1.5708 - atan(at.z, at.x)) * uCake.x, at.y - 0.44);
   vec2 out_ = abs(p) - uPlaque + 0.07;
@@ -132,7 +132,7 @@ vec4 cakeSurface(Hit hit) {
   if (hit.kind == kOnCakeSide) return plaque(at, cakeSide(at));
   float rim = length(at.xz) - uCake.x;
   vec3 plate = mix(vec3(0.62, 0.62, 0.66), vec3(0.70, 0.48, 0.18), smoothstep(0.022, 0.008, abs(rim - 0.285)));
-  // In its glaze stands the cake, upside down.
+  // The cake is mirrored upside down in the plate's glaze.
   vec3 way = hit.at - vec3(0, uEye, uView.w);
   vec2 from = hit.at.xz - vec2(uCake.z, 0);
   vec2 flat_ = normalize(way.xz);
@@ -141,16 +141,16 @@ vec4 cakeSurface(Hit hit) {
   float height = 0.06 - reach * way.y / length(way.xz);
   if (reach > 0.0 && passed > 0.0) {
     vec2 mirrored = before(from + reach * flat_);
-    // The glaze is not quite even: edges are soft in it, and what is farther is fainter.
+    // The glaze is uneven: edges in it are soft, and distant parts fainter.
     float clear = smoothstep(0.36, 0.30, rim) * smoothstep(0.0, 0.30 * uCake.x * uCake.x, passed) * (1.0 - 0.7 * smoothstep(0.08, 0.40, height));
     plate = mix(plate, 0.38 * cakeSide(vec3(mirrored.x, height, mirrored.y)).rgb, 0.52 * clear);
   }
-  // Where it stands on the plate it is dark.
+  // The plate is dark where the cake stands.
   plate *= 0.45 + 0.55 * smoothstep(0.0, 0.07, rim);
   return vec4(plate, 1.0);
 }
 
-// How much of a flame's light comes past the candles: each throws a streak that grows softer away from its foot.
+// Share of a flame's light that passes the candles: each casts a streak that softens away from its foot.
 float sticks(vec3 at, vec3 lamp) {
   float seen = 1.0;
   vec2 way = lamp.xz - at.xz;

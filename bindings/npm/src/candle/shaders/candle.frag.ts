@@ -1,18 +1,18 @@
 export default /* glsl */ `
-// A candle: wax that its flame shines through, the melted pool, the wick and its ember, and the saucer below. The foot is
-// the middle of the upper end; units are the flame's.
+// A candle: translucent wax, melted pool, wick with ember, and the saucer below. Origin: centre of the upper end; flame
+// units.
 uniform float uRadius, uHeight, uPixel, uLight, uEmber, uSeed, uStripe, uSaucer, uClock, uTurn;
-uniform vec2 uFlat;      // how round the upper and the lower end look: axes of their ellipses
-uniform vec2 uLean;      // where the flame's middle is
+uniform vec2 uFlat;      // height / width of the upper and lower end's ellipses
+uniform vec2 uLean;      // position of the flame's middle
 uniform vec3 uWax;
-uniform vec4 uOthers;    // light of the other flames: from the left, from the right, from behind, on the whole
+uniform vec4 uOthers;    // light of other flames: from left, right and behind, and overall
 in vec2 vAt;
 out vec4 colour;
 
 const vec3 kFire = vec3(1.0, 0.46, 0.13);
 const vec3 kMoon = vec3(0.30, 0.47, 0.92);
 
-// How far wax stands out there: old drops that ran down the side and stopped in a bead, twelve around it.
+// Height of old drips on the side: twelve around it, each ending in a bead.
 float drips(float turn, float below) {
   float sum = 0.0;
   float cell = floor((turn + uTurn) / 0.5236);
@@ -38,7 +38,7 @@ vec3 side(float u, float below) {
   float drop = (drips(turn, below + 0.02) - lift) / 0.02;
   vec3 normal = normalize(vec3(u - 0.10 * slope * s, 0.09 * drop, s + 0.10 * slope * u));
   float deep = below / max(0.35, uRadius / 0.33);
-  // Light that the wax passes on, from the pool downwards: soon red, and soon gone.
+  // Light transmitted down from the pool: soon red, then absorbed.
   float through = 1.35 * exp(-deep / 0.26) + 0.50 * exp(-deep / 0.85) + 0.05 * exp(-deep / 3.0);
   through *= 0.70 + 0.30 * u * u + 0.22 * lift;
   through *= 1.0 + 0.9 * uLean.x * u * exp(-deep / 0.5);
@@ -51,7 +51,7 @@ vec3 side(float u, float below) {
   vec3 lit = wax * hue * through * uLight;
   float lamps = uOthers.x * max(0.0, -normal.x) + uOthers.y * max(0.0, normal.x) + uOthers.z * (1.0 - s) * 0.7 + 0.25 * uOthers.w;
   lit += wax * kFire * lamps;
-  // The flame itself, grazing the drops from above; the room's own warm light; the moon from the right, behind.
+  // Light of the flame, grazing the drips from above; warm room light; moonlight from the right, behind.
   lit += wax * kFire * uLight * (0.16 * max(0.0, normal.y) * exp(-deep / 0.6) + 0.022 * (0.6 + 0.4 * s));
   float moon = max(0.0, 0.25 + 0.75 * dot(normal, vec3(0.88, 0.24, 0.10)));
   lit += wax * kMoon * (0.002 + 0.026 * pow(moon, 1.6));
@@ -60,7 +60,7 @@ vec3 side(float u, float below) {
   return lit;
 }
 
-// The upper end: a rim of wax, and the pool with the flame in its mirror.
+// Upper end: a rim of wax, and the pool that mirrors the flame.
 vec3 top(vec2 q) {
   float r = length(q);
   float edge = 0.80 + 0.06 * (noise(q * 2.6 + uSeed) - 0.5);
@@ -69,7 +69,7 @@ vec3 top(vec2 q) {
   vec3 solid = uWax * vec3(1.0, 0.62, 0.27) * (0.95 + 0.75 * smoothstep(edge, 0.97, r)) * (0.75 + 0.6 * near);
   vec3 melted = uWax * vec3(0.95, 0.44, 0.13) * (0.38 + 1.15 * near);
   vec3 lit = mix(solid, melted, wet) * (uLight + 0.30 * uOthers.w) + uWax * kMoon * 0.008;
-  // The meniscus at the pool's edge, brightest across from the flame.
+  // Meniscus at the pool's edge, brightest opposite the flame.
   lit += kFire * uLight * 0.55 * exp(-pow((r - edge + 0.02) / 0.030, 2.0)) * (0.6 - 0.4 * q.y + 0.9 * uLean.x * q.x);
   vec2 ripple = 0.02 * vec2(sin(9.0 * q.y + 5.0 * uClock), sin(7.0 * q.x - 4.0 * uClock)) * uLight;
   vec2 mirror = (q + ripple - vec2(1.6 * uLean.x, -0.36)) / vec2(0.10, 0.27);
@@ -79,7 +79,7 @@ vec3 top(vec2 q) {
   return lit;
 }
 
-// Distance from the wick's line, and how far up it is (0 to 1).
+// Distance from the wick's line, and position along it (0 to 1).
 vec2 wick(vec2 p) {
   vec2 a = vec2(0.0, -0.012), b = vec2(-0.016 * cos(uTurn), 0.10), c = vec2((0.030 + 0.02 * hash1(vec2(uSeed, 8.0))) * cos(uTurn), 0.165);
   float best = 1e9, along = 0.0;
@@ -96,7 +96,7 @@ vec2 wick(vec2 p) {
   return vec2(best - 0.0125 + 0.003 * noise(p * 90.0 + uSeed), along);
 }
 
-// A shallow dish of brass under a lone candle; alpha is how much of the pixel it covers.
+// A shallow brass dish under a lone candle; alpha is the coverage of the pixel.
 vec4 saucer() {
   float flat_ = uFlat.y;
   vec2 p = vec2(vAt.x, vAt.y + uHeight);
@@ -106,7 +106,7 @@ vec4 saucer() {
   float r = length(brim);
   float inside = smoothstep(1.0 + soft, 1.0 - soft, r);
   float outer = max(inside, smoothstep(1.0 + soft, 1.0 - soft, length(base)));
-  // The wall between brim and base bulges: what shows of it in front.
+  // The wall between brim and base bulges and is visible in front.
   outer = max(outer, smoothstep(soft, -soft, length(vec2(p.x, (p.y - 0.028) / flat_) / uSaucer) - 0.955));
   float foot = max(0.0, length(vec2(p.x, p.y / flat_)) - uRadius);
   vec3 brass = vec3(0.36, 0.215, 0.075) * (0.85 + 0.3 * fractal(vec2(atan(brim.y, brim.x) * 2.0, r * 34.0)));
@@ -137,17 +137,17 @@ void main() {
   vec3 wall = side(u, max(0.0, front - vAt.y));
   vec3 lid = top(vec2(u, (vAt.y - wobble) / (uFlat.x * uRadius)));
   vec3 lit = mix(wall, lid, smoothstep(front - uPixel, front + uPixel, vAt.y));
-  // The lip between them, thin and full of light.
+  // The thin, bright lip between them.
   float lip = exp(-pow((vAt.y - front) / (0.010 + uPixel), 2.0)) * (0.6 + 0.4 * noise(vec2(turn * 6.0, uSeed)));
   lit += lip * uWax * vec3(1.0, 0.60, 0.27) * 0.50 * uLight;
-  // Where it stands it is in its own shade.
+  // It shades itself near the table.
   lit *= 1.0 - 0.6 * exp(-(vAt.y - foot) / 0.05) * (1.0 - uStripe);
   vec2 thread = wick(vAt);
   float here = smoothstep(uPixel, -uPixel, thread.x);
   vec3 char = vec3(0.010, 0.008, 0.007) + vec3(0.22, 0.10, 0.035) * uLight * smoothstep(0.40, 0.0, thread.y);
   float burning = smoothstep(0.62, 0.98, thread.y);
   vec3 ember = vec3(1.6, 0.21, 0.012) * uEmber * burning * (0.30 + 1.1 * noise(vAt * 120.0 + uSeed + 0.7 * uClock));
-  // The wick before the wax, both before the saucer.
+  // The wick covers the wax, and both cover the saucer.
   vec4 all = vec4(lit, 1) * body;
   all = mix(all, vec4(char + ember, 1), here);
   vec4 below = uSaucer > 0.0 ? saucer() : vec4(0);

@@ -1,12 +1,11 @@
 export default /* glsl */ `
-// From light to the screen: what glares in the eye, its adaptation, a filmic curve of luminance, and a grain that keeps
-// dark walls from banding.
+// Tone mapping: glare, adaptation, a filmic curve of luminance, and grain against banding of dark walls.
 uniform sampler2D uPicture, uGlare, uAir;
 uniform vec2 uSize;
 uniform float uFade, uExposure, uGlaring, uShimmer, uClock, uClear;
 out vec4 colour;
 
-// Narkowicz's fit (2015) of the film curve of the Academy's colour encoding, of luminance alone.
+// Narkowicz's fit (2015) of the ACES film curve, applied to luminance.
 float film(float l) { return clamp(l * (2.51 * l + 0.03) / (l * (2.43 * l + 0.59) + 0.14), 0.0, 1.0); }
 
 void main() {
@@ -23,7 +22,7 @@ void main() {
   float l = dot(light, vec3(0.2126, 0.7152, 0.0722));
   float seen = film(l);
   vec3 made = light * (seen / max(l, 1e-5));
-  // What is too bright for its hue turns white, not flat.
+  // Colours beyond the gamut fade to white instead of clipping.
   float most = max(made.r, max(made.g, made.b));
   if (most > 0.82) {
     float limit = 1.0 - 0.18 * exp((0.82 - most) / 0.18);

@@ -1,10 +1,10 @@
 export default /* glsl */ `
-// A candle that is a digit: a rounded bar of wax along a line, lit by the flame on its upper end. Units are the flame's.
-uniform vec3 uOutline[64];  // places of the line
+// A candle shaped as a digit: a rounded bar of wax along a line, lit by the flame on top. Flame units.
+uniform vec3 uOutline[64];  // points of the line
 uniform int uPoints;
 uniform float uRadius, uHeight, uLight, uEmber, uPixel;
 uniform vec3 uWax;
-uniform vec4 uOthers;       // light of the other flames: from the left, from the right, from behind, on the whole
+uniform vec4 uOthers;       // light of other flames: from left, right and behind, and overall
 in vec2 vAt;
 out vec4 colour;
 

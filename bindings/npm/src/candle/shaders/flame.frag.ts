@@ -32,12 +32,12 @@ void main() {
     a = b;
     ra = rb;
   }
-  // Inside where the outline goes around: a fold of it is neither a hole nor a speck.
+  // Winding number decides inside, so that a fold makes neither hole nor speck.
   float depth = around == 0 ? -nearest : clamp(2.0 / max(sum, 1e-4), 0.25 * nearest, 1.1 * nearest);
   if (depth < -2.0 * uPixel - 0.02) discard;
   float t = clamp(sum > 1e-4 ? carried / sum : vAt.y, 0.0, 1.2);
 
-  // Gas that rises through it: seen at the edge, in the tip, and as a faint unrest within.
+  // Rising gas: visible at the edge, in the tip, and as a faint unrest inside.
   vec2 gas = vec2(vAt.x * 9.0 + uSeed, vAt.y * 3.2 - 2.6 * uClock);
   float stir = noise(gas) - 0.5 + 0.5 * (noise(gas * 2.3 + 3.1) - 0.5);
   depth += stir * (0.004 + 0.022 * smoothstep(0.62, 1.0, t));
@@ -45,7 +45,7 @@ void main() {
   float inside = smoothstep(-uPixel, uPixel + soft, depth);
   float thick = sqrt(clamp(2.0 * depth / uWidth, 0.0, 1.6));
 
-  // Low down soot glows only inside the blue mantle; at the tip it burns off.
+  // Low down only the inside of the blue mantle has glowing soot; at the tip soot burns off.
   float shell = 0.50 * (1.0 - smoothstep(0.04, 0.34, t));
   float soot = max(0.0, thick - shell) / (1.0 - shell);
   float rise = 0.012 + 0.20 * smoothstep(0.06, 0.22, t) + 0.79 * smoothstep(0.14, 0.46, t);
@@ -57,12 +57,12 @@ void main() {
   vec3 fire = mix(vec3(1.0, 0.235, 0.016), vec3(1.0, 0.46, 0.105), smoothstep(0.02, 0.35, glow));
   fire = mix(fire, vec3(1.0, 0.66, 0.30), smoothstep(0.25, 0.85, glow));
   vec3 lit = fire * (0.42 * glow + 9.5 * glow * glow);
-  // The mantle: thin, blue, brightest where it is seen edge on.
+  // The thin blue mantle, brightest edge-on.
   vec2 thread = (vAt - vec2(0.008, 0.02)) / vec2(0.036, 0.12);
   float mantle = (1.0 - 0.94 * exp(-dot(thread, thread))) * exp(-9.0 * (thick - 0.12) * (thick - 0.12)) * (1.0 - smoothstep(0.03, 0.30, t));
   lit += vec3(0.045, 0.15, 0.80) * mantle * 0.36;
   lit += vec3(0.30, 0.10, 0.30) * 0.05 * exp(-8.0 * thick * thick) * smoothstep(0.14, 0.3, t) * (1.0 - smoothstep(0.3, 0.55, t));
-  // Soot hides a little of what is behind it.
+  // Soot hides part of the background.
   colour = vec4(lit, clamp(0.55 * glow, 0.0, 0.6)) * inside * uBright;
 }
 `;

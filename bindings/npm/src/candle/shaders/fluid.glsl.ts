@@ -1,6 +1,6 @@
 export default /* glsl */ `
-// Air in the plane of the picture: heights of the picture, seconds. x runs to uAspect, y to 1.
-uniform vec2 uCell;      // of the grid of the air, in texture coordinates
+// Air in the picture plane: units are picture heights and seconds; x from 0 to uAspect, y from 0 to 1.
+uniform vec2 uCell;      // cell size of the air's grid, texture coordinates
 uniform float uAspect, uSeconds;
 in vec2 vAt;
 out vec4 colour;

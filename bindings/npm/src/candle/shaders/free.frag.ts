@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// Takes the pressure's slope from the flow.
+// Subtracts the pressure gradient from the velocity.
 uniform sampler2D uFlow, uPressure;
 void main() {
   vec2 x = vec2(uCell.x, 0), y = vec2(0, uCell.y);

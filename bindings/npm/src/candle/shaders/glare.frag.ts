@@ -1,9 +1,9 @@
 export default /* glsl */ `
-// Light that strays in the eye: each picture of the chain is the one before at half its size; on the way back they are
-// added up. Thirteen reads down, as Jimenez (2014) has them, and nine up.
+// Glare in the eye: each picture of the chain is half the size of the one before; on the way back they are added up.
+// Thirteen samples down as in Jimenez (2014), nine up.
 uniform sampler2D uFrom, uFiner;
-uniform vec2 uTexel;   // of the picture that is read
-uniform float uSpread; // 0: down; otherwise the share of the coarser picture
+uniform vec2 uTexel;   // texel of the source picture
+uniform float uSpread; // 0: down; otherwise weight of the coarser picture
 out vec4 colour;
 in vec2 vAt;
 

@@ -1,23 +1,23 @@
 export default /* glsl */ `
-// The room in the light of the flames and of the moon: wall, table and cake, and the light that hangs in the air.
+// The room lit by flames and moon: wall, table, cake, and light scattered in the air.
 uniform sampler2D uSurface;
-uniform vec4 uLights[14];   // middle of each flame in the room, and its light
-uniform vec4 uHalos[14];    // pixel of the base and of the tip of each flame
-uniform float uSpread[14];  // pixels of one model unit of each flame
-uniform vec4 uStands[14];   // each candle: foot x, z; radius; height over what it stands on
-uniform float uGround;      // height that candles stand on
-uniform float uFoot;        // of what each candle stands on: radius, in its own radii
+uniform vec4 uLights[14];   // position of each flame's middle, and its light
+uniform vec4 uHalos[14];    // pixels of each flame's base and tip
+uniform float uSpread[14];  // pixels per flame unit
+uniform vec4 uStands[14];   // each candle: foot x, z; radius; height above its support
+uniform float uGround;      // height of the candles' support
+uniform float uFoot;        // radius of each candle's dish, in radii of the candle
 uniform int uCount;
-uniform vec4 uMatch;        // pixels of the match's head and of its other end, where it lies on the table
-uniform float uMatchThick;  // pixels of its shadow's half width; 0: it does not lie there
+uniform vec4 uMatch;        // pixels of the lying match's head and end
+uniform float uMatchThick;  // half width of its shadow, pixels; 0: no match lies there
 out vec4 colour;
 
 const vec3 kFire = vec3(1.0, 0.44, 0.115);
-// What bright icing throws to and fro loses its red least: it looks nearly white to an eye that is used to candles.
+// Colour of light reflected repeatedly in bright icing, which loses little red: nearly white to adapted eyes.
 const vec3 kOnCream = vec3(1.0, 0.67, 0.40);
 const vec3 kMoon = vec3(0.36, 0.56, 1.0);
 
-// Moonlight through a window that is not in the picture: nine panes, slanted, on the wall, low enough for wide pictures.
+// Moonlight on the wall through an unseen window: nine panes, slanted, low enough for wide pictures.
 float window(vec2 at) {
   at.y -= 1.96;
   vec2 q = vec2(at.x - 1.95 + 0.30 * at.y, at.y) / vec2(0.50, 0.56);
@@ -27,7 +27,7 @@ float window(vec2 at) {
   return mix(0.35, 1.0, soft.x * soft.y) * out_.x * out_.y;
 }
 
-// A candle hides its own flame from what lies around its foot, on the side that the flame leans away from.
+// Shadow of a candle around its own foot, on the side opposite to the flame's lean.
 float shade(vec3 at, vec4 stand, vec3 lamp) {
   if (at.y > uGround + 0.02) return 1.0;
   float high = max(0.15, lamp.y - uGround - stand.w);
@@ -43,7 +43,7 @@ float segment(vec2 p, vec2 a, vec2 b) {
   return length(p - a - ab * clamp(dot(p - a, ab) / max(1.0, dot(ab, ab)), 0.0, 1.0));
 }
 
-// What a place sends to the eye.
+// Light from a place to the eye.
 vec3 shown(Hit hit, vec4 surface) {
   vec3 albedo = surface.rgb * surface.rgb;
   vec3 eye = normalize(vec3(0.0, uEye, uView.w) - hit.at);
@@ -56,7 +56,7 @@ vec3 shown(Hit hit, vec4 surface) {
     float r2 = dot(to, to);
     vec3 way = to * inversesqrt(r2);
     float facing = level ? max(0.0, dot(way, hit.normal)) : max(0.0, 0.15 + 0.85 * dot(way, hit.normal));
-    // What the cream throws back lights the side of the cake.
+    // The side of the cake is lit by light reflected from the cream.
     if (hit.kind == kOnCakeSide) facing = 0.40 + 0.22 * dot(way, hit.normal) - 0.16 * (uCake.y - hit.at.y);
     float fall = uLights[k].w / (0.22 + r2);
     float seen = shade(hit.at, uStands[k], uLights[k].xyz);
@@ -66,13 +66,13 @@ vec3 shown(Hit hit, vec4 surface) {
       float shine = max(0.0, dot(hit.normal, normalize(way + eye)));
       gloss += fire * (surface.a * fall * seen * (0.9 * pow(shine, 60.0) + 0.10 * pow(shine, 12.0)));
     }
-    // Wax lets some light through to what the candle stands on.
+    // Some light passes through the wax to the candle's support.
     if (level) {
       float foot = max(0.0, length(hit.at.xz - uStands[k].xy) - uStands[k].z);
       light += vec3(1.0, 0.30, 0.06) * uLights[k].w * 0.05 * exp(-foot * 2.2) / (0.4 + uStands[k].w);
     }
   }
-  // While it burns nobody looks at the moon.
+  // Moonlight is hidden while flames burn.
   float lit = 0.0;
   for (int k = 0; k < uCount; ++k) lit += uLights[k].w;
   float moon = mix(1.0, 0.12, min(1.0, 2.5 * lit));
@@ -81,7 +81,7 @@ vec3 shown(Hit hit, vec4 surface) {
     vec2 wall = hit.at.xy + vec2(9.0 * sin(0.5 * uTurn), 0);
     night += kMoon * moon * (0.040 * window(wall) + 0.008 * exp(-0.35 * length(wall - vec2(1.9, 2.0))));
   }
-  // The side that is turned away from the flames is cool.
+  // The side facing away from the flames has a cool colour.
   else if (hit.kind == kOnCakeSide) night += kMoon * (0.01 + 0.13 * smoothstep(0.30, 1.0, hit.normal.x));
   else night += kMoon * 0.013 * smoothstep(6.5, 0.0, length(hit.at.xz - vec2(1.2, -3.0)));
   float corner = hit.kind == kOnWall ? 0.30 + 0.70 * smoothstep(0.0, 1.9, hit.at.y) : 0.50 + 0.50 * smoothstep(-4.6, -2.4, hit.at.z);
@@ -94,7 +94,7 @@ void main() {
   Hit hit = hitOf(at);
   vec3 light;
 #if SAMPLES > 1
-  // Where two things meet within a pixel, a quarter of each.
+  // At edges within a pixel, averages four samples.
   Hit a = hitOf(at + vec2(-0.375, -0.125)), b = hitOf(at + vec2(0.125, -0.375)), c = hitOf(at + vec2(0.375, 0.125)), d = hitOf(at + vec2(-0.125, 0.375));
   if (a.kind != c.kind || b.kind != d.kind || a.kind != b.kind) {
     light = 0.25 * (shown(a, texelFetch(uSurface, cell + ivec2(-1, 0), 0)) + shown(b, texelFetch(uSurface, cell + ivec2(0, -1), 0)) +

@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// A match: the middle of its head at the origin, the stick down to the right.
+// A match: its head's centre at the origin, the stick down to the right.
 uniform float uPixel, uBurnt, uRoom, uFlare;
 in vec2 vAt;
 out vec4 colour;
@@ -20,7 +20,7 @@ void main() {
   vec3 red = vec3(0.42, 0.035, 0.022) * (0.6 + 0.4 * noise(vAt * 70.0));
   lit = mix(lit, red * (0.12 + 2.6 * uRoom * round_), smoothstep(0.010, -0.004, head) * (1.0 - uBurnt));
   lit = mix(lit, vec3(0.010) + vec3(2.2, 0.34, 0.03) * uBurnt * smoothstep(0.12, 0.0, along) * noise(vAt * 60.0), charred);
-  // The head catches: white for a blink, with sparks around it.
+  // The head ignites: briefly white, with sparks around it.
   float far = length(vAt - vec2(0.0, 0.03));
   float rays = 0.5 + 0.9 * noise(vec2(atan(vAt.y, vAt.x) * 5.0, 9.0 * uFlare));
   vec3 flare = vec3(1.0, 0.62, 0.30) * uFlare * (9.0 * exp(-far * far / 0.010) + 1.2 * rays * exp(-far * 9.0));

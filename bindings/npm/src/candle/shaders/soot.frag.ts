@@ -1,17 +1,17 @@
 export default /* glsl */ `
-// Smoke that the air carries: how dense it is.
+// Advects the density of smoke.
 uniform sampler2D uFlow, uSmoke, uWish;
-uniform vec4 uWishBox;    // where smoke writes: middle, half of its width and height; 0: it writes nothing
-uniform vec4 uWicks[14];  // where a wick smokes, how wide, how much
+uniform vec4 uWishBox;    // area of smoke writing: centre, half width and half height; 0: none
+uniform vec4 uWicks[14];  // position, width and strength of each smoking wick
 uniform int uCount;
 void main() {
   vec2 flow = texture(uFlow, vAt).xy / vec2(uAspect, 1);
-  // Half a step, then the whole of it from there: threads stay thin.
+  // Midpoint method, which keeps threads thin.
   vec2 half_ = texture(uFlow, vAt - 0.5 * uSeconds * flow).xy / vec2(uAspect, 1);
   float smoke = texture(uSmoke, vAt - uSeconds * half_).x * exp(-0.42 * uSeconds);
   vec2 at = vAt * vec2(uAspect, 1);
   for (int k = 0; k < uCount; ++k) {
-    // What came out during the step lies along the way that the air took from there: a thread, however long the step.
+    // Smoke of this step lies along the air's path from the wick, whatever the step's length.
     vec2 way = uSeconds * texture(uFlow, uWicks[k].xy / vec2(uAspect, 1)).xy;
     vec2 to = at - uWicks[k].xy;
     float along = clamp(dot(to, way) / max(1e-7, dot(way, way)), 0.0, 1.0);

@@ -1,11 +1,11 @@
 export default /* glsl */ `
-// What the room is made of: colour, and how glossy. Drawn once for every size of the picture.
+// Material of the room: colour and gloss. Drawn once per size of the picture.
 out vec4 surface;
 
 vec4 wood(vec3 at) {
   vec2 p = before(at.xz);
   float row = floor(p.y / 1.55 + 0.35);
-  // Boards end, each row elsewhere.
+  // Ends of boards, offset from row to row.
   float end = (p.x + 17.0 * hash1(vec2(row, 21.0))) / 6.4;
   float board = row + 31.0 * floor(end);
   vec2 q = vec2(p.x * 0.55 + board * 13.7, p.y * 5.0);
@@ -16,13 +16,13 @@ vec4 wood(vec3 at) {
   colour *= 0.86 + 0.28 * hash1(vec2(board, 3.0));
   float gap = abs(fract(p.y / 1.55 + 0.35) - 0.5) * 2.0;
   float cut = min(fract(end), 1.0 - fract(end)) * 6.4;
-  // Near a cut the grain is darker: it drinks more of the oil.
+  // Near a cut the grain absorbs more oil and is darker.
   colour *= (1.0 - 0.72 * max(smoothstep(0.982, 0.997, gap), 0.7 * smoothstep(0.012, 0.004, cut))) * (1.0 - 0.22 * exp(-cut * 9.0));
   return vec4(colour, 0.35 + 0.3 * grain);
 }
 
 vec4 plaster(vec3 at) {
-  // Other walls are like this one.
+  // Other walls continue this one.
   at.x += 9.0 * uTurn;
   float mottle = fractal(at.xy * 0.7) + 0.4 * fractal(at.xy * 3.1 + 9.0);
   float pores = fractal(at.xy * 17.0);
@@ -32,7 +32,7 @@ vec4 plaster(vec3 at) {
 void main() {
   Hit hit = hitOf(gl_FragCoord.xy);
   surface = hit.kind == kOnWall ? plaster(hit.at) : hit.kind == kOnTable ? wood(hit.at) : cakeSurface(hit);
-  // Finer than eight bits in the dark.
+  // Square root: finer steps than eight bits in the dark.
   surface.rgb = sqrt(surface.rgb);
 }
 `;

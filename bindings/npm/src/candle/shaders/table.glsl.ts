@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// A table with nothing on it but candles: what cake.glsl says of a cake, said of none.
+// A table without a cake: the functions of cake.glsl for the empty case.
 #define SAMPLES 1
 Hit hitOf(vec2 pixel) { return roomHit((pixel - uView.xy) / uView.z); }
 vec4 cakeSurface(Hit hit) { return vec4(0); }

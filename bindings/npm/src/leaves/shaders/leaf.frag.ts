@@ -19,7 +19,7 @@ vec3 hue(float k) {
 void main() {
   Blade leaf = blade(vVeins, vChance.y);
   float far = length(vPlace - uEye);
-  // What is very near is out of focus: its edge is wide.
+  // Defocus blurs the edges of very near leaves.
   float soft_edge = fwidth(leaf.inside) + 0.30 * smoothstep(1.5, 0.5, far);
   float alpha = smoothstep(-0.5 * soft_edge, 0.5 * soft_edge, leaf.inside);
   if (alpha < 0.02) discard;

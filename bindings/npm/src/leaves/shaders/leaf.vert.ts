@@ -1,7 +1,7 @@
 export default /* glsl */ `
-layout(location = 0) in vec3 place;     // shares of half the width and half the length
+layout(location = 0) in vec3 place;     // in halves of width and length
 layout(location = 1) in vec2 veins;     // across −1 … 1, along 0 … 1
-layout(location = 2) in vec4 where;     // metres; how much of it is seen
+layout(location = 2) in vec4 where;     // metres; opacity
 layout(location = 3) in vec4 attitude;  // quaternion w, x, y, z
 uniform mat4 uMatrix;
 uniform vec2 uHalfSize;  // half width, half length, metres
@@ -26,7 +26,7 @@ void main() {
   vec3 local = vec3(place.x * uHalfSize.x * broad, place.y * uHalfSize.y, place.z * uHalfSize.x * curl) * size;
   vec4 q = normalize(attitude);
   vec3 at = where.xyz + turned(q, local);
-  // Leaves that lie do not reach into the ground.
+  // Keeps lying leaves above the ground.
   at.z = max(at.z, 0.002 + 0.0015 * vChance.w);
   vec3 bent = normalize(vec3(-0.24 * curl * sign(place.x) * min(1.0, abs(veins.x) * 4.0), 0.34 * curl * (veins.y - 0.45), 1.0));
   vNormal = turned(q, bent);

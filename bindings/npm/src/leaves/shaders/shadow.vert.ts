@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// The soft shadow of a leaf on the ground: its outline seen from the sun, wider and fainter the higher it is.
+// Soft shadow of a leaf: its outline projected from the sun, wider and fainter with height.
 layout(location = 0) in vec2 corner;
 layout(location = 2) in vec4 where;
 layout(location = 3) in vec4 attitude;
@@ -25,7 +25,7 @@ void main() {
   vec2 along = onGround(turned(q, vec3(0, uHalfSize.y, 0)));
   float blur = 0.006 + 0.055 * max(0.0, where.z);
   float size = 0.5 * (length(wide) + length(along));
-  // Never thinner than its own blur.
+  // Minimum area, that of its own blur.
   float area = abs(wide.x * along.y - wide.y * along.x);
   vec2 grown_wide = wide + normalize(wide + 1e-6) * blur;
   vec2 grown_along = along + normalize(along + 1e-6) * blur;

@@ -1,8 +1,8 @@
 export default /* glsl */ `
-// The air and the ground: autumn light from the left, behind; mist where it is far.
+// Air and ground: autumn light from behind on the left, with mist in the distance.
 uniform vec2 uSize;
-uniform vec2 uHalf;    // half of what is seen at a metre's distance
-uniform vec2 uDown;    // sine and cosine of how far the eye looks down
+uniform vec2 uHalf;    // half extents of the view at one metre's distance
+uniform vec2 uDown;    // sine and cosine of the eye's pitch (downwards)
 uniform vec3 uEye;
 uniform float uClock;
 out vec4 colour;
@@ -19,7 +19,7 @@ vec3 air(vec2 at) {
   float turn = atan(sun.y, sun.x);
   float shafts = fractal(vec2(turn * 5.5 + 0.03 * uClock, 0.05 * uClock)) * fractal(vec2(turn * 13.0 - 0.05 * uClock, 3.0));
   mist += vec3(1.0, 0.82, 0.50) * 0.85 * shafts * exp(-far * 0.75) * smoothstep(0.0, 0.5, far);
-  // Trees far off, out of focus.
+  // Distant trees, out of focus.
   float slant = at.x + 0.02 * sin(3.0 * at.y) + 0.03 * at.y;
   float trunks = smoothstep(0.50, 0.82, noise(vec2(slant * 8.0, 0.3))) + 0.8 * smoothstep(0.52, 0.86, noise(vec2(slant * 5.0 + 19.0, 5.3)));
   mist *= 1.0 - vec3(0.15, 0.15, 0.12) * trunks * smoothstep(-0.1, 0.3, at.y);
@@ -35,7 +35,7 @@ vec3 ground(vec3 at) {
   float litter = fractal(at.xy * 11.0 + 3.0);
   soil = mix(soil, vec3(0.50, 0.30, 0.13), 0.55 * smoothstep(0.50, 0.66, litter));
   soil *= 0.84 + 0.30 * grit;
-  // Patches of sun between the shadows of the trees.
+  // Patches of sunlight between the shadows of trees.
   vec2 slant = vec2(at.x - 0.55 * at.y, at.y * 0.5);
   float sun = smoothstep(0.34, 0.60, fractal(slant * 0.8 + vec2(0.012 * uClock, 7.0)));
   return soil * mix(vec3(0.66, 0.66, 0.72), vec3(1.28, 1.12, 0.84), sun);

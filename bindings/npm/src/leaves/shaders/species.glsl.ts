@@ -1,6 +1,6 @@
 export default /* glsl */ `
-// Outlines of four species, each as how far inside a place is: x across, −1 … 1, y along, 0 … 1; and the share of the way
-// from the midrib to the edge.
+// Outlines of four species: depth inside the outline at x across, −1 … 1, and y along, 0 … 1; and position as a share
+// of the way from midrib to edge.
 struct Blade { float inside; float across; };
 
 Blade sheet(vec2 at, float half_) { return Blade(half_ - abs(at.x), abs(at.x) / max(0.02, half_)); }
@@ -20,7 +20,7 @@ Blade oak(vec2 at) {
 Blade maple(vec2 at) {
   vec2 off = vec2(at.x, 1.55 * (at.y - 0.34));
   float turn = abs(atan(off.x, off.y));
-  // Five points, the middle one the longest, each with a small shoulder.
+  // Five lobes, the middle one longest, each with a small shoulder.
   float point = abs(fract(turn / 1.22 + 0.5) - 0.5) * 2.0;
   float reach = mix(1.02, 0.42, smoothstep(0.0, 3.0, turn)) * (0.50 + 0.50 * pow(1.0 - point, 1.35)) + 0.05 * abs(sin(13.0 * turn));
   float far = length(off);
