@@ -1,13 +1,13 @@
-// Keeps the page's own files, so that it opens without a network. What it keeps is listed at build time. A new version
-// replaces the old one whole, once no page is open that may still want a piece of it.
+// Caches the page's own files, so that it opens without a network. The list is made at build time. A new version
+// replaces the old one as a whole, once no open page may still need a file of it.
 
 const cacheName = 'wisp-' + 'VERSION';
 const files = ['FILES'];
 
-// Large, and few ask for it, or not at once: kept for whoever did.
+// Large files used by few visitors, or late: cached when first used.
 const onDemand = /\/assets\/studio\/|\/models\/(leaf|filmed)/;
 
-// The module that this browser does not run is not kept either. The probe is native.ts's.
+// Nor is the module that this browser does not run. The probe is that of native.ts.
 const simd = WebAssembly.validate(
   new Uint8Array([
     0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
@@ -36,7 +36,7 @@ self.addEventListener('activate', (event) => event.waitUntil(self.clients.claim(
 async function answer(request) {
   const kept = await caches.match(request, { ignoreSearch: true, cacheName });
   if (kept !== undefined) return kept;
-  // A page that was open before this version came asks for pieces of its own.
+  // A page opened before this version requests files of its own version.
   const before = request.mode === 'navigate' ? undefined : await caches.match(request);
   if (before !== undefined) return before;
   const fetched = await fetch(request);

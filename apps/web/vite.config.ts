@@ -1,4 +1,4 @@
-// How the page is built: static files with relative addresses, so that they can lie in any folder of any server.
+// Build of the page: static files with relative addresses, which work in any folder of any server.
 
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync } from 'node:fs';
@@ -7,7 +7,7 @@ import { defineConfig, type Plugin } from 'vite';
 
 const here = import.meta.dirname;
 
-/** No other host, no script but the page's own. WebAssembly has to be allowed by name; a model is saved from a blob. */
+/** No other host, and only the page's own scripts. WebAssembly is allowed by name; models are saved from blobs. */
 const POLICY = [
   "default-src 'none'",
   "script-src 'self' 'wasm-unsafe-eval'",
@@ -16,7 +16,7 @@ const POLICY = [
   "connect-src 'self'",
   "worker-src 'self'",
   "manifest-src 'self'",
-  // A film that was chosen here, beside the flame that learned from it.
+  // For a film chosen here, shown beside the flame learned from it.
   'media-src blob:',
   "base-uri 'none'",
   "form-action 'none'",
@@ -32,7 +32,7 @@ function policy(): Plugin {
   };
 }
 
-/** What is indented for whom writes it weighs 35 bytes on its way. */
+/** Removes indentation, which costs 35 bytes of transfer. */
 function flatPage(): Plugin {
   return { name: 'wisp-flat-page', apply: 'build', transformIndexHtml: { order: 'post', handler: (html) => html.replace(/\n\s+/g, '\n') } };
 }
@@ -43,12 +43,12 @@ function filesUnder(folder: string): string[] {
     .map((entry) => join(entry.parentPath, entry.name));
 }
 
-/** What belongs to the studio alone lies in a folder of its own: it is fetched, and kept, once somebody goes in. */
+/** Folder of files for the studio alone, loaded and cached at first entry. */
 const STUDIO = 'assets/studio/';
 const ofStudio = (path: string | null | undefined): boolean => path != null && /(src|bindings|@wisp)\/studio\/|mediabunny/.test(path);
 const named = (studio: boolean, rest: string): string => (studio ? STUDIO : 'assets/') + rest;
 
-/** Tells the service worker which files to keep, under a name that changes with any of them. */
+/** Lists the files to cache for the service worker, under a name that changes with any of them. */
 function serviceWorker(): Plugin {
   return {
     name: 'wisp-service-worker',
@@ -71,7 +71,7 @@ function serviceWorker(): Plugin {
   };
 }
 
-/** The licences of what others wrote and the page carries; for those who look, so no visitor fetches it. */
+/** The licences of included work, in a file that normal visits do not fetch. */
 function licences(): Plugin {
   const thirdParty = join(here, '../../third_party');
   return {
@@ -84,7 +84,7 @@ function licences(): Plugin {
   };
 }
 
-/** Shaders lose their comments, their blanks, and the zeros of their numbers. */
+/** Removes comments, blanks and redundant zeros from shaders. */
 function shorterShaders(): Plugin {
   return {
     name: 'wisp-shorter-shaders',
@@ -133,7 +133,7 @@ function shorterPreload(): Plugin {
   };
 }
 
-/** Programs that show links ask for whole addresses: WISP_ADDRESS says where the page will lie. */
+/** Makes addresses absolute for programs that preview links: WISP_ADDRESS is the page's location. */
 function wholeAddresses(): Plugin {
   const address = process.env.WISP_ADDRESS ?? '';
   return {
@@ -148,7 +148,7 @@ export default defineConfig({
   plugins: [policy(), wholeAddresses(), flatPage(), serviceWorker(), licences(), shorterShaders(), shorterPreload()],
   worker: {
     format: 'es',
-    // The studio's is the only one.
+    // The studio's worker is the only one.
     rollupOptions: { output: { entryFileNames: `${STUDIO}[name]-[hash].js`, chunkFileNames: `${STUDIO}[name]-[hash].js`, assetFileNames: `${STUDIO}[name]-[hash][extname]` } },
   },
   build: {

@@ -1,4 +1,4 @@
-// The page as a whole: stage, player, microphone and controls, and what passes between them.
+// The page as a whole: connects stage, player, microphone and controls.
 
 import type { Library } from '@wisp/player';
 import { Part } from './part.js';
@@ -16,22 +16,22 @@ import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from '@wisp/player/parts/air/breath';
 import type { Parts } from './late.js';
 
-/** Everything that is not needed for the first flame. */
+/** Modules not needed for the first flame. */
 type Late = typeof import('./late.js');
 
-/** Wind that is meant. */
+/** Wind from which a breath counts as intended. */
 const BLOWN = 0.3;
 
-/** CSS pixels that the controls cover at the lower edge. */
+/** CSS pixels covered by the controls at the lower edge. */
 const COVERED = 118;
 
-/** Pace of time where the visitor prefers less motion. */
+/** Speed of time for visitors who prefer reduced motion. */
 const SLOW = 0.4;
 
-/** Seconds of play until the flame ducks once, and for which the breath lasts; a frame counts as a tenth at most. */
+/** Seconds of play until the flame ducks once, duration of that breath, and maximum seconds counted per frame. */
 const DUCKS = { after: 0.7, lasts: 0.26, frame: 0.1 };
 
-/** Turn of the eye round the candle by one press of a key, radians. */
+/** Rotation of the eye round the candle per key press, radians. */
 const TURN = Math.PI / 12;
 
 const START_HINT = 'Move past it, or press Blow and blow';
@@ -46,7 +46,7 @@ export class App {
   private readonly backButton = byId('back', HTMLButtonElement);
   private readonly tuneButton = byId('tune-play', HTMLButtonElement);
   private readonly greeting = byId('greeting', HTMLElement);
-  /** keys without Ctrl or Alt do something */
+  /** whether keys without Ctrl or Alt act */
   singleKeys = true;
   readonly help = byId('help', HTMLDialogElement);
   readonly notices = new Notices(byId('notices', HTMLElement));
@@ -54,18 +54,18 @@ export class App {
   private readonly costs = new Costs();
   private readonly probe: Probe;
   parts: Parts | null = null;
-  /** what keys do; what comes later adds its own */
+  /** actions of keys; late modules add theirs */
   keys: Record<string, () => void> = {};
   private readonly late: Part<Late>;
   private bring: () => void = () => undefined;
   private touched = false;
-  /** it came with words from somebody */
+  /** whether the link carried words from a sender */
   private readonly received: boolean;
   private wasLit = true;
   private heardState: Hearing = 'off';
-  /** the model that wind was last offered to */
+  /** model for which wind was last offered */
   private offered: Playing | null = null;
-  /** Seconds of play since the visitor's breath began; before 0 it is still to come. */
+  /** Seconds of play since the visitor's breath began; negative before it begins. */
   private duckFrom = Infinity;
 
   constructor(
@@ -108,7 +108,7 @@ export class App {
     this.stage.start();
     await this.playChosen();
     this.hint.show(START_HINT, 12);
-    // Nobody presses buttons that are not there.
+    // An overlay has no buttons to press.
     if (this.overlay) this.toggleMicrophone();
   }
 
@@ -148,7 +148,7 @@ export class App {
   }
 
   change(change: Partial<Settings>): void {
-    // Another scene is of the shipped models.
+    // A change of scene selects its shipped model.
     if (change.model === undefined && change.scene !== undefined) change = { ...change, model: '' };
     const needsModel = this.player.apply(change);
     this.stage.detail = this.settings.detail;
@@ -158,7 +158,7 @@ export class App {
     if (needsModel) void this.playChosen();
     else if (playing !== null) this.controls.show(playing.tab, this.settings);
     this.greet();
-    // Where a key has changed what the drawer shows.
+    // Updates the drawer after a key changed what it shows.
     const drawer = this.parts?.drawer;
     if (!needsModel && playing !== null && drawer?.open === true && !drawer.holdsFocus) drawer.fill(playing, this.settings);
   }
@@ -167,7 +167,7 @@ export class App {
     try {
       await this.player.playChosen();
     } catch (error) {
-      // What comes late comes once something plays.
+      // Late modules are loaded once something plays.
       if (this.player.playing === null) await this.player.playShipped();
       this.soon((late) => late.sayWrong(this, error));
     }
@@ -182,7 +182,7 @@ export class App {
     if (this.touched) this.hint.hide();
   }
 
-  /** Does it with what comes late, or says that this did not come. */
+  /** Runs an action with the late modules, or reports that they could not be loaded. */
   private soon(act: (late: Late) => void): void {
     this.late.get().then(act, (error: Error) => this.notices.say(error.message));
   }
@@ -202,7 +202,7 @@ export class App {
     this.touch();
     this.soon(() => {
       const ear = this.parts?.ear;
-      if (ear?.state === 'asleep') return; // the press has woken it
+      if (ear?.state === 'asleep') return; // the press has resumed it
       if (ear?.state === 'off') void ear.open();
       else ear?.close();
     });
@@ -248,7 +248,7 @@ export class App {
     if (!open) this.drawerButton.focus();
   }
 
-  /** Opens what something is made with that can be sent, or closes it. */
+  /** Opens or closes the card for composing a link to send. */
   showCard(open: boolean): void {
     const card = this.parts?.card;
     if (card === undefined || card.open === open) return;
@@ -259,7 +259,7 @@ export class App {
     if (!open) byId('share', HTMLButtonElement).focus();
   }
 
-  /** Sends what plays to somebody: by whatever this device sends things, with a picture of it, or as a link to paste. */
+  /** Shares a link to what plays, with a picture: by the device's share dialog, or as a copied link. */
   async send(): Promise<string> {
     const said = await this.copyLink();
     if (!window.matchMedia('(pointer: coarse)').matches || !('share' in navigator)) return said;
@@ -267,12 +267,12 @@ export class App {
     const data: ShareData = { title: name === '' ? 'Blow it out' : `For ${name}: blow it out`, url: location.href };
     const picture = new File([await this.stage.snapshot()], 'candle.png', { type: 'image/png' });
     const whole = { ...data, files: [picture] };
-    // Closed again by whom it was shown to: nothing to be said.
+    // A cancelled dialog needs no message.
     await navigator.share(navigator.canShare?.(whole) === true ? whole : data).catch(() => undefined);
     return 'Sent';
   }
 
-  /** One candle, back to who sent this, with thanks in its smoke. */
+  /** Sends one candle back to the sender, with thanks written in its smoke. */
   async sendBack(): Promise<void> {
     const { name, from } = this.settings;
     this.change({ name: from, from: name, candles: 1, age: 0, wish: 'Thank you' });
@@ -285,7 +285,7 @@ export class App {
     const { lit = 1, of = 1 } = this.probe?.burning ?? {};
     const candle = this.player.playing?.tab === 'candle';
     const out = lit === 0 && of > 0;
-    // The cake's plaque says whom it is for.
+    // The cake's plaque names the recipient.
     const plaque = this.settings.candles > 1 || this.settings.age > 0;
     const words = !candle ? '' : out && wish !== '' ? wish : [name && !plaque && `For ${name}`, from && `from ${from}`].filter(Boolean).join(', ');
     if (this.greeting.textContent !== words) this.greeting.textContent = words;
@@ -326,11 +326,11 @@ export class App {
     if (playing === null) return;
     const reading = playing.scene.reading();
     this.costs.push(cost);
-    // Where nothing can be drawn the rest comes all the same.
+    // Late modules are loaded even if nothing can be drawn.
     if (this.probe.firstPicture === 0 && (this.stage.shown || this.stage.frames > 60)) {
       this.probe.firstPicture = performance.now();
       this.bring();
-      // As if whoever came in had breathed.
+      // Ducks as if the visitor had breathed on entering.
       if (!this.overlay && this.stage.pace === 1) this.duckFrom = -DUCKS.after;
     }
     if (this.duckFrom < DUCKS.lasts) this.duck(Math.min(seconds, DUCKS.frame));
@@ -360,7 +360,7 @@ export class App {
     if (this.duckFrom >= DUCKS.lasts) this.breath.keys.release('arrival');
   }
 
-  /** Says, once for each model, that it has never felt wind, and what can be done about it. */
+  /** Says once per model that it was learned without wind, and offers a remedy. */
   private offerWind(playing: Playing, wind: number): void {
     if (playing.tab !== 'candle' || playing.model.inputs.length > 0 || playing.borrows) return;
     if (Math.abs(wind) < BLOWN || this.offered === playing) return;
@@ -407,14 +407,14 @@ export class App {
     return { wick: page(wick), match: page(match) };
   }
 
-  /** What blows: across by keys and tilt, away from the eye by the microphone. */
+  /** Direction of wind: across by keys and tilt, away from the eye by the microphone. */
   private air(): Air {
     const { right, away } = this.breath.air;
     const tilt = this.parts?.senses.air ?? { right: 0, away: 0 };
     return { right: right + tilt.right, away: away + tilt.away };
   }
 
-  /** Goes round the candle, as a key asks. */
+  /** Rotates the view round the candle, as requested by a key. */
   private goRound(radians: number): void {
     const scene = this.player.playing?.scene;
     if (scene instanceof CandleScene && !scene.goRound(radians)) this.notices.say('This flame was learned from one side and has no other.');

@@ -1,12 +1,12 @@
-// Files that are dropped anywhere on the page.
+// Files dropped anywhere on the page.
 
-/** What was dropped: its files, and where a browser says it what each is, so that a folder can be looked into. */
+/** Dropped files, with directory entries where the browser provides them, so that folders can be read. */
 export interface Dropped {
   files: File[];
   entries: (FileSystemEntry | null)[];
 }
 
-/** Lets files be dropped anywhere. */
+/** Accepts files dropped anywhere. */
 export function watchDrops(curtain: HTMLElement, dropped: (what: Dropped) => void): void {
   let depth = 0;
   const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
@@ -25,7 +25,7 @@ export function watchDrops(curtain: HTMLElement, dropped: (what: Dropped) => voi
     depth = 0;
     curtain.hidden = true;
     const carried = event.dataTransfer;
-    // Known during the event alone.
+    // Entries are available during the event only.
     if (carried?.files.length) dropped({ files: [...carried.files], entries: [...carried.items].map((item) => item.webkitGetAsEntry()) });
   });
 }

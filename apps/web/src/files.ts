@@ -1,9 +1,9 @@
-// Files that people drop here: looked at, and refused in words that help.
+// Reading of dropped files, with helpful messages for unsuitable ones.
 
-/** No model is larger. */
+/** Maximum size of a model, bytes. */
 const MAX_BYTES = 16e6;
 
-/** Why a file was not played. */
+/** Reason why a file was not played. */
 export class Refused extends Error {}
 
 /** Reads a dropped model. Throws Refused with a sentence for people. */
@@ -20,13 +20,13 @@ export async function readDropped(file: File): Promise<Uint8Array> {
   }
 }
 
-/** Says what was wrong with the bytes of a file that is not a sound model. */
+/** Explains what is wrong with a file that is not a valid model. */
 export function refusalOf(name: string, error: unknown): Refused {
   const why = error instanceof Error ? error.message : String(error);
   return new Refused(`${name} is not a model that can be played: ${why.replace(/\.$/, '')}.`);
 }
 
-/** Whether these are for the studio to learn from: a film, pictures, a folder of them, or a table. */
+/** Whether the files are for learning in the studio: a film, pictures, a folder of them, or a table. */
 export function isLesson(files: readonly File[], entries: readonly (FileSystemEntry | null)[]): boolean {
   if (entries.some((entry) => entry?.isDirectory === true)) return true;
   return files.some(

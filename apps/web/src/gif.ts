@@ -1,16 +1,16 @@
-// A few seconds of a canvas as a GIF: what every chat and forum shows, in 256 colours, for ever.
+// Records a few seconds of a canvas as a GIF: 256 colours, but shown by every chat and forum.
 
 import { applyPalette, GIFEncoder, quantize, type Palette } from 'gifenc';
 
-/** Between pictures. Viewers count in hundredths of a second. */
+/** Milliseconds between pictures. Viewers count in hundredths of a second. */
 const STEP_MS = 50;
-/** Pixels of the longer side. */
+/** Length of the longer side, pixels. */
 const LONGEST = 480;
-/** Light falls off so slowly around a flame that 256 colours show as rings: neighbours are rounded differently. */
+/** Dithering matrix: with 256 colours, the slow falloff of light around a flame would show as rings. */
 const DITHER = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
 const DITHER_LEVELS = 10;
 
-/** Pictures of the canvas, each taken in the frame that drew it: afterwards it is gone. */
+/** Pictures of the canvas, each read in the frame that drew it, as it is cleared afterwards. */
 function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData[]> {
   const scale = Math.min(1, LONGEST / Math.max(canvas.width, canvas.height));
   const small = new OffscreenCanvas(Math.max(1, Math.round(canvas.width * scale)), Math.max(1, Math.round(canvas.height * scale)));
@@ -22,7 +22,7 @@ function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData
     let first: number | null = null;
     const take = (now: number): void => {
       first ??= now;
-      // A late frame stands for those that it missed.
+      // A late frame is repeated for those it missed.
       while (taken.length < wanted && taken.length * STEP_MS <= now - first) {
         context.drawImage(canvas, 0, 0, small.width, small.height);
         taken.push(context.getImageData(0, 0, small.width, small.height));
@@ -34,7 +34,7 @@ function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData
   });
 }
 
-/** One palette for all: what stands still does not shimmer. */
+/** One palette for all pictures, so that still parts do not shimmer. */
 function paletteOf(all: readonly ImageData[]): Palette {
   const some = [0.1, 0.5, 0.9].map((share) => all[Math.floor(share * all.length)]?.data ?? new Uint8ClampedArray());
   const joined = new Uint8ClampedArray(some.reduce((sum, { length }) => sum + length, 0));
@@ -54,13 +54,13 @@ function dither({ data, width }: ImageData): void {
   }
 }
 
-/** What the next seconds of a canvas show. */
+/** Records the next seconds of a canvas. */
 export async function gifOf(canvas: HTMLCanvasElement, seconds: number): Promise<Blob> {
   const all = await pictures(canvas, seconds);
   const palette = paletteOf(all);
   const encoder = GIFEncoder();
   for (const [k, picture] of all.entries()) {
-    // The page goes on between pictures.
+    // Yields to the page between pictures.
     await new Promise((resolve) => setTimeout(resolve));
     dither(picture);
     const { data, width, height } = picture;

@@ -1,4 +1,4 @@
-// What comes after the first flame: the drawer, the help, the microphone, files. One piece, fetched while the flame burns.
+// Modules for after the first flame: drawer, help, microphone, files. One bundle, fetched while the flame burns.
 
 import './late.css';
 import type { App } from './app.js';
@@ -18,7 +18,7 @@ import { Ear } from './wind/ear.js';
 
 export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
-/** What the page has from then on. */
+/** Parts of the page available from then on. */
 export interface Parts {
   ear: Ear;
   drawer: Drawer;
@@ -34,7 +34,7 @@ const UNTUNED = {
   'too easy': 'This microphone is very sensitive: a soft breath may pass for a hard one. It can be tuned to your breath.',
 } as const;
 
-/** Makes it. */
+/** Creates these parts. */
 export function furnish(app: App): Parts {
   const ear = new Ear(app.wisp, {
     wind: (wind) => app.breath.hear(wind, app.stage.frames),
@@ -44,7 +44,7 @@ export function furnish(app: App): Parts {
   }, app.overlay);
   const tuning = new Tuning(ear, byId('tuning', HTMLElement), byId('blow', HTMLButtonElement));
   byId('tune', HTMLButtonElement).addEventListener('click', () => tuning.open());
-  // What is filmed in the studio is not blown at.
+  // Disables blowing while the studio is filming.
   app.keys.t = () => document.body.classList.contains('studying') || tuning.open();
   const { escape } = app.keys;
   app.keys.escape = () => (tuning.isOpen ? tuning.close() : escape?.());
@@ -74,7 +74,7 @@ export function furnish(app: App): Parts {
   return { ear, drawer, senses: new Senses(), door: new StudioDoor(app), tuning, card, tune };
 }
 
-/** Twenty pairs of a filmed flame and of the one that plays. */
+/** Runs a viewing test with twenty pairs of a filmed flame and the flame that plays. */
 async function viewingTest(app: App): Promise<string> {
   const { playing } = app.player;
   if (playing === null) return '';
@@ -84,7 +84,7 @@ async function viewingTest(app: App): Promise<string> {
   return 'Answered';
 }
 
-/** What a film of it shows: it burns, is blown out, smokes, and is lit again. */
+/** Script of a film: the flame burns, is blown out, smokes, and is lit again. */
 export function blownOut(app: App): Happening {
   const { keys } = app.breath;
   const scene = app.player.playing?.scene;
@@ -99,7 +99,7 @@ export function blownOut(app: App): Happening {
   };
 }
 
-/** Says what went wrong, as a sentence with its stop. */
+/** Reports an error as a sentence. */
 export function sayWrong(app: App, error: unknown): void {
   const words = error instanceof Error ? error.message : String(error);
   app.notices.say(`${/[.!?]$/.test(words) ? words : `${words}.`} What plays goes on.`);

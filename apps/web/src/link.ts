@@ -1,4 +1,4 @@
-// What a link carries after its #: scene, seed and settings. Nothing of it is kept anywhere else.
+// The part of a link after its #: scene, seed and settings, which are stored nowhere else.
 
 import { figuresOf, MAX_CANDLES } from '@wisp/player/parts/candle/room';
 import { MAX_LEAVES } from '@wisp/player/parts/leaves/limits';
@@ -7,28 +7,28 @@ export type SceneName = 'candle' | 'leaves';
 
 export interface Settings {
   scene: SceneName;
-  /** of all chance */
+  /** seed of all random streams */
   seed: number;
   /** scale of the learned noise, 0 to 2 */
   noise: number;
   candles: number;
   leaves: number;
-  /** pixels drawn for each of the screen's, 0.25 to 2; 0: as many as keep it smooth */
+  /** drawn pixels per screen pixel, 0.25 to 2; 0: as many as stay smooth */
   detail: number;
-  /** a model instead of the shipped one: an address of this origin, or the model itself (model_link.ts); '': shipped */
+  /** model in place of the shipped one: an address of this origin, or the packed model (model_link.ts); '': shipped */
   model: string;
-  /** an age that stands on the cake in figures; 0: there are candles */
+  /** age shown on the cake as digit candles; 0: ordinary candles */
   age: number;
-  /** whom the cake is for, who sends it, and what its smoke says when all are out */
+  /** recipient and sender of the cake, and text written by smoke when all candles are out */
   name: string;
   from: string;
   wish: string;
-  /** 1: there is a tune, for whoever asks for it */
+  /** 1: offers a tune */
   tune: number;
 }
 
 export { MAX_CANDLES, MAX_LEAVES };
-/** Letters of each of its words. */
+/** Maximum number of letters of each text. */
 export const LETTERS = { name: 24, from: 24, wish: 80 } as const;
 
 export const DEFAULTS: Readonly<Settings> = {
@@ -56,10 +56,10 @@ const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model' | keyof 
   detail: [0, 2, false],
 };
 
-/** Words in one line, of at most so many letters. */
+/** Text in one line, of at most `most` letters. */
 export const shortened = (words: string, most: number): string => [...words.replace(/\s+/g, ' ').trim()].slice(0, most).join('');
 
-/** Reads what follows a link's #. What is missing, unknown or out of range is as it is in `otherwise`. */
+/** Reads settings from a link's hash. Missing, unknown or out-of-range values are those of `otherwise`. */
 export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = DEFAULTS): Settings {
   const given = new URLSearchParams(hash.replace(/^#/, ''));
   const settings: Settings = { ...otherwise };
@@ -76,22 +76,22 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   return settings;
 }
 
-/** Whether it asks for what burns alone, on nothing: for films and for other people's pictures. */
+/** Whether a transparent overlay is requested, for films and other people's pictures. */
 export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
 
-/** What a scene shows of them. */
+/** Scene options from the settings. */
 export const shownOf = ({ age, name, wish }: Readonly<Settings>): { figures: string; name: string; wish: string } => ({ figures: age > 0 ? figuresOf(String(age)) : '', name, wish });
 
 /**
- * The shortest link that carries these settings, from its # on. `own`: what this visitor began with; a preference of
- * theirs is nobody else's.
+ * Shortest link from its # on with these settings. `own`: this visitor's initial settings, since personal preferences
+ * are not sent.
  */
 export function linkOf(settings: Readonly<Settings>, own: Readonly<Settings> = DEFAULTS): string {
   const given = new URLSearchParams();
   for (const [name, value] of Object.entries(settings) as [keyof Settings, unknown][]) {
     if (value !== DEFAULTS[name] && value !== own[name]) given.set(name, String(value));
   }
-  // Scene and seed are always told: a link is there to say them.
+  // Scene and seed are always included, since they are the purpose of the link.
   given.set('scene', settings.scene);
   given.set('seed', String(settings.seed));
   return `#${given.toString()}`;

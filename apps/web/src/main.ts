@@ -1,18 +1,18 @@
-// Where the page begins.
+// Entry point of the page.
 
 import { loadLibrary } from '@wisp/player/parts/library';
 import { App } from './app.js';
 import { DEFAULTS, isOverlay, settingsFromLink, type Settings } from './link.js';
 
-/** Of who asks for less motion: a calmer flame, fewer leaves. They are no part of a link. */
+/** Settings for visitors who prefer reduced motion: a calmer flame, fewer leaves. They are not part of links. */
 function preferred(calm: boolean): Settings {
   return calm ? { ...DEFAULTS, noise: 0.3, leaves: 25 } : { ...DEFAULTS };
 }
 
-/** The page's own files are kept by the browser, so that it opens without a network. */
+/** Registers the service worker, so that the page opens without a network. */
 function keepForOffline(): void {
   if (!import.meta.env.PROD || !('serviceWorker' in navigator)) return;
-  // Refused where pages are not kept, as in private windows: the page only needs its network then.
+  // Refused where storage is disabled, as in private windows: the page then needs its network.
   navigator.serviceWorker.register('./sw.js').catch(() => undefined);
 }
 

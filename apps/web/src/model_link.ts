@@ -1,22 +1,22 @@
 // A model in a link: packed into the link itself, or at an address of the page's own origin.
 
-/** What an address never begins with: the model's own bytes follow, compressed, in base64url. */
+/** Prefix of packed models (no address begins so): the compressed bytes follow in base64url. */
 const PACKED = 'packed,';
-/** Longer links are cut by programs that pass them on. */
+/** Maximum length of a packed model; programs truncate longer links. */
 export const MAX_PACKED_BYTES = 24_000;
 
 async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
   return new Uint8Array(await new Response(new Blob([bytes.slice()]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
-/** The value of `model=` that carries these bytes. */
+/** Value of `model=` that contains these bytes. */
 export async function packModel(bytes: Uint8Array): Promise<string> {
   const packed = await through(bytes, new CompressionStream('deflate-raw'));
   const letters = Array.from(packed, (byte) => String.fromCharCode(byte)).join('');
   return PACKED + btoa(letters).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
-/** The bytes that a `model=` stands for, and what the file is called. Throws an Error in words for people. */
+/** Bytes and file name for a value of `model=`. Throws an Error with a sentence for people. */
 export async function fetchModel(value: string): Promise<{ bytes: Uint8Array; file: string }> {
   if (value.startsWith(PACKED)) {
     try {

@@ -1,9 +1,9 @@
-// Parts of the page that are fetched after it has started. A fetch that fails is tried again.
+// Loading of page parts after the start, with retries.
 
-/** Milliseconds before each further try. */
+/** Milliseconds before each retry. */
 const WAITS = [300, 1200];
 
-/** Fetches a piece, again where that fails. Throws a sentence for people. */
+/** Loads a part, with retries. Throws a sentence for people. */
 export async function fetchPart<T>(bring: () => Promise<T>): Promise<T> {
   for (const wait of WAITS) {
     try {
@@ -19,7 +19,7 @@ export async function fetchPart<T>(bring: () => Promise<T>): Promise<T> {
   }
 }
 
-/** A piece that is fetched once, and asked for anew after a failure. */
+/** A part that is loaded once, and again after a failure. */
 export class Part<T> {
   private coming: Promise<T> | null = null;
 

@@ -1,4 +1,4 @@
-// What plays: which model, in which scene, with which settings.
+// Selects what plays: model, scene and settings.
 
 import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
@@ -9,16 +9,16 @@ import { fetchShipped, SHIPPED_FLAME, SHIPPED_LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
-/** What is on: the scene, and what is to be said of its model. */
+/** The current scene, and facts about its model. */
 export interface Playing extends Shown {
   scene: Scene;
-  /** the tab that it belongs to; null: to none */
+  /** tab of the scene; null: none */
   tab: SceneName | null;
 }
 
 export class Player {
   playing: Playing | null = null;
-  /** counts openings: one that was overtaken by the next is dropped */
+  /** incremented by openings: outdated ones are abandoned */
   private opening = 0;
 
   constructor(
@@ -28,7 +28,7 @@ export class Player {
     private readonly changed: (playing: Playing) => void,
   ) {}
 
-  /** Plays what the settings say: the model of the link, or the shipped one of the scene. Throws where that fails. */
+  /** Plays the settings' model: that of the link, or the scene's shipped one. Throws on failure. */
   async playChosen(): Promise<void> {
     const { model } = this.settings;
     if (model === '') {
@@ -41,7 +41,7 @@ export class Player {
     if (turn === this.opening) await this.play(bytes, file, false, turn);
   }
 
-  /** Lets a flame that has never felt wind answer as the shipped one does. */
+  /** Lets a flame learned without wind respond as the shipped one does. */
   async borrowWind(): Promise<void> {
     const { playing } = this;
     if (!(playing?.scene instanceof CandleScene) || playing.borrows) return;
@@ -54,7 +54,7 @@ export class Player {
     lender.free();
   }
 
-  /** Plays the shipped model of the scene in the settings. Throws where it cannot be fetched. */
+  /** Plays the shipped model of the settings' scene. Throws where it cannot be fetched. */
   async playShipped(): Promise<void> {
     const shipped = this.settings.scene === 'leaves' ? SHIPPED_LEAF : SHIPPED_FLAME;
     const turn = ++this.opening;
@@ -62,13 +62,13 @@ export class Player {
     if (turn === this.opening) await this.play(bytes, shipped.file, true, turn);
   }
 
-  /** Plays a file that somebody gave. Throws what is wrong with it, and what played plays on. */
+  /** Plays a given file. Throws the error of an invalid file; the current model then continues. */
   async playFile(name: string, bytes: Uint8Array): Promise<void> {
     await this.play(bytes, name, false, ++this.opening);
     this.settings.model = '';
   }
 
-  /** Takes over changed settings; true where another model has to be fetched for them. */
+  /** Applies changed settings; returns true where they need another model. */
   apply(change: Partial<Settings>): boolean {
     const before = { ...this.settings };
     Object.assign(this.settings, change);

@@ -1,4 +1,4 @@
-// Figures for measurements from outside (docs/studies/live.md): tests, the bench, whoever is curious in the console.
+// Figures for external measurements (docs/studies/live.md): tests, benchmarks, the console.
 
 import type { SoundPath } from '@wisp/player/parts/air/breath';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
@@ -6,26 +6,26 @@ import type { FrameCost } from '@wisp/player/parts/stage/stage';
 const KEPT = 600;
 
 export interface Probe {
-  /** frames drawn so far */
+  /** number of frames drawn */
   frames: number;
-  /** milliseconds of our own time in the last frames, newest last */
+  /** milliseconds of this page's own work in the last frames, newest last */
   costs(): { update: number; draw: number }[];
   /** milliseconds from the start of the page to the first picture of a scene */
   firstPicture: number;
-  /** in the model's unit, of the last frame */
+  /** wind of the last frame, in the model's unit */
   wind: number;
   answer: number;
-  /** candles that burn, of how many; null in other scenes */
+  /** number of burning candles, and of all; null in other scenes */
   burning: { lit: number; of: number } | null;
-  /** puffs of smoke in the air */
+  /** whether smoke is in the air */
   smoking: boolean;
-  /** where things are that can be pressed, CSS pixels from the top left; null in other scenes */
+  /** positions of wick and match, CSS pixels from the top left; null in other scenes */
   places(): { wick: [number, number]; match: [number, number] } | null;
-  /** leaves in the air and on the ground; null in other scenes */
+  /** number of leaves in the air and on the ground; null in other scenes */
   leaves: { count: number; lying: number } | null;
-  /** where the first candle stands, room units from the middle */
+  /** x of the first candle, room units from the middle */
   candleX: number;
-  /** of the eye round the candle, radians from where its flame was filmed */
+  /** azimuth of the eye round the candle, radians; 0 where its flame was filmed */
   azimuth: number;
   hearing: string;
   sound: SoundPath;

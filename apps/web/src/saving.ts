@@ -1,19 +1,19 @@
-// What is to be kept of the picture: a still, or some seconds in which it is blown out and lit again, as a film or as a
-// GIF. Made here; nothing is sent anywhere.
+// Saves a still picture, or a film or GIF of some seconds in which the flame is blown out and lit again. Made locally;
+// nothing is sent.
 
 import { fetchPart } from './part.js';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
 const FRAMES = 30;
 const SLICE_MS = 100;
-/** Seconds in which the first picture must be encoded. */
+/** Maximum seconds until the first picture is encoded. */
 const PATIENCE = 10;
-/** Kinds of film that browsers record, the one that most programs show first. */
+/** Formats of browser recordings, the most widely supported first. */
 const KINDS = ['video/mp4;codecs=avc1', 'video/webm;codecs=vp9', 'video/webm'];
 
 const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
-/** Gives a file to whoever sits here. */
+/** Saves a file on the user's device. */
 export function saveFile(blob: Blob, name: string): void {
   const address = URL.createObjectURL(blob);
   const link = document.createElement('a');
@@ -29,7 +29,7 @@ export async function savePicture(stage: Stage): Promise<string> {
   return 'Saved';
 }
 
-/** What happens while it is filmed: so many seconds of it, and what is done at which of them. */
+/** Events during a recording: its duration in seconds, and actions at given seconds. */
 export interface Happening {
   seconds: number;
   acts: readonly (readonly [at: number, act: () => void])[];
@@ -44,7 +44,7 @@ async function happen({ seconds, acts }: Happening): Promise<void> {
   }
 }
 
-/** Saves what a canvas shows meanwhile, as a GIF. */
+/** Records a canvas during these events as a GIF. */
 export async function saveGif(canvas: HTMLCanvasElement, happening: Happening): Promise<string> {
   const { gifOf } = await fetchPart(() => import('./gif.js'));
   void happen(happening);
@@ -52,7 +52,7 @@ export async function saveGif(canvas: HTMLCanvasElement, happening: Happening): 
   return 'Saved';
 }
 
-/** Saves what a canvas shows meanwhile, as a film. */
+/** Records a canvas during these events as a film. */
 export async function saveLoop(canvas: HTMLCanvasElement, happening: Happening): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';
@@ -66,7 +66,7 @@ export async function saveLoop(canvas: HTMLCanvasElement, happening: Happening):
   });
   const ended = new Promise((resolve) => recorder.addEventListener('stop', resolve, { once: true }));
   recorder.start(SLICE_MS);
-  // A busy machine takes its time until it encodes anything.
+  // A busy machine takes time until it encodes anything.
   await Promise.race([begun, after(PATIENCE)]);
   await happen(happening);
   recorder.stop();

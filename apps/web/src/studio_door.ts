@@ -1,4 +1,4 @@
-// The way into the studio: its tab, its key, its link. Nothing of the studio itself is fetched before somebody goes in.
+// Entry to the studio: tab, key and link. The studio itself is loaded at first entry.
 
 import type { App } from './app.js';
 import type { Dropped } from './drops.js';
@@ -8,7 +8,7 @@ import { blownOut } from './late.js';
 import { saveGif, saveLoop } from './saving.js';
 import type { Room } from './studio/room.js';
 
-/** Milliseconds until a flame that was just put on stands in full light. */
+/** Milliseconds until a newly shown flame has full brightness. */
 const LIT = 900;
 
 export class StudioDoor {
@@ -34,7 +34,7 @@ export class StudioDoor {
     if (new URLSearchParams(location.hash.slice(1)).has('yours')) this.open();
   }
 
-  /** Goes in, with something to learn from. */
+  /** Enters the studio, optionally with files to learn from. */
   open(dropped?: Dropped): void {
     this.room.get().then(
       (room) => {
@@ -45,7 +45,7 @@ export class StudioDoor {
     );
   }
 
-  /** Whether somebody is in it. */
+  /** Whether the studio is open. */
   get isInside(): boolean {
     return this.inside;
   }
@@ -66,19 +66,19 @@ export class StudioDoor {
     for (const tab of this.tab.parentElement?.children ?? []) tab.setAttribute('aria-current', String(tab === this.tab));
   }
 
-  /** Comes out; what was gathered stays there. */
+  /** Leaves the studio; its session is kept. */
   leave(): void {
     if (!this.inside) return;
     this.inside = false;
     void this.room.get().then((room) => room.show(false));
     document.body.classList.remove('studying');
     this.tab.setAttribute('aria-current', 'false');
-    // Shows its own tab again.
+    // Selects the scene's own tab again.
     this.app.change({});
     this.app.stage.start();
   }
 
-  /** What the studio may ask of the page. */
+  /** Services of the page for the studio. */
   private host(): ConstructorParameters<typeof Room>[0] {
     const { app } = this;
     return {

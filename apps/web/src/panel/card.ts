@@ -1,4 +1,4 @@
-// Something to send: whom it is for, how old, what the smoke says; and the ways to send it.
+// Card for composing a link: recipient, age, text for the smoke; and the ways to send it.
 
 import { LETTERS, MAX_CANDLES, shortened, type Settings } from '../link.js';
 import { element } from './element.js';
@@ -7,13 +7,13 @@ import { telling } from './telling.js';
 export interface CardEvents {
   change(change: Partial<Settings>): void;
   closed(): void;
-  /** sends the link by whatever this device sends things, or copies it; says how that went */
+  /** shares or copies the link; returns a message about the result */
   send(): Promise<string>;
-  /** saves a picture, or some seconds in which it is blown out; says how that went */
+  /** saves a picture, or a short film of blowing out; returns a message about the result */
   picture(): Promise<string>;
   film(): Promise<string>;
   gif(): Promise<string>;
-  /** plays the tune, or ends it; whether it plays */
+  /** plays or stops the tune; returns whether it plays */
   tune(): boolean;
 }
 
@@ -58,7 +58,7 @@ export class Card {
     for (const input of [this.age, this.inFigures]) input.addEventListener('input', () => this.changeAge());
     this.tune.addEventListener('input', () => events.change({ tune: Number(this.tune.checked) }));
     place.addEventListener('keydown', (event) => {
-      // Letters are letters here.
+      // Keys type text here.
       if (event.key === 'Escape') events.closed();
       event.stopPropagation();
     });
@@ -86,7 +86,7 @@ export class Card {
     return element('div', { class: 'field' }, element('label', { for: `card-${name}` }, words), input);
   }
 
-  /** More years than candles have room are figures. */
+  /** Ages above the maximum number of candles use digit candles. */
   private changeAge(): void {
     const years = Math.min(999, Math.max(0, Math.floor(this.age.valueAsNumber || 0)));
     if (years > MAX_CANDLES) this.inFigures.checked = true;

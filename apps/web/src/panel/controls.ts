@@ -1,15 +1,15 @@
-// The controls over the picture: scenes, how many, blow, the scene's own action.
+// Controls over the picture: scenes, number, blow, and the scene's own action.
 
 import { MAX_CANDLES, MAX_LEAVES, type SceneName, type Settings } from '../link.js';
 import { byId, element } from './element.js';
 
-/** Scenes that have a tab. Another scene is a line here and one in player.ts. */
+/** Scenes with a tab. A new scene needs a line here and one in player.ts. */
 const SCENES: readonly { name: SceneName; title: string }[] = [
   { name: 'candle', title: 'Candle' },
   { name: 'leaves', title: 'Leaves' },
 ];
 
-/** What the microphone is doing. */
+/** State of the microphone. */
 export type Hearing = 'off' | 'asking' | 'listening' | 'asleep';
 
 export interface ControlEvents {
@@ -45,7 +45,7 @@ export class Controls {
     this.act.addEventListener('click', () => events.act());
   }
 
-  /** Shows the tab that is on, and how many of what. */
+  /** Shows the selected tab, and the number of candles or leaves. */
   show(tab: SceneName | null, settings: Readonly<Settings>): void {
     this.tab = tab;
     for (const [name, button] of this.tabs) button.setAttribute('aria-current', String(name === tab));
@@ -61,7 +61,7 @@ export class Controls {
     this.count.setAttribute('aria-valuetext', this.countShown.value);
   }
 
-  /** Fewer or more, as a key asks. */
+  /** Changes the number by one step, as requested by a key. */
   step(way: 1 | -1, settings: Readonly<Settings>): void {
     if (this.tab === 'leaves') {
       const leaves = Math.round(way > 0 ? settings.leaves * 1.5 + 1 : settings.leaves / 1.5 - 1);
@@ -71,12 +71,12 @@ export class Controls {
     }
   }
 
-  /** Whether there is anything to do for the scene's own action. */
+  /** Enables the scene's own action while it has an effect. */
   setActive(able: boolean): void {
     if (this.act.disabled === able) this.act.disabled = !able;
   }
 
-  /** What the microphone does. `level`, 0 to 1: how strong the breath is. */
+  /** Shows the microphone's state. `level`: strength of breath, 0 to 1. */
   hear(state: Hearing, level: number): void {
     const words: Readonly<Record<Hearing, string>> = {
       off: 'Blow',

@@ -1,4 +1,4 @@
-// The drawer: what was learned. Live plots, knobs that mean something, the model's own facts, its file.
+// The drawer about the model: live plots, controls, facts and file.
 
 import type { Model } from '@wisp/player';
 import type { Settings } from '../link.js';
@@ -10,15 +10,15 @@ import { factsOf } from './facts.js';
 import { introductionTo } from './introduction.js';
 import { Plot, type Ink } from './plot.js';
 
-/** What the drawer shows of. */
+/** Model shown in the drawer. */
 export interface Shown {
   model: Model;
   bytes: Uint8Array;
   file: string;
-  /** false: it was dropped here */
+  /** false: a dropped file */
   shipped: boolean;
   answerName: string;
-  /** its answer to wind is the shipped flame's */
+  /** whether its wind response is borrowed from the shipped flame */
   borrows: boolean;
 }
 
@@ -29,11 +29,11 @@ export interface DrawerEvents {
   send(): void;
   /** opens the viewing test */
   viewing(): Promise<string>;
-  /** tilt and touch on or off; returns which */
+  /** toggles tilt and touch; returns the new state */
   senses(): boolean;
 }
 
-/** Frames between drawings of the plots. */
+/** Frames per update of the plots. */
 const PLOT_EVERY = 2;
 
 export class Drawer {
@@ -62,7 +62,7 @@ export class Drawer {
     return !this.place.hidden;
   }
 
-  /** Whether somebody is at one of its knobs. */
+  /** Whether one of its controls has the focus. */
   get holdsFocus(): boolean {
     return this.place.contains(document.activeElement);
   }
@@ -72,7 +72,7 @@ export class Drawer {
     if (open) this.place.querySelector<HTMLElement>('button')?.focus();
   }
 
-  /** Fills it for a model and settings. */
+  /** Shows a model and settings. */
   fill(shown: Shown, settings: Readonly<Settings>): void {
     const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
     close.addEventListener('click', () => this.events.closed());
@@ -86,7 +86,7 @@ export class Drawer {
     );
   }
 
-  /** Takes in one frame. */
+  /** Adds one frame to the plots. */
   frame(reading: Reading, cost: Readonly<FrameCost>): void {
     if (this.plots === null) return;
     const values = { wind: reading.wind, answer: reading.answer, cost: cost.update + cost.draw };

@@ -1,8 +1,8 @@
-// Elements in a line of code.
+// Creation of DOM elements in one expression.
 
 type Attributes = Record<string, string | boolean | number>;
 
-/** Makes an element with attributes and children; text is text, never markup. */
+/** Creates an element with attributes and children; strings become text, never markup. */
 export function element<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
   attributes: Attributes = {},
@@ -17,7 +17,7 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
-/** The element of that id. Throws when the page has none of that kind: page and script do not belong together. */
+/** The element with that id. Throws if it is missing or of another kind: page and script are of different versions. */
 export function byId<Kind extends HTMLElement>(id: string, kind: new () => Kind): Kind {
   const found = document.getElementById(id);
   if (!(found instanceof kind)) throw new Error(`the page has no ${kind.name} #${id}`);

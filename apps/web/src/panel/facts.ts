@@ -1,4 +1,4 @@
-// What a model says of itself, in words and numbers that people read.
+// Facts of a model in words and numbers.
 
 import type { Model } from '@wisp/player';
 import { element } from './element.js';
@@ -14,7 +14,7 @@ const KINDS: Readonly<Record<Model['view'], string>> = {
 };
 
 function inputOf({ name, unit, lowest, highest }: Model['inputs'][number]): string {
-  // A unit may be a number of its own: 0.73 1 is a breath.
+  // A unit may be a number itself: "0.73 1" means that a breath is 0.73.
   const said = unit === '' || /1$/.test(unit) ? '' : ` ${unit}`;
   return `${name}, ${number(lowest, 2)} to ${number(highest, 2)}${said}`;
 }
@@ -63,7 +63,7 @@ function list(facts: readonly Fact[]): HTMLElement {
   return made;
 }
 
-// How well it does, with what a good figure is.
+// Quality figures of the model, with the range of good values.
 function figuresOf(model: Model): HTMLElement[] {
   const { figures } = model.provenance;
   if (figures.length === 0) return [];
@@ -75,7 +75,7 @@ function figuresOf(model: Model): HTMLElement[] {
   return [element('h3', {}, 'How well it does'), made];
 }
 
-/** All of it, as the drawer shows it. */
+/** All facts, as shown in the drawer. */
 export function factsOf(model: Model, bytes: number): HTMLElement {
   const { provenance } = model;
   const made: Fact[] = [['By', provenance.program]];

@@ -1,10 +1,10 @@
-// The figures of a model's file, in words: what each is called, its unit, and what a good one is.
+// Names, units and good ranges of the figures in a model's file.
 
-/** A figure as it is shown. */
+/** A figure as displayed. */
 export interface Shown {
   words: string;
   value: string;
-  /** what a good one is; empty where none is better than another */
+  /** range of good values; empty where none is better than another */
   good: string;
 }
 
@@ -14,7 +14,7 @@ interface Kind {
   good: string;
 }
 
-/** Three digits that count, in plain notation wherever people read that. */
+/** Three significant digits, in plain notation where it is common. */
 export function number(value: number, digits = 3): string {
   if (Number.isInteger(value)) return value.toLocaleString('en');
   const size = Math.abs(value);
@@ -52,7 +52,7 @@ const KINDS: Readonly<Record<string, Kind>> = {
   gust_direction_degrees: { words: 'Error of direction in gusts', unit: (value) => `${number(value)}°`, good: 'below 20°' },
 };
 
-/** Figures that are told for several horizons: name, then a full stop, then frames ahead or inf. */
+/** Figures with several horizons: name, full stop, then frames ahead or inf. */
 const AHEAD: Readonly<Record<string, Kind>> = {
   fit: { words: 'Fit of the outline', unit: percent, good: '50 % or more; 0 % is its mean' },
   tip_fit: { words: 'Fit of the tip', unit: percent, good: '50 % or more; 0 % is its mean' },
@@ -64,7 +64,7 @@ function horizon(steps: string): string {
   return steps === '1' ? 'one frame ahead' : `${steps} frames ahead`;
 }
 
-/** Says a figure in words; one that nobody knows here keeps its own name. */
+/** Describes a figure; unknown ones keep their own name. */
 export function inWords(name: string, value: number): Shown {
   const [base, steps] = name.split('.') as [string, string | undefined];
   const ahead = AHEAD[base];

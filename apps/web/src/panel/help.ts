@@ -1,4 +1,4 @@
-// The help: every gesture and key.
+// The help with all gestures and keys.
 
 import type { App } from '../app.js';
 import { element } from './element.js';
@@ -51,7 +51,7 @@ export function fillHelp(dialog: HTMLDialogElement, app: App): void {
         'page is closed. Nothing leaves this device, and nothing is stored but the page itself, so that it works without a network.',
     ),
   );
-  // A press beside it closes it.
+  // A press outside closes it.
   dialog.addEventListener('click', (event) => {
     if (event.target === dialog) dialog.close();
   });

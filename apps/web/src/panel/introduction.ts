@@ -1,4 +1,4 @@
-// What the drawer says first: what this model is and what taught it, as far as its file tells.
+// Introduction in the drawer: what the model is and what it was learned from, as far as its file says.
 
 import type { Model } from '@wisp/player';
 
@@ -22,7 +22,7 @@ function wind(model: Model, borrows: boolean): string {
     : ' It has no input: wind does not reach it.';
 }
 
-/** Two or three sentences. `borrows`: the answer to wind is the shipped flame's. */
+/** Two or three sentences. `borrows`: the wind response is the shipped flame's. */
 export function introductionTo(model: Model, shipped: boolean, borrows: boolean): string {
   if (model.view === 'outline') {
     const order = Math.max(...(model.arx?.na.flat() ?? [0]));

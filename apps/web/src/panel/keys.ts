@@ -1,11 +1,11 @@
-// Keys of the page. Those that blow are held; the others act once.
+// Keys of the page. Keys that blow act while held; others act once.
 
 import { KeyBreath } from '@wisp/player/parts/air/keys';
 
-/** What each key (KeyboardEvent.key, in lower case) does. */
+/** Action of each key (KeyboardEvent.key, in lower case). */
 export type KeyActions = Readonly<Record<string, () => void>>;
 
-/** Whether what has the focus wants that key for itself. */
+/** Whether the focused element handles that key itself. */
 function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest('dialog') !== null) return true;
@@ -15,7 +15,7 @@ function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
   return (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement) && event.code === 'Space';
 }
 
-/** Listens to the keyboard for as long as the page lives. */
+/** Listens to the keyboard while the page exists. */
 export function listenToKeys(breath: KeyBreath, actions: KeyActions, touched: () => void, single: () => boolean): void {
   window.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || keeps(event.target, event)) return;

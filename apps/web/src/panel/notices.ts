@@ -1,11 +1,11 @@
-// Messages that come, are read out, and go.
+// Messages that appear, are read out by screen readers, and disappear.
 
 import { element } from './element.js';
 
 const STAYS = 9000;
 const MOST = 3;
 
-/** Something that can be done, on a button of the message. */
+/** An action offered by a button of the message. */
 export interface Offer {
   words: string;
   accept(): void;
@@ -36,13 +36,13 @@ export class Notices {
   }
 }
 
-/** One line near the lower edge that says what can be done, until it has been done. */
+/** One line near the lower edge that suggests an action until it was done. */
 export class Hint {
   private timer = 0;
 
   constructor(private readonly place: HTMLElement) {}
 
-  /** Shows it for so many seconds; 0: until the next one or hide(). */
+  /** Shows it for a number of seconds; 0: until the next one or hide(). */
   show(text: string, seconds = 0): void {
     clearTimeout(this.timer);
     if (this.place.textContent !== text) this.place.textContent = text;

@@ -1,8 +1,8 @@
-// A line that runs: the last seconds of one number.
+// A scrolling plot of the last seconds of one number.
 
 const KEPT = 360;
 
-/** A line's colours: on the drawer by night, and by day. */
+/** Colours of a line in the dark and the light drawer. */
 export type Ink = readonly [night: string, day: string];
 
 const day = window.matchMedia('(prefers-color-scheme: light)');
@@ -14,7 +14,7 @@ export class Plot {
   private newest = 0;
   private count = 0;
 
-  /** `least`: the range is never drawn narrower than from the first to the second. */
+  /** `least`: minimum range of the axis, as low and high end. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly colour: Ink,
@@ -31,7 +31,7 @@ export class Plot {
     this.count = 0;
   }
 
-  /** Mean of the last `samples`. */
+  /** Mean of the last `samples` values. */
   mean(samples: number): number {
     const count = Math.min(samples, this.count);
     let sum = 0;

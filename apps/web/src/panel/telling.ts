@@ -1,10 +1,10 @@
-// A button that says how it went.
+// A button that reports the result of its action.
 
 import { element } from './element.js';
 
 const STAYS = 4000;
 
-/** `name`: for whom looks for it; `meanwhile`: what it says while it works, '' for nothing else; `act` says how it went. */
+/** `name`: accessible name; `meanwhile`: text during the action, '' for no change; `act` returns the final text. */
 export function telling(words: string, name: string, meanwhile: string, act: () => Promise<string>): HTMLButtonElement {
   const button = element('button', { type: 'button', class: 'tool', 'data-file': name }, words);
   button.addEventListener('click', () => {

@@ -1,5 +1,5 @@
-// The guided calibration: breathe gently, blow hard. After it a soft breath leans the flame, and a hard one puts it out,
-// however sensitive the microphone is.
+// The guided calibration: breathe gently, blow hard. Afterwards a soft breath bends the flame and a hard one
+// extinguishes it, whatever the microphone's sensitivity.
 
 import type { Asked, Ear } from '../wind/ear.js';
 import { element } from './element.js';
@@ -16,9 +16,9 @@ const STEPS: readonly Step[] = [
   { asked: 'blow hard', title: 'Blow hard', words: 'As on a birthday cake.', seconds: 2.5 },
 ];
 
-/** Seconds to read the instruction and to draw breath. */
+/** Seconds to read the instruction and to inhale. */
 const GET_READY = 1.5;
-/** Seconds that the last words stay. */
+/** Seconds for which the last text stays. */
 const STAYS = 6;
 
 const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
@@ -31,7 +31,7 @@ export class Tuning {
   private readonly actions = element('div', { class: 'actions' });
   private readonly choice = element('select', { id: 'tuning-microphone' });
   private readonly choices = element('label', { class: 'microphones', for: 'tuning-microphone', hidden: true }, 'Microphone ', this.choice);
-  /** counts openings and steps: what was left behind goes no further */
+  /** incremented by openings and steps: outdated ones are abandoned */
   private turn = 0;
   private since = 0;
   private lasts = 0;
@@ -49,7 +49,7 @@ export class Tuning {
     return !this.place.hidden;
   }
 
-  /** Shows what comes, and begins when it is told to. */
+  /** Shows the steps, and begins when the user asks. */
   open(): void {
     if (this.isOpen) return;
     this.turn += 1;
@@ -69,14 +69,14 @@ export class Tuning {
     this.returnTo.focus();
   }
 
-  /** Shown where there is more than one. */
+  /** Lists the microphones where there are several. */
   private async listChoices(): Promise<void> {
     const found = await this.ear.choices();
     this.choice.replaceChildren(...found.map(({ id, name, open }) => element('option', { value: id, selected: open }, name)));
     this.choices.hidden = found.length < 2;
   }
 
-  /** Once a frame: how much time has passed. What is heard, the ring of Blow shows. */
+  /** Advances by one frame. The ring around Blow shows the sound level. */
   frame(): void {
     if (!this.isOpen) return;
     if (this.ear.state === 'off' && this.lasts > 0) return this.close();
@@ -88,7 +88,7 @@ export class Tuning {
     this.offer(['Cancel', () => this.close()]);
     if (this.ear.state === 'off') await this.ear.open();
     if (turn !== this.turn) return;
-    // It has said why there is no microphone.
+    // The microphone has already reported why it is off.
     if (this.ear.state === 'off') return this.close();
     this.ear.tune(true);
     await this.ask(0);
@@ -121,7 +121,7 @@ export class Tuning {
     if (turn === this.turn) this.close();
   }
 
-  /** `index` of the step that is on; null: before the first. */
+  /** `index` of the current step; null: before the first. */
   private show(index: number | null, title: string, words: string): void {
     this.lasts = 0;
     if (index !== null) this.choices.hidden = true;

@@ -1,4 +1,4 @@
-// A model whose outputs stand for nothing but themselves: they are drawn as they come, each a line that runs.
+// Scene of a model with plain outputs: each is drawn as a scrolling line.
 
 import type { Bank, Model } from '@wisp/player';
 import { drawToCanvas, Program } from '@wisp/player/parts/stage/gl';

@@ -3,7 +3,7 @@
 import type { Air } from '@wisp/player/parts/stage/scene';
 import { Tilt } from './tilt.js';
 
-/** Milliseconds that a phone vibrates when a flame goes out. */
+/** Milliseconds of vibration when a flame goes out. */
 const VIBRATES = 40;
 
 export class Senses {
@@ -11,25 +11,25 @@ export class Senses {
   private readonly tilt = new Tilt();
   private burning = 0;
 
-  /** Wind that tilting makes. */
+  /** Wind from tilt. */
   get air(): Air {
     return this.tilt.air;
   }
 
-  /** Radians to go round the candle by, as the phone was turned. Who prefers less motion stays where they are. */
+  /** Radians to go round the candle, by the phone's rotation. 0 for users who prefer reduced motion. */
   turned(): number {
     return document.body.classList.contains('calm') ? 0 : this.tilt.turned();
   }
 
-  /** On or off. To be called from a press or a key: browsers may ask only there. */
+  /** Toggles. Call it in a press or key handler, as browsers allow the request only there. */
   toggle(): void {
     this.on = !this.on;
     if (!this.on) this.tilt.close();
-    // Refused: it vibrates without tilt.
+    // If refused, it vibrates without tilt.
     else this.tilt.open().catch(() => undefined);
   }
 
-  /** Takes in a frame. */
+  /** Updates one frame. */
   frame(lit: number): void {
     if (lit < this.burning && this.on) navigator.vibrate?.(VIBRATES);
     this.burning = lit;

@@ -1,16 +1,16 @@
-// A phone in the hand: tilted, it makes wind, by how it was held before; turned about the vertical, it goes round the candle.
+// A hand-held phone: tilt from its rest position makes wind; rotation about the vertical goes round the candle.
 
 import type { Air } from '@wisp/player/parts/stage/scene';
 
-/** Radians from rest that blow as a strong breath, and the share of them that is a hand's trembling. */
+/** Radians of tilt that make a strong breath, and the share of them ignored as trembling. */
 const STRONG = 0.66;
 const TREMBLES = 0.12;
-/** Seconds after which a new way to hold it is rest. */
+/** Time constant in seconds with which the rest position follows. */
 const FORGETS = 4;
-/** Radians between two readings: more is a jump of the sensor. */
+/** Maximum radians between readings; larger differences are sensor jumps. */
 const JUMP = 0.5;
 
-/** One of the phone's angles. */
+/** One angle of the phone. */
 class Angle {
   private rest: number | null = null;
   private now = 0;
@@ -30,7 +30,7 @@ class Angle {
   }
 }
 
-/** How the picture lies: by how much its right edge is down, and its upper edge up; where its right edge points to, from above. */
+/** Orientation of the picture: how far its right edge is down and its upper edge up; azimuth of its right edge. */
 function lie({ alpha, beta, gamma }: DeviceOrientationEvent): [roll: number, pitch: number, heading: number] | null {
   if (alpha === null || beta === null || gamma === null) return null;
   const [a, b, c, held] = [alpha, beta, gamma, window.screen.orientation?.angle ?? 0].map((degrees) => (degrees * Math.PI) / 180) as [number, number, number, number];
@@ -63,7 +63,7 @@ export class Tilt {
     this.heading = heading;
   };
 
-  /** Asks, where that has to be asked; then listens. */
+  /** Requests permission where needed, then listens. */
   async open(): Promise<void> {
     if (typeof DeviceOrientationEvent === 'undefined') return;
     const { requestPermission } = DeviceOrientationEvent as { requestPermission?: () => Promise<'granted' | 'denied'> };
@@ -78,7 +78,7 @@ export class Tilt {
     this.heading = null;
   }
 
-  /** 1 is strong. A phone whose upper edge goes down leans away. It comes to rest also where no more readings come. */
+  /** 1 is strong. Lowering the upper edge leans the flame away. Also decays to rest when readings stop. */
   get air(): Air {
     const seconds = (performance.now() - this.at) / 1000;
     this.at += 1000 * seconds;
@@ -86,7 +86,7 @@ export class Tilt {
     return { right: this.sideways.wind, away: -this.forwards.wind };
   }
 
-  /** Radians that it was turned by since this was asked last, anticlockwise from above. */
+  /** Radians of rotation since the last call, anticlockwise from above. */
   turned(): number {
     const { turn } = this;
     this.turn = 0;

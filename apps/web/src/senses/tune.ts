@@ -1,17 +1,17 @@
-// A tune for a birthday, from oscillators: "Good Morning to All" (1893), which everybody sings with other words. Nothing
-// sounds before somebody asks for it.
+// A birthday tune from oscillators: "Good Morning to All" (1893), which everybody sings with other words. It plays only
+// on request.
 
-/** Beats a second. */
+/** Tempo in beats per second. */
 const PACE = 2.1;
 const LOUD = 0.11;
-/** Half tones over C4 and beats; a third voice below, from the second line on. */
+/** Semitones above C4 and beats; a third voice below from the second line on. */
 const MELODY: readonly (readonly [number, number])[] = [
   [7, 0.75], [7, 0.25], [9, 1], [7, 1], [12, 1], [11, 2],
   [7, 0.75], [7, 0.25], [9, 1], [7, 1], [14, 1], [12, 2],
   [7, 0.75], [7, 0.25], [19, 1], [16, 1], [12, 1], [11, 1], [9, 1.6],
   [17, 0.75], [17, 0.25], [16, 1], [12, 1], [14, 1], [12, 2.5],
 ];
-/** Chords, half tones of each, and beats; the first is an upbeat. */
+/** Chords: semitones and beats; the first is an upbeat. */
 const CHORDS: readonly (readonly [readonly number[], number])[] = [
   [[], 1], [[0, 4], 3], [[-1, 5], 3], [[-1, 5], 3], [[0, 4], 3], [[0, 4], 3], [[0, 5], 3.6], [[0, 4], 2], [[-1, 5], 1], [[0, 4, 7], 2.5],
 ];
@@ -25,7 +25,7 @@ export class Tune {
     return this.context !== null;
   }
 
-  /** Plays it, or ends it. To be called from a press: browsers let sound begin only there. */
+  /** Plays or stops it. Call it in a press handler, as browsers let sound start only there. */
   toggle(): boolean {
     if (this.context !== null) this.stop();
     else this.play();
@@ -56,7 +56,7 @@ export class Tune {
     }, 1000 * (end - begin + 1));
   }
 
-  /** A note like a music box: struck, and dying away. Returns when the next begins. */
+  /** A note like a music box's: struck, then decaying. Returns the start of the next. */
   private note(out: AudioNode, tone: number, at: number, seconds: number, loud: number): number {
     const { context } = out;
     const gain = new GainNode(context, { gain: 0 });

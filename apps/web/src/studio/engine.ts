@@ -1,11 +1,11 @@
-// The engine: a worker that captures and learns. Opened when it is wanted, and anew after it failed.
+// The engine: a worker that captures and learns. Started at first use, and again after a failure.
 
 import type { Studio } from '@wisp/studio';
 
 export class Engine {
   private studio: Promise<Studio> | null = null;
 
-  /** Fetches and starts it; twice is fine. Rejects with a sentence where this browser cannot. */
+  /** Loads and starts it; may be called twice. Rejects with a sentence where this browser cannot run it. */
   open(): Promise<Studio> {
     this.studio ??= import('@wisp/studio')
       .then(({ Studio }) => Studio.open())
@@ -16,7 +16,7 @@ export class Engine {
     return this.studio;
   }
 
-  /** After a failure the next work begins in a worker of its own: memory that ran out is free again. */
+  /** After a failure, starts later work in a new worker, with fresh memory. */
   renew(): void {
     const failed = this.studio;
     this.studio = null;

@@ -1,4 +1,4 @@
-// What a recording of an outline holds, as the screens want it: lines to draw, the wind, how the tip leans.
+// Contents of an outline's recording for display: lines, wind, lean of the tip.
 
 import type { Captured, Region } from '@wisp/studio';
 import { evenKnots, Spline } from './spline.js';
@@ -6,7 +6,7 @@ import { evenKnots, Spline } from './spline.js';
 const sorted = (values: Iterable<number>): number[] => [...values].filter(Number.isFinite).sort((a, b) => a - b);
 const quantile = (values: readonly number[], share: number): number => values[Math.round(share * (values.length - 1))] ?? 0;
 
-/** Knots that the file says; null: they are even. */
+/** Knots stored in the file; null: uniform. */
 function knotsOf(csv: Uint8Array): number[] | null {
   const head = new TextDecoder().decode(csv.subarray(0, 4096));
   const said = /^# knots (.+)$/m.exec(head)?.[1];
@@ -17,21 +17,21 @@ export class Outlines {
   readonly rate: number;
   readonly rows: number;
   readonly points: number;
-  /** as the model takes it; null: there was no sound */
+  /** input of the model; null: no sound */
   readonly wind: Float64Array | null;
-  /** how far the tip is to the right of the base, in heights of the flame; NaN: there is no flame */
+  /** distance of the tip to the right of the base, in flame heights; NaN: no flame */
   readonly lean: Float64Array;
-  /** pixels: the median height, and where the base stands */
+  /** median height, and position of the base, pixels */
   readonly height: number;
   readonly base: { x: number; y: number };
-  /** all of it, pixels */
+  /** bounding box of all outlines, pixels */
   readonly bounds: Region;
   private readonly xs: Float64Array[] = [];
   private readonly ys: Float64Array[] = [];
   private readonly spline: Spline;
   private readonly control: Float64Array;
 
-  /** Null where the recording is of something else. */
+  /** Null for recordings of other things. */
   static of(captured: Captured): Outlines | null {
     return captured.series.some(({ name }) => name === 'p3.x') ? new Outlines(captured) : null;
   }
@@ -73,7 +73,7 @@ export class Outlines {
     return this.spline.samples;
   }
 
-  /** The outline of a row, pixels, x and y by turns; false where there is none. */
+  /** Outline of a row in pixels, x and y alternating; false where there is none. */
   line(row: number, into: Float32Array): boolean {
     for (let k = 0; k < this.points; ++k) {
       this.control[2 * k] = this.xs[k]?.[row] ?? NaN;

@@ -1,6 +1,6 @@
-// What people choose or drop: films, pictures, tables; a folder is looked into.
+// Chosen or dropped sources: films, pictures, tables; folders are read.
 
-/** What it is, to be learned from. */
+/** Kind of source to learn from. */
 export type Pick =
   | { kind: 'film' | 'pictures' | 'table'; files: File[] }
   | { kind: 'nothing'; words: string };
@@ -9,27 +9,27 @@ const isPicture = ({ name, type }: File): boolean => /^image\/(?!gif|svg)/.test(
 const isFilm = ({ name, type }: File): boolean => type.startsWith('video/') || /\.(mp4|mov|m4v|mkv|webm|avi|gif)$/i.test(name);
 const isTable = ({ name, type }: File): boolean => type === 'text/csv' || /\.(csv|tsv|txt|dat|asc)$/i.test(name);
 
-/** Files of a folder, those of folders in it too. */
+/** Files of a folder, including its subfolders. */
 async function filesOf(entry: FileSystemEntry): Promise<File[]> {
   if (entry.isFile) return [await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject))];
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const found: File[] = [];
   for (;;) {
-    // A browser gives a hundred at a time.
+    // Browsers return a hundred entries at a time.
     const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
     if (some.length === 0) return found;
     for (const one of some) found.push(...(await filesOf(one)));
   }
 }
 
-/** The files that were dropped, folders looked into. */
+/** Dropped files, with the contents of folders. */
 export async function unfold(files: readonly File[], entries: readonly (FileSystemEntry | null)[]): Promise<File[]> {
   const folders = entries.filter((entry): entry is FileSystemEntry => entry?.isDirectory === true);
   if (folders.length === 0) return [...files];
   return (await Promise.all(folders.map(filesOf))).flat();
 }
 
-/** Says what files are. */
+/** Classifies files. */
 export function pickOf(files: readonly File[]): Pick {
   const films = files.filter(isFilm);
   if (films.length > 0) return { kind: 'film', files: films };

@@ -1,10 +1,10 @@
-// A learned outline that lives through a recording's wind, row by row, and is shown at the film's own scale.
+// Plays a learned outline along a recording's wind, row by row, at the film's scale.
 
 import type { Bank, Instance, Library } from '@wisp/player';
 import { FlameShape, MAX_POINTS } from '@wisp/player/parts/candle/flame_shape';
 import type { Outlines } from './outlines.js';
 
-/** Rows; a longer way forward is a jump: it begins anew there. */
+/** Rows; a longer forward step restarts the play there. */
 const JUMP = 240;
 
 export class Play {
@@ -12,7 +12,7 @@ export class Play {
   private readonly flame: Instance;
   private readonly unit: number;
   private readonly hasWind: boolean;
-  /** of the recording's wind, what the model calls 1 */
+  /** recorded wind that equals 1 in the model */
   private readonly one: number;
   private readonly burns: boolean;
   private readonly shape = new FlameShape();
@@ -26,17 +26,17 @@ export class Play {
     this.hasWind = model.inputs.length > 0 && outlines.wind !== null;
     this.burns = model.facts.blowOut !== null;
     this.unit = model.provenance.figures.find(({ name }) => name === 'pixels_per_unit')?.value ?? outlines.height;
-    // Its unit says so: 0.95 1 is 0.95 of the recording's.
+    // The unit "0.95 1" means 0.95 of the recording's unit.
     this.one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
     model.free();
   }
 
-  /** How much of it burns, 0 to 1. */
+  /** Size of the flame, 0 to 1. */
   get size(): number {
     return this.burns ? this.bank.flameState(this.flame).flameSize : 1;
   }
 
-  /** Plays on to that row; restarts for an earlier row or one far ahead. */
+  /** Plays to a row; restarts for an earlier row or one far ahead. */
   goTo(row: number): void {
     if (row < this.row || row > this.row + JUMP) {
       this.bank.reset(this.flame);
@@ -45,13 +45,13 @@ export class Play {
     while (this.row < row) {
       this.row += 1;
       if (this.hasWind) this.bank.setInstanceInputs(this.flame, [(this.outlines.wind?.[this.row] || 0) / this.one]);
-      // Lit again when the film's was.
+      // Lights the flame when the film's was lit.
       if (this.burns && !this.bank.flameState(this.flame).lit && this.filmBurns()) this.bank.relight(this.flame);
       this.bank.step();
     }
   }
 
-  /** Its outline in pixels of the film, x and y by turns. The next call writes over it. */
+  /** Outline in pixels of the film, x and y alternating. The next call overwrites it. */
   line(): Float32Array {
     const { shape, outlines } = this;
     shape.update(this.bank.polyline(this.flame), this.size);
@@ -66,7 +66,7 @@ export class Play {
     this.bank.free();
   }
 
-  // Once the wind that put it out has passed, a film that still shows a flame was not blown out then, or was lit again.
+  // If the film still shows a flame after the extinguishing wind, it did not go out then, or was lit again.
   private filmBurns(): boolean {
     const { lean, wind } = this.outlines;
     return Number.isFinite(lean[this.row]) && (wind?.[this.row] ?? 0) < 0.2;

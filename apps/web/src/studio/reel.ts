@@ -1,5 +1,5 @@
-// Pictures that are kept of a film: for the strip, and for playing it again where there is no file. Bounded: when they
-// become many, every other one is let go.
+// Pictures kept of a film: for the strip, and for replay without a file. Their number is bounded: when it is reached,
+// every other one is dropped.
 
 import type { Region, Seen } from '@wisp/studio';
 
@@ -8,7 +8,7 @@ const MOST = 420;
 export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;
 
-/** A kept picture: when it was, seconds, and which part of the film it shows, pixels of the film. */
+/** A kept picture: its time in seconds, and the part of the film it shows, pixels of the film. */
 export interface Kept {
   seconds: number;
   bitmap: ImageBitmap;
@@ -20,17 +20,17 @@ export class Reel {
   private every: number;
   private last = -Infinity;
 
-  /** `every`: seconds between pictures, at first; `most`: pictures */
+  /** `every`: initial seconds between pictures; `most`: maximum number */
   constructor(every = 0, private readonly most = MOST) {
     this.every = every;
   }
 
-  /** Whether a picture of that moment would be kept. */
+  /** Whether a picture at that time would be kept. */
   wants(seconds: number): boolean {
     return seconds - this.last >= 0.98 * this.every;
   }
 
-  /** Keeps it; it belongs to the reel from then on. */
+  /** Keeps a picture and takes over its ownership. */
   keep(picture: Kept): void {
     this.last = picture.seconds;
     this.pictures.push(picture);
@@ -42,14 +42,14 @@ export class Reel {
     });
   }
 
-  /** Keeps what was seen of a film, cut to the flame. The film's rate is not known yet: its time is its frame, from 0. */
+  /** Keeps a picture of findings, cut to the flame. Its time is the frame number from 0, as the rate is still unknown. */
   keepSeen({ picture, box, frame, width, height }: Seen): void {
     if (picture === undefined || !this.wants(frame)) return;
     const share = picture.width / width;
     const wanted = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
     const [x, y] = [Math.floor(share * wanted.x), Math.floor(share * wanted.y)];
     const [wide, tall] = [Math.max(1, Math.ceil(share * wanted.width)), Math.max(1, Math.ceil(share * wanted.height))];
-    // Of the film, as far as whole pixels of the small picture reach: an outline is drawn over it.
+    // Rounded to whole pixels of the small picture, in pixels of the film, as an outline is drawn over it.
     const part = { x: x / share, y: y / share, width: wide / share, height: tall / share };
     createImageBitmap(picture, x, y, wide, tall, { resizeHeight: Math.min(tall, KEPT_HEIGHT), resizeQuality: 'medium' }).then(
       (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),
@@ -57,7 +57,7 @@ export class Reel {
     );
   }
 
-  /** The one nearest to a moment; null where there is none. */
+  /** The picture nearest to a time; null if there is none. */
   at(seconds: number): Kept | null {
     let best: Kept | null = null;
     for (const picture of this.pictures) {
@@ -66,7 +66,7 @@ export class Reel {
     return best;
   }
 
-  /** Multiplies all times: what was counted in frames becomes seconds. */
+  /** Multiplies all times, which converts frame numbers to seconds. */
   scale(factor: number): void {
     for (const picture of this.pictures) picture.seconds *= factor;
   }
@@ -76,7 +76,7 @@ export class Reel {
   }
 }
 
-/** A flame with air around it, within the picture. */
+/** Box of a flame with a margin, within the picture. */
 export function around(box: Region, width: number, height: number): Region {
   const air = box.height;
   const x = Math.max(0, Math.floor(box.x - air));

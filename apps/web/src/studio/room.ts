@@ -1,5 +1,5 @@
-// The studio: from a film, a camera or a table to a model, in one screen. What is shown follows what was gathered; whatever
-// goes wrong is a sentence, and nothing that was gathered is lost by it.
+// The studio: from a film, a camera or a table to a model, on one screen. The display follows the session; errors are
+// sentences and never lose gathered sources.
 
 import './studio.css';
 import type { Library } from '@wisp/player';
@@ -33,33 +33,33 @@ import { Viewer } from './pictures/viewer.js';
 import { sentence, verdictOf, type Thing } from './words.js';
 import { Working } from './panels/working.js';
 
-/** What it asks of the page. */
+/** Services of the page used by the studio. */
 export interface Host {
   wisp: Library;
   say(words: string): void;
-  /** puts a flame into the page's own scene, with the microphone */
+  /** plays a flame in the page's own scene, with the microphone */
   blow(file: string, model: Uint8Array): Promise<void>;
-  /** saves some seconds of it there; says how that went */
+  /** saves some seconds of it there; returns a message about the result */
   film(file: string, model: Uint8Array, kind: Moving): Promise<string>;
 }
 
-/** Share of a table's rows that are kept back to judge by. */
+/** Share of a table's rows held out for validation. */
 const KEPT_BACK = 0.25;
 
-/** Order of the point systems whose model fits in a link: some 6 kB. */
+/** Order of the point systems of a model that fits in a link: about 6 kB. */
 const LINK_ORDER = 4;
 
-/** Seconds of a loop that is saved for other tools, and how many at once. */
+/** Seconds of loops exported to other tools, and number of instances. */
 const LOOPED: Readonly<Record<Thing, { loop: number; instances: number }>> = {
   flame: { loop: 4, instances: 1 },
   fall: { loop: 6, instances: 20 },
   table: { loop: 4, instances: 1 },
 };
 
-/** Bytes of a table: text, its numbers and what is learned from them stand beside each other in memory. */
+/** Maximum bytes of a table, as text, numbers and learning data are in memory together. */
 const MAX_TABLE_BYTES = 100e6;
 
-/** Frames between pictures that are kept of a film, at first. */
+/** Initial number of frames between kept pictures of a film. */
 const FRAMES_APART = 3;
 
 const isAbort = (error: unknown): boolean => error instanceof Error && error.name === 'AbortError';
@@ -81,13 +81,13 @@ export class Room {
   private filming: Filming | null = null;
   private duet: Duet | null = null;
   private working: Working | null = null;
-  /** plots that are still being made */
+  /** plots still being computed */
   private judging: AbortController | null = null;
-  /** films that came with the one that is looked at */
+  /** films chosen together with the current one */
   private waiting: File[] = [];
-  /** the take that a dragged box is about */
+  /** film that a dragged box refers to */
   private looked: Looked | null = null;
-  /** counts what is shown: work that was overtaken shows nothing */
+  /** incremented by each display: outdated work shows nothing */
   private turn = 0;
 
   constructor(private readonly host: Host) {
@@ -95,7 +95,7 @@ export class Room {
     this.story.append(this.steps, this.panel, this.spoken);
     this.place.append(this.left, this.story, this.below);
     document.querySelector('header.top')?.after(this.place);
-    // Keys of the page blow and pause: in here they are letters.
+    // The page's keys for blowing and pausing type text here.
     this.place.addEventListener('keydown', (event) => event.stopPropagation());
     fetchShipped(SHIPPED_FLAME).then(
       (model) => this.invitation.fill(model),
@@ -104,11 +104,11 @@ export class Room {
     this.gather();
   }
 
-  /** Comes in and goes out; what was gathered stays. */
+  /** Enters or leaves the studio; the session is kept. */
   show(inside: boolean): void {
     this.place.hidden = !inside;
     if (inside) {
-      // Fetched while people look at what there is to choose.
+      // Loaded while the user looks at the choices.
       this.engine.open().catch(() => undefined);
       this.invitation.start();
       this.duet?.start();
@@ -119,7 +119,7 @@ export class Room {
     if (this.filming !== null) this.gather();
   }
 
-  /** Takes what was dropped. */
+  /** Accepts dropped files. */
   take({ files, entries }: Dropped): void {
     unfold(files, entries).then(
       (found) => this.files(found),
@@ -133,7 +133,7 @@ export class Room {
     this.steps.replaceChildren(...STEPS.map((name) => element('li', name === step ? { 'aria-current': 'step' } : {}, words[name])));
   }
 
-  /** Shows a panel, and whoever reads or types goes on at its head. */
+  /** Shows a panel and moves focus and scroll to its top. */
   private showPanel(panel: HTMLElement): void {
     const here = this.place.contains(document.activeElement);
     this.panel.replaceChildren(panel);
@@ -145,7 +145,7 @@ export class Room {
     this.left.replaceChildren(...parts);
   }
 
-  /** Where there is no film to show. */
+  /** Shows the placeholder for a film. */
   private invite(): void {
     this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
   }
@@ -154,7 +154,7 @@ export class Room {
     this.spoken.textContent = words;
   }
 
-  /** Ends whatever is under way. */
+  /** Ends all running work. */
   private clear(): void {
     this.turn += 1;
     this.working?.abort();
@@ -179,7 +179,7 @@ export class Room {
     this.showPanel(gatherPanel({ camera: () => void this.film(false), falls: () => void this.film(true), files: (files) => this.files(files) }, more));
   }
 
-  /** To what there was before. */
+  /** Returns to the last display. */
   private back(): void {
     const [last] = this.session.takes.slice(-1);
     if (this.session.learned !== null && last !== undefined) this.showResult();
@@ -197,7 +197,7 @@ export class Room {
     } else this.pictures(pick.files);
   }
 
-  /** Pictures do not say how fast they follow each other: somebody has to. */
+  /** Asks for the rate of numbered pictures, which they do not contain. */
   private pictures(files: File[]): void {
     this.clear();
     this.stepTo('gather');
@@ -208,7 +208,7 @@ export class Room {
     );
   }
 
-  /** Films that came together are looked at one after another. False: there is none left. */
+  /** Analyses the next of several films. Returns false where none is left. */
   private lookAtNext(): boolean {
     const file = this.waiting.shift();
     if (file === undefined) return false;
@@ -216,7 +216,7 @@ export class Room {
     return true;
   }
 
-  /** Looks at a film: follows the outline through it while somebody watches. */
+  /** Analyses a film, with a live display of the outline. */
   private async look(name: string, film: File | null, settings: PictureSettings, capture: NonNullable<Take['again']>): Promise<void> {
     this.clear();
     const { turn } = this;
@@ -243,7 +243,7 @@ export class Room {
     }
   }
 
-  /** The tip is traced while it is filmed. */
+  /** Plots the tip during filming. */
   private traceLive(): void {
     this.traces.begin();
     this.below.replaceChildren(this.traces.place);
@@ -257,12 +257,12 @@ export class Room {
     reel.keepSeen(seen);
     this.viewer.show(seen);
     this.traces.add(seen, null);
-    // Where nothing is followed there is no tip to trace.
+    // Without an outline there is no tip to plot.
     if (seen.state === 'following' && !this.traces.place.isConnected) this.below.replaceChildren(this.traces.place);
     working.found(partOfSeen(seen, this.looked?.settings.looks_for === 'falls'));
   }
 
-  /** A take is kept: at the place of the one that was looked at again, else after the others. */
+  /** Stores a take: in place of an earlier version of it, else at the end. */
   private keep(take: Take): void {
     this.session = withTake(this.session, take);
     if (!this.lookAtNext()) this.showLook(take);
@@ -276,7 +276,7 @@ export class Room {
     this.viewer.showBox(take.settings.region ?? null);
     this.viewer.showFalls((size) => linesOfFalls(take.captured, take.settings.height ?? 1, size));
     const { outlines } = take;
-    // A camera's film is not kept: falls are drawn over a picture of the wall.
+    // A camera's film is not kept, so falls are drawn over a picture of the wall.
     const wall = outlines === null && take.film === null ? take.reel.at(0) : null;
     if (wall !== null) this.viewer.still(wall, new Float32Array());
     if (outlines !== null) {
@@ -297,7 +297,7 @@ export class Room {
     );
   }
 
-  /** A camera's film is not kept: a moment near its middle, with the outline of then. */
+  /** Shows a moment near the middle of a camera's film, which is not kept, with its outline. */
   private showStill({ reel }: Take, outlines: Outlines): void {
     const kept = reel.at(0.4 * (outlines.rows / outlines.rate));
     const line = new Float32Array(2 * outlines.samples);
@@ -335,7 +335,7 @@ export class Room {
     void this.look(take.name, take.film, settings, take.again);
   }
 
-  /** Nothing came of a film, or it was stopped: says why, and what can be done. */
+  /** Reports why a film gave nothing, or was stopped, and what can be done. */
   private notFound(error: unknown): void {
     this.working = null;
     this.waiting = [];
@@ -351,7 +351,7 @@ export class Room {
     this.trouble('Nothing was learned from this', wordsOf(error), otherwise, this.viewer.shows);
   }
 
-  /** `seen`: there is a picture, which may be looked at in another way. */
+  /** `seen`: whether there is a picture that can be analysed in another way. */
   private trouble(title: string, words: string, otherwise: string, seen = false): void {
     const again = seen && this.looked !== null && this.looked.again !== null && this.looked.settings.looks_for !== 'falls';
     const falls = again ? [button('It is something that falls', 'other', () => this.lookAgain({ ...this.looked?.settings, looks_for: 'falls' }))] : [];
@@ -430,7 +430,7 @@ export class Room {
     if (thing === 'flame') await this.judge();
   }
 
-  /** Plays the model beside what it learned from, for plots; of several films, the last. The result does not wait for it. */
+  /** Plays the model along its last recording for plots, without delaying the result. */
   private async judge(): Promise<void> {
     const { learned, takes } = this.session;
     const [take] = takes.slice(-1);
@@ -443,13 +443,13 @@ export class Room {
       learned.curves = [...curves, ...learned.curves];
       if (this.judging === control) this.place.querySelector('[data-plots]')?.replaceChildren(...plotsOf(learned.curves));
     } catch {
-      // Without these plots there are those of the fit.
+      // Without these plots, those of the fit are shown.
     } finally {
       if (this.judging === control) this.judging = null;
     }
   }
 
-  /** The film of these outlines against what was learned. */
+  /** Runs the viewing test of these outlines' film against the learned model. */
   private async compare(outlines: Outlines | null, model: Uint8Array, file: string): Promise<string> {
     if (outlines === null) return 'There is no outline';
     const { ANSWERS, filmPairs, Viewing } = await fetchPart(() => import('../viewing/index.js'));
@@ -487,7 +487,7 @@ export class Room {
     this.announce(`${title}. ${reason}`);
   }
 
-  /** A model of the same films that fits in a link: the paper's point systems. */
+  /** Learns a model that fits in a link: the paper's point systems. */
   private async small(): Promise<Uint8Array> {
     const { takes, recipe } = this.session;
     const studio = await this.engine.open();
@@ -495,7 +495,7 @@ export class Room {
     return model;
   }
 
-  /** Makes files for other tools and saves them. */
+  /** Creates files for other tools and saves them. */
   private async make(format: Format, model: Uint8Array): Promise<string> {
     const studio = await this.engine.open();
     const name = sessionName(this.session);
@@ -524,7 +524,7 @@ export class Room {
     this.gather();
   }
 
-  /** A table: its columns are chosen first, unless it is a recording of Wisp's own. */
+  /** Opens a table: its columns are chosen first, unless it is a Wisp recording. */
   private async table(file: File): Promise<void> {
     try {
       if (file.size > MAX_TABLE_BYTES) throw new Error(`${file.name} has ${Math.round(file.size / 1e6).toLocaleString('en')} MB, and tables of up to ${MAX_TABLE_BYTES / 1e6} MB are read here. Give a part of it.`);

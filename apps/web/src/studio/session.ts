@@ -1,4 +1,4 @@
-// What was gathered and learned so far. Nothing of it is kept anywhere else, and closing the page forgets it.
+// Gathered and learned data. They are stored nowhere else, and closing the page discards them.
 
 import type { Captured, Learned, PictureSettings, Recipe, Watch } from '@wisp/studio';
 import type { Outlines } from './outlines.js';
@@ -6,21 +6,21 @@ import type { Reel } from './reel.js';
 import { recipeOfFalls } from './table_head.js';
 import type { Thing } from './words.js';
 
-/** A film that is looked at. */
+/** A film being analysed. */
 export interface Looked {
   name: string;
   reel: Reel;
-  /** the film itself, where it is a file that can be played */
+  /** the film's file if it is playable */
   film: File | null;
   settings: PictureSettings;
-  /** looks at it once more, in another way; null: the camera's film was not kept */
+  /** analyses it again with other settings; null: the camera's film was not kept */
   again: ((settings: PictureSettings, watch: Watch) => Promise<Captured>) | null;
 }
 
-/** A film that was looked at, and what came of it. */
+/** An analysed film with its result. */
 export interface Take extends Looked {
   captured: Captured;
-  /** null: the recording is not of an outline */
+  /** null: not a recording of an outline */
   outlines: Outlines | null;
 }
 
@@ -30,28 +30,28 @@ export interface Session {
   learned: Learned | null;
 }
 
-/** What a film shows. */
+/** Kind of object in a film. */
 export const shownIn = ({ captured }: Take): Thing => (captured.series.some(({ name }) => name === 'pos.x') ? 'fall' : 'flame');
 
-/** Odd: rows that velocities of filmed falls are taken over, about a sixth of a second, for a film shows positions to some
- * thousandths of its height. */
+/** Odd number of rows over which velocities of filmed falls are taken, about 1/6 s, as positions in films are
+ * accurate to some thousandths of the height. */
 export const smoothRows = (rate: number): number => Math.max(5, 2 * Math.round(rate / 12) + 1);
 
-/** What a session is about. */
+/** Kind of object of a session. */
 export const thingOf = ({ recipe }: Session): Thing => (recipe.kind === 'arx' ? 'table' : recipe.kind === 'leaf' || recipe.kind === 'chain' ? 'fall' : 'flame');
 
-/** Names of what comes out. */
+/** Names of a session's outputs. */
 export const outputsOf = ({ takes }: Session): string[] => (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
 
 export const newSession = (): Session => ({ takes: [], recipe: { kind: 'flame' }, learned: null });
 
-/** The name that files and the model get. */
+/** Name of files and model. */
 export function sessionName({ takes, recipe }: Session): string {
   const name = recipe.name ?? takes[0]?.name.replace(/\.[^.]*$/, '') ?? 'flame';
   return name.replace(/[^\p{L}\p{N} _-]+/gu, '-').trim() || 'flame';
 }
 
-/** A new one, in the place of a session that is done with. */
+/** A new session that replaces a finished one. */
 export function emptied({ takes }: Session): Session {
   for (const { reel } of takes) reel.close();
   return newSession();

@@ -1,14 +1,14 @@
-// An outline's curve: a cubic B-spline that is clamped at both ends, as the recording has its control points.
+// Curve of an outline: a clamped cubic B-spline of the recording's control points.
 
 const DEGREE = 3;
 
-/** Knots of a clamped curve whose pieces are alike. */
+/** Uniform clamped knots. */
 export function evenKnots(points: number): number[] {
   const inner = points - DEGREE;
   return Array.from({ length: points + DEGREE + 1 }, (_, k) => Math.min(1, Math.max(0, (k - DEGREE) / inner)));
 }
 
-// How much each control point counts at one place of the curve: the recursion of Cox and de Boor.
+// Weights of the control points at one parameter of the curve: the recursion of Cox and de Boor.
 function weightsAt(knots: readonly number[], points: number, at: number): Float64Array {
   const place = Math.min(at, 1 - 1e-9);
   let weights: number[] = Array.from({ length: knots.length - 1 }, (_, k) =>
@@ -26,12 +26,12 @@ function weightsAt(knots: readonly number[], points: number, at: number): Float6
 export class Spline {
   private readonly weights: readonly Float64Array[];
 
-  /** `samples`: points of the drawn line. */
+  /** `samples`: number of points of the drawn line. */
   constructor(points: number, knots: readonly number[], readonly samples = 56) {
     this.weights = Array.from({ length: samples }, (_, k) => weightsAt(knots, points, k / (samples - 1)));
   }
 
-  /** The line, x and y by turns, of control points that are given the same way. */
+  /** The line of control points; both with x and y alternating. */
   draw(control: ArrayLike<number>, line: Float32Array): void {
     this.weights.forEach((weights, k) => {
       let x = 0;

@@ -1,4 +1,4 @@
-// The studio's steps, and what is said at each.
+// Steps of the studio, with their texts.
 
 import type { PictureSettings } from '@wisp/studio';
 import type { Thing } from './words.js';
@@ -17,7 +17,7 @@ export const LEARNING: Readonly<Record<Thing, string>> = {
   fall: 'The motion is cut where it stalls, its pieces are sorted, and which follows which is counted. Some falls are kept back, to judge by.',
 };
 
-/** What is said while a film is looked at. */
+/** Texts shown during analysis of a film. */
 export const LOOKING: Readonly<Record<NonNullable<PictureSettings['looks_for']>, { title: string; words: string; thing: Thing | 'either' }>> = {
   flame: { title: 'Looking for the flame', words: 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', thing: 'flame' },
   falls: {

@@ -1,20 +1,20 @@
-// The first lines of a table: its separator, the names of its columns, which of them are numbers.
+// First lines of a table: separator, names of columns, and which of them are numeric.
 
 import type { Captured, Curve, Recipe, TableSettings } from '@wisp/studio';
 
-/** Bytes that are looked at. */
+/** Number of bytes examined. */
 const LOOKED_AT = 64_000;
 const ROWS = 400;
 
 export interface TableHead {
   names: string[];
-  /** whether its cells are numbers, by column */
+  /** whether each column is numeric */
   numeric: boolean[];
-  /** a recording in Wisp's own form: its roles are known */
+  /** whether it is a Wisp recording, whose roles are known */
   recording: boolean;
-  /** nothing names its columns: these are its bytes with names */
+  /** for a table without a header: its bytes with added names; else null */
   named: Uint8Array | null;
-  /** the columns of numbers, row by row, as far as they were looked at */
+  /** numeric columns, row by row, of the examined lines */
   preview: Curve[];
 }
 
@@ -26,14 +26,14 @@ function separatorOf(line: string): RegExp {
 }
 
 const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
-/** What a cell says, with a comma or a point, and with exponents as Fortran writes them; NaN where it is no number. */
+/** Value of a cell with decimal comma or point, and Fortran's exponents; NaN where it is no number. */
 const numberOf = (text: string): number => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e')));
 const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(numberOf(text));
 
-/** A column of times, as its name says. */
+/** Whether a name suggests a column of times. */
 const isTime = (name: string): boolean => /^(t|time|seconds?|sec|zeit|millis|ms)(?![a-z])/i.test(name);
 
-/** Looks at the first lines. */
+/** Examines the first lines of a table. */
 export function headOf(bytes: Uint8Array): TableHead {
   const text = new TextDecoder().decode(bytes.subarray(0, LOOKED_AT)).replace(/^\uFEFF/, '');
   const all = text.split(/\r?\n/).filter((line) => line.trim() !== '' && !/^sep=/i.test(line));
@@ -45,7 +45,7 @@ export function headOf(bytes: Uint8Array): TableHead {
   const unnamed = first.length > 0 && first.every((name) => name !== '' && isNumber(name));
   const names = unnamed ? first.map((_, k) => `c${k + 1}`) : first;
   const rows = (unnamed ? cells : cells.slice(1)).filter((row) => row.length >= names.length);
-  // The first row may say units.
+  // The first row may contain units.
   const numeric = names.map((_, k) => rows.some((row) => Number.isFinite(numberOf(row[k] ?? ''))) && rows.slice(1).every((row) => isNumber(row[k] ?? '')));
   return {
     names,
@@ -73,13 +73,13 @@ function withNames(bytes: Uint8Array, names: readonly string[], separator: RegEx
 const POSITION = ['pos.x', 'pos.y', 'pos.z'];
 const ORIENTATION = ['q.w', 'q.x', 'q.y', 'q.z'];
 
-/** How to learn from films of falls: tilt counts where all of them have it. */
+/** Recipe for films of falls; with tilt where all of them have it. */
 export function recipeOfFalls(captured: readonly Captured[]): Recipe {
   const tilt = captured.every(({ series }) => ORIENTATION.every((name) => series.some((one) => one.name === name)));
   return { kind: tilt ? 'leaf' : 'chain' };
 }
 
-/** How to learn from a table: as something that falls where it tells of that, else as what comes out of what goes in. */
+/** Recipe for a table: falling motion where it has positions, else an ARX model from inputs to outputs. */
 export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSettings = {}): Recipe {
   const has = (name: string): boolean => series.some((one) => one.name === name && one.role === 'output');
   if (POSITION.every(has)) return { kind: ORIENTATION.every(has) ? 'leaf' : 'chain' };
@@ -88,7 +88,7 @@ export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSe
 
 export type Role = 'input' | 'output' | 'ignored';
 
-/** What a column is for, as its name suggests; null: it suggests nothing. */
+/** Role of a column suggested by its name; null: none. */
 function suggested(name: string, numeric: boolean): Role | null {
   if (!numeric || isTime(name) || /^(date|index|n|k)\b/i.test(name)) return 'ignored';
   if (/^(u|in|input|x|power|heat|voltage|wind|force|steam|fuel|valve)/i.test(name)) return 'input';
@@ -96,8 +96,8 @@ function suggested(name: string, numeric: boolean): Role | null {
   return /^(y|out|output|temp|level|speed|angle|pos|v)/i.test(name) ? 'output' : null;
 }
 
-/** What the columns are for. Where some come out and none goes in, or the other way round, those without a telling name are the
- * others; but beside positions of something that falls. */
+/** Roles of columns. Where only outputs or only inputs have telling names, the other columns get the other role,
+ * unless there are positions of a falling object. */
 export function rolesOf({ names, numeric }: TableHead): Role[] {
   const roles = names.map((name, k) => suggested(name, numeric[k] === true));
   const [goesIn, comesOut] = [roles.includes('input'), roles.includes('output')];

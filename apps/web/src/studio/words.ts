@@ -1,8 +1,8 @@
-// Reports in words that people read: the verdict first, then how well it does, then what to film to make it better.
+// Reports in words: verdict, quality, and what to film for improvement.
 
 import type { Captured, Learned, Report } from '@wisp/studio';
 
-/** A value deep in a report; undefined where it is not there. */
+/** A value at a path in a report; undefined if missing. */
 export function within(report: Report, ...path: string[]): unknown {
   let at: unknown = report;
   for (const name of path) at = typeof at === 'object' && at !== null ? (at as Record<string, unknown>)[name] : undefined;
@@ -14,7 +14,7 @@ const figure = (report: Report, ...path: string[]): number | null => {
   return typeof value === 'number' && Number.isFinite(value) ? value : null;
 };
 
-/** A sentence: a capital first, but for a file's name, and a stop last. */
+/** Makes a sentence: a capital first (except in file names) and a full stop last. */
 export function sentence(words: string): string {
   const said = words.trim();
   if (said === '') return '';
@@ -22,49 +22,49 @@ export function sentence(words: string): string {
   return `${first ?? ''}${said.slice(1)}${/[.!?]$/.test(said) ? '' : '.'}`;
 }
 
-/** A sentence of the program's that names its flags, in the page's own terms. */
+/** A sentence of the program with its flags replaced by the page's terms. */
 export const inPage = (words: string): string => sentence(words.replace('--rate HZ or --dt S', 'how many rows a second there are'));
 
-/** Cures of remarks that are flags of the program, by kind. */
+/** Remedies of remarks that name the program's flags, by kind. */
 const CURES: Readonly<Record<number, string>> = {
   8: 'Delays are found while it learns',
   9: 'Let the change from row to row be what comes out',
   10: 'Take the straight line off, add a column that tells what drifts, or give a part of the rows',
 };
 
-/** What will spoil a model of a table, each with its cure. */
+/** Defects of a table that will harm a model, each with its remedy. */
 export function remarksOf({ report }: Captured): string[] {
   const remarks = report.remarks as { kind: number; cause: string; cure: string }[];
   return remarks.map(({ kind, cause, cure }) => `${sentence(cause)} ${inPage(CURES[kind] ?? cure)}`);
 }
 
-/** How long a table is, and where its rate is from. */
+/** Length of a table, and source of its rate. */
 export const rowsOf = ({ rows, rate, why }: Captured): string =>
   sentence(`${rows.toLocaleString('en')} rows, ${Number(rate.toPrecision(6))} a second${why === '' ? '' : ` (${why})`}`);
 
 export interface Verdict {
   good: boolean;
-  /** in a few words */
+  /** summary in a few words */
   title: string;
   reason: string;
 }
 
-/** What is learned: a flame, how what comes out follows what goes in, how something falls. */
+/** Subject of learning: a flame, a table's outputs from its inputs, or a fall. */
 export type Thing = 'flame' | 'table' | 'fall';
 
 const LEARNED: Readonly<Record<Thing, string>> = { flame: 'It learned your flame', table: 'It learned how this behaves', fall: 'It learned how this falls' };
 
-/** Of a table's rows that were kept back, below this it follows nothing: a fit in per cent. */
+/** Percent: minimum fit on a table's held-out rows. */
 const FOLLOWS = 5;
 
-/** What to think of a film, or of another recording. */
+/** Verdict on a film or another recording. */
 export function foundIn({ report }: Captured, thing: Thing): Verdict {
   const good = report.usable?.verdict !== false;
   const title = thing === 'fall' ? (good ? 'The falls are found' : 'The falls are not seen well') : good ? 'The flame is found' : 'The flame is not seen well';
   return { good, title, reason: sentence(report.usable?.reason ?? '') };
 }
 
-/** Why a flame's model is refused, by the report's code: what went wrong, and what to do about it. */
+/** Reason and remedy of a refused flame model, by the report's code. */
 const REFUSED: Readonly<Record<string, string>> = {
   short: 'The film is too short: flicker cannot be told from chance yet. Film half a minute.',
   noise: 'The outline jumps more than a flame does. Film it larger and sharper, before something dark.',
@@ -78,7 +78,7 @@ const REFUSED: Readonly<Record<string, string>> = {
   capture: 'A model is no better than its film, and the flame is not seen well in this one.',
 };
 
-/** What a flame that will do can do, in a sentence or two. */
+/** Abilities of a usable flame model, in a sentence or two. */
 function praiseOf(report: Report): string {
   const inputs = within(report, 'inputs');
   const tip = Array.isArray(inputs) && inputs.length > 0 ? (figure(report, 'tip', 'held_out_fit_percent', 'inf') ?? figure(report, 'tip', 'fit_percent', 'inf')) : null;
@@ -90,7 +90,7 @@ function praiseOf(report: Report): string {
   return `${follows} ${borrowed}`.trim();
 }
 
-/** What to think of a model. */
+/** Verdict on a model. */
 export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
   const lost = thing === 'table' && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
@@ -100,7 +100,7 @@ export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   return { good, title: good ? LEARNED[thing] : 'This is not enough to learn from', reason: own === '' ? sentence(reason) : own };
 }
 
-/** How well a table's outputs are followed on rows that were kept back, per cent: a row ahead, and from what goes in alone. */
+/** Fit in percent of a table's outputs on held-out rows: one row ahead, and from inputs alone. */
 function judgedFits(report: Report): { name: string; next: number; free: number }[] {
   const channels = within(report, 'channels');
   if (!Array.isArray(channels)) return [];
@@ -111,7 +111,7 @@ function judgedFits(report: Report): { name: string; next: number; free: number 
   }));
 }
 
-/** A figure as a bar: how far it fills, and from where on it is good. */
+/** A figure as a bar: its filled share, and the share from which it is good. */
 export interface Meter {
   words: string;
   share: number;
@@ -119,10 +119,10 @@ export interface Meter {
   value: string;
 }
 
-/** Of a table's outputs, those that have bars. */
+/** Maximum number of a table's outputs with bars. */
 const MAX_OUTPUTS = 4;
 
-/** How well it does, on what it has not seen where something was kept back. `outputs`: names of a table's. */
+/** Quality figures, on held-out data where there are any. `outputs`: names of a table's outputs. */
 export function metersOf({ report, judged }: Learned, thing: Thing, outputs: readonly string[]): Meter[] {
   const made: Meter[] = [];
   const add = (words: string, share: number | null, good: number): void => {
@@ -133,8 +133,8 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     return value === null ? null : value / 100;
   };
   if (thing === 'fall') {
-    // 1: the play is as near to the recording as one half of the recording is to the other; 0: as far as its rows in
-    // random order.
+    // 1: the play is as near to the recording as its two halves are to each other; 0: as far as its rows in random
+    // order.
     const near = (...name: string[]): number | null => {
       const [value, floor, ceiling] = ['value', 'floor', 'ceiling'].map((one) => figure(report, 'fidelity', ...name, one));
       return value == null || floor == null || ceiling == null || !(ceiling > floor) ? null : 1 - Math.max(0, value - floor) / (ceiling - floor);
@@ -144,7 +144,7 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     add('It spreads as it did', near('spread'), 0.9);
     return made;
   }
-  // Without wind it flickers in its own time: no play can follow the film for long.
+  // Without wind the flicker has its own phase, and no play follows the film for long.
   const inputs = within(report, 'inputs');
   if (Array.isArray(inputs) && inputs.length > 0) {
     add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
@@ -162,13 +162,13 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
   return made;
 }
 
-/** Whether something was kept back to judge by. */
+/** Whether data were held out for judging. */
 export const isHeldOut = (report: Report): boolean => (figure(report, 'samples', 'held_out') ?? 0) > 0;
 
-/** Seconds of film; the guide's half minute is a little less where a camera starts late. */
+/** Minimum seconds of film; the guide's half minute is slightly less where a camera starts late. */
 const ENOUGH = 25;
 
-/** What to film to make it better: at most three things, the most telling first. */
+/** Suggestions of what to film for improvement: at most three, the most effective first. */
 export function adviceOf(captured: readonly Captured[], report: Report | null): string[] {
   const made: string[] = [];
   const seconds = captured.reduce((sum, { rows, rate }) => sum + rows / rate, 0);
@@ -208,7 +208,7 @@ const STAGES: Readonly<Record<string, string>> = {
   'testing residuals': 'Looking whether anything is left that could be learned.',
 };
 
-/** What a stage of work means. */
+/** Explanation of a stage of work. */
 export function stageInWords(stage: string, thing: Thing | 'either' = 'flame'): string {
   return stage === 'capturing' ? CAPTURING[thing] : (STAGES[stage] ?? sentence(stage));
 }

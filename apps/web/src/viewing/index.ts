@@ -1,4 +1,4 @@
-// The viewing test, fetched when somebody takes it.
+// The viewing test, loaded at first use.
 
 export { filmPairs, rigPairs } from './pairs.js';
 export { ANSWERS, Viewing } from './viewing.js';

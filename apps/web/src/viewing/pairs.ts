@@ -1,11 +1,11 @@
-// Pairs of a filmed and a played flame in the same wind, both as outlines of two seconds: the rig's films with the shipped
-// model, or a film of the studio with what was learned from it.
+// Pairs of a filmed and a played flame in the same wind, as outlines of two seconds: films of the rig with the shipped
+// model, or a film of the studio with the model learned from it.
 
 import type { Library, Model } from '@wisp/player';
 import type { Outlines } from '../studio/outlines.js';
 import { evenKnots, Spline } from '../studio/spline.js';
 
-/** Outlines one after another, in heights of the flame above its base, x and y by turns. */
+/** Consecutive outlines in flame heights above the base, x and y alternating. */
 export interface Clip {
   rate: number;
   outlines: Float32Array[];
@@ -17,12 +17,12 @@ export interface Pair {
   played: Clip;
 }
 
-/** A stretch of a recording: what was seen, and the wind from some time before on. */
+/** A stretch of a recording: outlines, and wind that begins some time earlier. */
 interface Stretch {
   name: string;
   filmed: Clip;
   wind: ArrayLike<number> | null;
-  /** of the wind, and of its rows before the first outline */
+  /** rate of the wind, and number of its rows before the first outline */
   rate: number;
   before: number;
 }
@@ -31,11 +31,11 @@ const SECONDS = 2;
 const SHOWN = 30;
 const POINTS = 56;
 
-/** What a model does in the wind of a stretch. */
+/** Play of a model in the wind of a stretch. */
 function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: number): Clip {
   const bank = model.bank({ polylinePoints: POINTS, seed });
   const flame = bank.spawn();
-  // Its unit says so: 0.95 1 is 0.95 of the recording's.
+  // The unit "0.95 1" means 0.95 of the recording's unit.
   const one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
   const outlines: Float32Array[] = [];
   const steps = before + Math.round((filmed.outlines.length * rate) / filmed.rate);
@@ -52,7 +52,7 @@ function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: num
 
 const pairOf = (model: Model, stretch: Stretch, seed: number): Pair => ({ name: stretch.name, filmed: stretch.filmed, played: played(model, stretch, seed) });
 
-/** In an order of chance. */
+/** Returns the list in random order. */
 export function shuffled<T>(list: readonly T[], chance: () => number = Math.random): T[] {
   return list.map((one) => [chance(), one] as const).sort(([a], [b]) => a - b).map(([, one]) => one);
 }
@@ -64,7 +64,7 @@ interface FilmedFile {
   clips: { wind: number[]; outlines: number[][] }[];
 }
 
-/** Of the rig's films, with a model that has not seen them. */
+/** Pairs from the rig's films and a model that was not learned from them. */
 export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): Promise<Pair[]> {
   const answer = await fetch('./models/filmed.json');
   if (!answer.ok) throw new Error(`The films could not be fetched (${answer.status}).`);

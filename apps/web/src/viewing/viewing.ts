@@ -1,5 +1,5 @@
-// The viewing test: a filmed flame and a played one beside each other, twenty times; which was filmed? Who cannot tell them
-// apart is right half of the time.
+// The viewing test: a filmed and a played flame side by side, twenty times; which was filmed? Guessing is right half of
+// the time.
 
 import { FlameShape } from '@wisp/player/parts/candle/flame_shape';
 import { element } from '../panel/element.js';
@@ -13,7 +13,7 @@ export const ANSWERS = 20;
 const SIDES = ['left', 'right'] as const;
 type Side = (typeof SIDES)[number];
 
-/** What was answered. */
+/** One answer of the test. */
 interface Answer {
   pair: string;
   filmed: Side;
@@ -22,7 +22,7 @@ interface Answer {
   seconds: number;
 }
 
-/** A share of answers with the interval in which it lies in 95 of 100 such tests (Wilson, 1927). */
+/** Share of right answers with its 95 % interval (Wilson, 1927). */
 export function shareOf(right: number, of: number): { share: number; low: number; high: number } {
   const z = 1.96;
   const share = right / of;
@@ -31,7 +31,7 @@ export function shareOf(right: number, of: number): { share: number; low: number
   return { share, low: Math.max(0, middle - half), high: Math.min(1, middle + half) };
 }
 
-/** What that says of the model. */
+/** Meaning of the result for the model. */
 export function meaningOf(right: number, of: number): string {
   const { low, high } = shareOf(right, of);
   const spread = `${Math.round(100 * low)} to ${Math.round(100 * high)} %`;
@@ -40,7 +40,7 @@ export function meaningOf(right: number, of: number): string {
   return `You may as well have tossed a coin: in these two seconds the played flame passes for the filmed one. ${of < 60 ? `Twenty answers leave ${spread}; a class of five narrows it to a few per cent.` : `What is left is ${spread}.`}`;
 }
 
-/** A clip that runs in a canvas, over and over. */
+/** A clip repeated on a canvas. */
 class Screen {
   readonly canvas = element('canvas', { role: 'img' });
   private readonly shape = new FlameShape();
@@ -61,7 +61,7 @@ class Screen {
     const { context, width, height } = surface;
     const many = clip.outlines.length;
     const at = (seconds * clip.rate) % many;
-    // Both through the same hands: rounded at the base, then painted.
+    // Both are processed alike: rounded at the base, then painted.
     this.shape.update(clip.outlines[Math.floor(at)] as Float32Array, 1);
     const unit = 0.56 * height;
     const line = new Float32Array(2 * this.shape.count);
@@ -69,7 +69,7 @@ class Screen {
       line[2 * k] = width / 2 + unit * (this.shape.points[3 * k] as number);
       line[2 * k + 1] = 0.86 * height - unit * (this.shape.points[3 * k + 1] as number);
     }
-    // The clip repeats: it fades out at its end and in at its beginning.
+    // The clip repeats, fading out at its end and in at its beginning.
     context.globalAlpha = Math.min(1, at / 5, (many - at) / 5);
     paintFlame(context, line, unit);
     context.globalAlpha = 1;
@@ -87,7 +87,7 @@ export class Viewing {
   private since = 0;
   private filmed: Side = 'left';
 
-  /** `of`: what is played, for the file. */
+  /** `of`: name of the played model, for the file. */
   constructor(
     private readonly pairs: readonly Pair[],
     private readonly of: { model: string; from: string },
@@ -116,7 +116,7 @@ export class Viewing {
     this.screens[this.filmed].show(pair.filmed);
     this.screens[this.filmed === 'left' ? 'right' : 'left'].show(pair.played);
     this.since = 0;
-    // The button that was pressed is gone: arrows go on.
+    // The pressed button is gone, so the focus moves here for the arrow keys.
     this.title.focus();
     this.title.textContent = `Which one was filmed? ${this.answers.length + 1} of ${this.pairs.length}`;
     this.words.textContent = 'One of them was filmed. The other was worked out by the model, in the same wind, and nobody drew it.';

@@ -1,26 +1,25 @@
-// The microphone of the page: asked for when somebody presses Blow, listened to for wind alone, given back on the next
-// press.
+// The page's microphone: opened by pressing Blow, used for wind only, and released by the next press.
 
 import type { Library } from '@wisp/player';
 import { MicrophoneError, openMicrophone, type Microphone, type MicrophoneTrouble, type Wind } from '@wisp/player/microphone';
 import type { Hearing } from '../panel/controls.js';
 
-/** A room that is so much louder than it was, dB, has something steady in it that passes for wind. */
+/** Rise of the room's level in dB above which a steady sound may be mistaken for wind. */
 const LOUDER = 6;
 
-/** Wind at which a blow begins, and at which it is over. */
+/** Wind at which a blow begins, and at which it ends. */
 const BLOW = { from: 0.35, to: 0.1 };
 
-/** Sound as loud as this (RMS of the wind's band), for so long without a gap, counts as a blow whatever it sounds like. */
+/** RMS of the wind's band, and seconds without a gap, from which any sound counts as a blow. */
 const LOUD = { level: 0.03, seconds: 0.4 };
 
-/** Blows that put nothing out until tuning is offered. */
+/** Number of unsuccessful blows after which tuning is offered. */
 const VAIN_BLOWS = 3;
 
-/** Share of samples at full scale from which a microphone is too sensitive to tell soft from hard by itself. */
+/** Share of samples at full scale above which a microphone needs tuning to separate soft from hard. */
 const CLIPPED = 0.02;
 
-/** While Tune waits for a blow, sound that exceeds the quietest by this much is taken for it, even without a blow's spectrum. */
+/** dB above the quietest sound that count as the requested blow during tuning, whatever the spectrum. */
 const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 3, 'blow hard': 5 };
 /** Frames before a step that say how quiet it is; sound below this says nothing: microphones open with silence. */
 const READY = 60;
@@ -28,7 +27,7 @@ const SILENT = 3e-4;
 
 const shareOf = (values: readonly number[], share: number): number => [...values].sort((a, b) => a - b)[Math.floor(share * values.length)] ?? 0;
 
-/** By loudness alone: from this share of the loud blow on, for so many seconds, it blows; the loud blow itself is that strong. */
+/** Detection by loudness: threshold as a share of the hard blow, minimum seconds, and wind of the hard blow. */
 const PLAIN = { share: 0.4, seconds: 0.12, strong: 1.8 };
 
 const HISS =
@@ -38,15 +37,15 @@ const STEADY = 'It has become louder here: a fan, rain or an engine may pass for
 
 export interface EarEvents {
   wind(wind: number): void;
-  /** something went wrong, in words for people */
+  /** an error as a sentence for people */
   trouble(words: string): void;
-  /** it hears no more, for whatever reason */
+  /** the microphone was closed, for any reason */
   ended(): void;
-  /** tuning to this microphone and this breath would help: said at most once, and why */
+  /** tuning would help: reported at most once, with the reason */
   untuned(why: 'too hard' | 'too easy'): void;
 }
 
-/** What a guided calibration asks for. */
+/** Requests of a guided calibration. */
 export type Asked = Parameters<Microphone['calibrate']>[0];
 
 type Calibration = Awaited<ReturnType<Microphone['calibration']>>;
@@ -75,15 +74,15 @@ export class Ear {
   private microphone: Microphone | null = null;
   private wind = 0;
   private louder = false;
-  /** what a guided calibration has found out: kept for when the microphone is opened again */
+  /** result of the guided calibration, kept for the next opening */
   private known: Calibration | null = null;
   private device: string | undefined;
   private tuning = false;
   private answer: ((heard: boolean) => void) | null = null;
-  /** how strong a breath is, also while nothing of it reaches the scene */
+  /** strength of breath, also while it does not reach the scene */
   private heard = 0;
-  /** of sound, root mean squares: the quiet before a step of the calibration, what came during a step of the calibration, what a loud blow has
-   * where it has no rumble; null: it has */
+  /** RMS of sound: smoothed; quiet before a calibration step; during it; of a loud blow on a microphone without low
+   * frequencies (null: has them) */
   private smooth = 0;
   private quiet = 0;
   private stepped: number[] = [];
@@ -94,7 +93,7 @@ export class Ear {
   private loudSince = 0;
   private vain = 0;
   private offered = false;
-  /** counts openings: one that was closed again before it was allowed is dropped */
+  /** incremented by openings: one closed before permission is abandoned */
   private turn = 0;
 
   constructor(
@@ -103,12 +102,12 @@ export class Ear {
     private readonly overlay: boolean,
   ) {}
 
-  /** How strong the breath is: 0 to 1. */
+  /** Strength of breath, 0 to 1. */
   get level(): number {
     return this.state === 'listening' ? (this.tuning ? this.heard : this.wind) / 1.5 : 0;
   }
 
-  /** Asks for the microphone. Resolves when it listens, or does not. */
+  /** Requests the microphone. Resolves when it listens or was refused. */
   async open(): Promise<void> {
     if (this.state !== 'off') return;
     const turn = ++this.turn;
@@ -148,14 +147,14 @@ export class Ear {
     }
   }
 
-  /** The microphones that there are, by their names, and which one is open; none before one was allowed. */
+  /** Names of the available microphones, and which is open; empty before permission. */
   async choices(): Promise<{ id: string; name: string; open: boolean }[]> {
     const devices = (await navigator.mediaDevices?.enumerateDevices?.()) ?? [];
     const own = this.microphone?.settings.deviceId;
     return devices.filter(({ kind, label }) => kind === 'audioinput' && label !== '').map(({ deviceId, label }) => ({ id: deviceId, name: label, open: deviceId === own }));
   }
 
-  /** Listens to another one; what was found out of the first is not true of it. */
+  /** Switches to another microphone and discards the calibration of the first. */
   async choose(id: string): Promise<void> {
     this.device = id;
     this.known = null;
@@ -164,7 +163,7 @@ export class Ear {
     await this.open();
   }
 
-  /** Gives the microphone back. */
+  /** Releases the microphone. */
   close(): void {
     this.turn += 1;
     this.microphone?.stop();
@@ -176,14 +175,14 @@ export class Ear {
     this.events.ended();
   }
 
-  /** While a guided calibration is on, what is heard does not blow at anything. */
+  /** During a guided calibration, sound does not blow. */
   tune(on: boolean): void {
     this.tuning = on;
     this.offered = true;
     if (on) this.events.ended();
   }
 
-  /** Listens for one step of the calibration; whether it was heard. Never when the microphone is off. */
+  /** Listens for one step of the calibration; returns whether it was heard. False when the microphone is off. */
   listenFor(asked: Asked, seconds: number): Promise<boolean> {
     this.answered(false);
     this.asked = asked;
@@ -194,7 +193,7 @@ export class Ear {
     return new Promise((resolve) => (this.answer = resolve));
   }
 
-  /** A candle went out: blowing does something. */
+  /** Notes that blowing extinguished a candle. */
   blownOut(): void {
     this.vain = 0;
     this.blowing = false;
@@ -208,7 +207,7 @@ export class Ear {
 
   private hear(frame: Wind): void {
     const { rms, speed, confidence } = frame;
-    // A tenth of a second of it: noise by itself is no rise.
+    // Averaged over a tenth of a second, so that noise alone is no rise.
     this.smooth += 0.15 * (rms - this.smooth);
     this.stepped.push(this.smooth);
     if (this.stepped.length > 10 * READY) this.stepped.splice(0, READY);
@@ -217,7 +216,7 @@ export class Ear {
     if (!this.tuning) this.events.wind(this.wind);
   }
 
-  /** Whoever was asked to blow has blown: what rose above the quiet was that. */
+  /** Whether sound above the quiet level may be taken for the requested blow. */
   private believes(): boolean {
     const loud = shareOf(this.stepped, 0.8);
     const rose = loud > RISES[this.asked] * Math.max(SILENT, Math.min(this.quiet, shareOf(this.stepped, 0.1)));
@@ -228,14 +227,14 @@ export class Ear {
     return rose && this.tuning;
   }
 
-  /** Wind from loudness alone, of a microphone that passes no rumble: lasting sound, over the level that Tune recorded. */
+  /** Wind from loudness alone, for microphones without low frequencies: lasting sound above the level recorded by Tune. */
   private byLoudness({ rms, time }: Wind): number {
     if (this.plain === null) return 0;
     if (rms < PLAIN.share * this.plain) this.plainSince = time;
     return time - this.plainSince > PLAIN.seconds ? PLAIN.strong * Math.min(1, rms / this.plain) : 0;
   }
 
-  /** Offers tuning where a microphone is overdriven by breath, or where blow after blow puts nothing out. */
+  /** Offers tuning where breath overdrives a microphone, or where several blows extinguish nothing. */
   private watchBlows({ wind, clipped, confidence, level, time }: Wind): void {
     if (this.offered || this.tuning || this.state !== 'listening') return;
     if (clipped > CLIPPED && confidence > 0.5) return this.offer('too easy');
@@ -251,7 +250,7 @@ export class Ear {
     this.events.untuned(why);
   }
 
-  /** Says once that something steady has begun since the room was learned. */
+  /** Says once that a steady sound has begun since the room's level was learned. */
   private watchRoom(rise: number): void {
     if (rise >= LOUDER && !this.louder) this.events.trouble(`${STEADY}${this.overlay ? 'Load this page again' : 'Press Blow twice'}, and I take it for the room.`);
     this.louder = rise >= LOUDER;

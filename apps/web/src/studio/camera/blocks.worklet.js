@@ -1,4 +1,4 @@
-// Hands on the microphone's sound as it is, in blocks, each with the audio clock's time of its first sample.
+// Passes on the microphone's sound unchanged in blocks, each with the audio time of its first sample.
 
 const BLOCK = 2048;
 

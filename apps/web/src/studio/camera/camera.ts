@@ -1,23 +1,22 @@
-// The camera and the microphone, raw, and both on one clock.
+// Unprocessed camera and microphone, on a common clock.
 //
-// The clock is performance.now(). Frames come from the camera's track itself where the browser lets them
-// (MediaStreamTrackProcessor), with the camera clock's time; else from the picture on the page, with the time at which the
-// camera took them, where the browser says that (captureTime). A block of sound has the audio clock's time of its first
-// sample. How far a clock is from performance.now() is the least that ever lay between what it says and the arrival here:
-// arrivals come late, never early. It is found while the picture is looked at before filming, and stands still while it
-// is filmed. What remains, some tens of milliseconds of each one's own way, learning finds.
+// The clock is performance.now(). Frames come from the camera's track where supported (MediaStreamTrackProcessor), with
+// the camera clock's time; else from the displayed picture, with the capture time where the browser reports it
+// (captureTime). Sound blocks have the audio time of their first sample. A clock's offset from performance.now() is the
+// minimum difference between a time stamp and its arrival, as arrivals are late, never early. It is estimated during
+// preview and constant during filming. The remaining delay of tens of milliseconds is estimated in learning.
 
 import type { LiveCapture, Region } from '@wisp/studio';
 import { KEPT_HEIGHT } from '../reel.js';
 
-/** Why there is no camera, in words for people. */
+/** Reason for a missing camera, as a sentence for people. */
 export class CameraTrouble extends Error {}
 
-/** More frames than that which wait to be looked at: this machine is too slow for all of them. */
+/** Maximum number of frames waiting for analysis; above it the machine is too slow to use all frames. */
 const MAX_WAITING = 6;
-/** Milliseconds without a picture after which a camera sleeps. */
+/** Milliseconds without a picture after which a camera counts as asleep. */
 const ASLEEP = 1500;
-/** Pictures that are kept a second. */
+/** Kept pictures per second. */
 export const KEPT_RATE = 12;
 
 const VIDEO: MediaTrackConstraints = {
@@ -26,7 +25,7 @@ const VIDEO: MediaTrackConstraints = {
   frameRate: { ideal: 60 },
   facingMode: { ideal: 'environment' },
 };
-// What lets speech through and takes noise away would take the wind away.
+// Speech enhancement would remove the wind as noise.
 const AUDIO: MediaTrackConstraints = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
 
 const TROUBLE: Readonly<Record<string, string>> = {
@@ -38,7 +37,7 @@ const TROUBLE: Readonly<Record<string, string>> = {
   AbortError: 'The camera could not be started. Unplug it, plug it in and try again.',
 };
 
-/** What cameras can be told, where they can be told it; not yet in TypeScript's own list. */
+/** Camera settings, where supported; not yet in TypeScript's types. */
 interface Abilities extends MediaTrackCapabilities {
   exposureMode?: string[];
   whiteBalanceMode?: string[];
@@ -46,7 +45,7 @@ interface Abilities extends MediaTrackCapabilities {
   exposureCompensation?: { min: number; max: number; step: number };
 }
 
-/** Frames of a track, one after another; not yet in TypeScript's own list, and not in every browser. */
+/** Reader of a track's frames; not yet in TypeScript's types, nor in every browser. */
 type TrackProcessor = new (of: { track: MediaStreamTrack; maxBufferSize?: number }) => { readable: ReadableStream<VideoFrame> };
 const { MediaStreamTrackProcessor: Processor } = globalThis as { MediaStreamTrackProcessor?: TrackProcessor };
 
@@ -59,7 +58,7 @@ async function ask(hears: boolean): Promise<{ stream: MediaStream; silent: strin
     return { stream: await devices.getUserMedia(hears ? { video: VIDEO, audio: AUDIO } : { video: VIDEO }), silent: '' };
   } catch (error) {
     const name = error instanceof DOMException ? error.name : '';
-    // The browser does not say which of the two was refused: the camera alone is requested.
+    // The browser does not say which of the two was refused, so the camera alone is requested.
     if (hears && name in TROUBLE) {
       const stream = await devices.getUserMedia({ video: VIDEO }).catch(() => null);
       const why = name === 'NotAllowedError' ? 'The microphone was not allowed' : 'There is no microphone';
@@ -70,16 +69,16 @@ async function ask(hears: boolean): Promise<{ stream: MediaStream; silent: strin
 }
 
 export interface CameraEvents {
-  /** the camera was unplugged or taken away */
+  /** the camera was disconnected */
   lost(): void;
-  /** the microphone was; filming goes on without it */
+  /** the microphone was disconnected; filming continues without it */
   deaf(): void;
-  /** how loud it is, root mean square of full scale */
+  /** loudness, root mean square of full scale */
   loud(level: number): void;
 }
 
 export class Camera {
-  /** what is wrong with the sound; '' nothing */
+  /** problem with the sound; '' if none */
   readonly silent: string;
   private readonly picture: MediaStreamTrack;
   private context: AudioContext | null = null;
@@ -87,13 +86,13 @@ export class Camera {
   private offset = Infinity;
   private live: LiveCapture | null = null;
   private every = 1;
-  /** whether sound is handed on too */
+  /** whether sound is passed on too */
   private heeds = false;
   private ended = false;
-  /** when the last frame came, as performance.now() */
+  /** arrival of the last frame, as performance.now() */
   private latest = performance.now();
 
-  /** `hears`: whether the microphone is wanted too */
+  /** `hears`: whether to open the microphone too */
   static async open(events: CameraEvents, hears: boolean): Promise<Camera> {
     const { stream, silent } = await ask(hears);
     const camera = new Camera(stream, silent, events);
@@ -112,22 +111,22 @@ export class Camera {
     });
   }
 
-  /** Frames a second, as the camera says. */
+  /** Frames a second stated by the camera. */
   get rate(): number {
     return this.picture.getSettings().frameRate ?? 30;
   }
 
-  /** Whether no picture comes though it is open: another program or a call has it, or it is muted. */
+  /** Whether an open camera gives no picture: used by another program or a call, or muted. */
   get asleep(): boolean {
     return this.picture.muted || performance.now() - this.latest > ASLEEP;
   }
 
-  /** Lets sound come again that was interrupted. */
+  /** Resumes interrupted sound. */
   wake(): void {
     if (this.context !== null && this.context.state !== 'running' && this.context.state !== 'closed') this.context.resume().catch(() => undefined);
   }
 
-  /** Keeps exposure, colours and focus as they are now. Says which of it this camera or browser does not let be kept. */
+  /** Locks exposure, colours and focus. Says which of them this camera or browser cannot lock. */
   async lock(): Promise<string> {
     const abilities = this.abilities();
     const wanted = { exposureMode: 'its exposure', whiteBalanceMode: 'its colours', focusMode: 'its focus' } as const;
@@ -139,7 +138,7 @@ export class Camera {
     return kept.exposureMode === undefined ? 'This camera changes its exposure by itself. Keep the light in the room as it is.' : '';
   }
 
-  /** Lets less light in. False: it cannot, or there is no less. */
+  /** Reduces the exposure. Returns false where that is not possible. */
   async darker(): Promise<boolean> {
     const range = this.abilities().exposureCompensation;
     if (range === undefined) return false;
@@ -150,7 +149,7 @@ export class Camera {
     return true;
   }
 
-  /** Watches the camera, or the picture in which it is shown: once, until the camera is closed. */
+  /** Receives frames from the camera, or from the video element that shows it; once, until the camera is closed. */
   watch(video: HTMLVideoElement): void {
     if (Processor === undefined) this.watchPicture(video);
     else void this.watchTrack(new Processor({ track: this.picture, maxBufferSize: MAX_WAITING }).readable.getReader());
@@ -186,7 +185,7 @@ export class Camera {
     this.next(video, frame);
   }
 
-  /** Hands what is filmed and heard from now on to a capture; null: to none. `every`: one frame of so many. */
+  /** Passes frames and sound from now on to a capture; null: to none. `every`: one frame in this many. */
   feed(live: LiveCapture | null, every = 1): void {
     this.live = live;
     this.every = every;
@@ -201,11 +200,11 @@ export class Camera {
   }
 
   private abilities(): Abilities {
-    // Firefox has none to tell of.
+    // Firefox does not support it.
     return (this.picture.getCapabilities as (() => Abilities) | undefined)?.call(this.picture) ?? {};
   }
 
-  /** Tells of the next picture that is shown, and when it was taken. */
+  /** Calls `frame` for the next displayed picture, with its capture time. */
   next(video: HTMLVideoElement, frame: (now: number, taken?: VideoFrameCallbackMetadata) => void): void {
     if ('requestVideoFrameCallback' in video) video.requestVideoFrameCallback(frame);
     else requestAnimationFrame((now) => frame(now));
@@ -242,7 +241,7 @@ export class Camera {
   }
 }
 
-/** A small picture of what a camera shows in a part of it; null where none can be made. */
+/** A small picture of a region of the camera's view; null where none can be made. */
 export function smallPicture(video: HTMLVideoElement, part: Region): ImageBitmap | null {
   const share = Math.min(1, KEPT_HEIGHT / part.height);
   const canvas = new OffscreenCanvas(Math.max(1, Math.round(share * part.width)), Math.max(1, Math.round(share * part.height)));

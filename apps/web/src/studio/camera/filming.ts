@@ -1,4 +1,4 @@
-// Filming with the camera: first a look at the picture, then half a minute with somebody who says what to do.
+// Filming with the camera: a preview, then half a minute with instructions.
 
 import type { Captured, LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
 import { element } from '../../panel/element.js';
@@ -8,28 +8,28 @@ import { FallCount, Guide, hintOf, hintOfFalls } from './guide.js';
 import { around, Reel } from '../reel.js';
 import type { Viewer } from '../pictures/viewer.js';
 
-/** Milliseconds between looks at what to say. */
+/** Milliseconds between updates of the instructions. */
 const LOOK = 100;
-/** While the picture is only looked at, one frame of so many is. */
+/** During preview one frame in this many is analysed. */
 const PREVIEW_SHARE = 4;
-/** Milliseconds between steps towards a darker picture. */
+/** Milliseconds between reductions of the exposure. */
 const DARKER_EVERY = 900;
 /** Milliseconds without a picture after which filming ends. */
 const GIVES_UP = 6000;
 const ASLEEP = 'No picture comes from the camera: a call or another program may have it. It goes on when it is free.';
 
 export interface FilmingEvents {
-  /** it was filmed */
+  /** filming succeeded */
   done(captured: Captured, reel: Reel, settings: PictureSettings): void;
-  /** nothing came of it; a sentence says why */
+  /** filming gave nothing usable; a sentence says why */
   failed(words: string): void;
-  /** it begins to be filmed */
+  /** filming begins */
   began(): void;
-  /** what is seen while it is filmed, and how loud it is, 0 to 1; null: there is no microphone */
+  /** findings during filming, and loudness from 0 to 1; null: no microphone */
   seen(seen: Seen, loud: number | null): void;
-  /** something to be said meanwhile */
+  /** a message during filming */
   say(words: string): void;
-  /** read out, not shown */
+  /** message for screen readers only */
   announce(words: string): void;
   cancelled(): void;
 }
@@ -59,14 +59,14 @@ export class Filming {
   private darkened = 0;
   private keeping = false;
   private act = '';
-  /** since when no picture comes, as performance.now(); 0: it comes */
+  /** since when no picture arrives, as performance.now(); 0: pictures arrive */
   private sleeping = 0;
   private guide: Guide;
   private readonly hidden = (): void => {
     if (document.hidden && this.state === 'filming') this.finish('Filming stopped when the page was hidden; what was filmed till then is kept.');
   };
 
-  /** Asks for the camera, and for a flame the microphone. Throws a CameraTrouble in words for people. */
+  /** Opens the camera, and for a flame the microphone. Throws a CameraTrouble with a sentence for people. */
   static async open(studio: Studio, viewer: Viewer, falls: boolean, events: FilmingEvents): Promise<Filming> {
     let filming: Filming | null = null;
     const happens = {
@@ -109,14 +109,14 @@ export class Filming {
     this.timer = window.setInterval(() => this.tick(), LOOK);
   }
 
-  /** Where to look. */
+  /** Sets the searched region. */
   choose(region: Region | null): void {
     const { region: _, ...rest } = this.settings;
     this.settings = region === null ? rest : { ...rest, region };
     if (this.state === 'looking') this.look();
   }
 
-  /** Gives camera and microphone back. */
+  /** Releases camera and microphone. */
   close(): void {
     if (this.state === 'over') return;
     this.state = 'over';
@@ -157,7 +157,7 @@ export class Filming {
     return new Guide(this.falls ? 'falls' : this.hears ? 'flame' : 'mute flame');
   }
 
-  /** Positions are metres, and no camera tells how far the wall is. */
+  /** Field for the wall's height, since positions are in metres and a camera does not measure distance. */
   private wallHeight(): HTMLElement {
     const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', 1);
     input.addEventListener('change', () => {
@@ -166,7 +166,7 @@ export class Filming {
     return label;
   }
 
-  /** Looks at the picture without keeping anything. */
+  /** Starts the preview, which keeps nothing. */
   private look(): void {
     this.live?.cancel();
     this.live = this.studio.live('a look', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
@@ -181,7 +181,7 @@ export class Filming {
   private async begin(): Promise<void> {
     this.state = 'filming';
     const said = await this.camera.lock();
-    // What falls is told from the wall by its place, not by how bright it is; the words would lie over it.
+    // Falling objects are detected by position, not by brightness, and the words would cover them.
     if (said !== '' && !this.falls) this.events.say(said);
     if (this.state !== 'filming') return;
     this.live?.cancel();
@@ -220,10 +220,10 @@ export class Filming {
     if (this.state === 'looking') this.brighten();
   }
 
-  /** Says what to do next, and ends when all of it was done. */
+  /** Shows the next instruction, and ends filming after the last. */
   private advise(): void {
     const seconds = (performance.now() - this.began) / 1000;
-    // Why it stopped is told by its end.
+    // The end of the capture reports the reason.
     if (this.live?.alive === false) return this.finish('');
     const { act, words, share } = this.guide.at(seconds, this.seen?.state ?? null, this.count.falls);
     this.ring.style.strokeDasharray = `${Math.round(100 * share)} 100`;
@@ -235,7 +235,7 @@ export class Filming {
     else this.keepPicture(seconds);
   }
 
-  /** Lets less light in where the flame is white all over. */
+  /** Reduces the exposure where the whole flame is saturated. */
   private brighten(): void {
     const now = performance.now();
     if ((this.seen?.clipped ?? 0) < 0.5 || now - this.darkened < DARKER_EVERY) return;
@@ -243,7 +243,7 @@ export class Filming {
     this.camera.darker().catch(() => false);
   }
 
-  /** Keeps the next picture with the time at which the camera took it: it is shown some frames later than its outline is found. */
+  /** Keeps the next picture with its capture time, as it is displayed some frames later than its outline is found. */
   private keepPicture(seconds: number): void {
     const { video } = this.viewer;
     const { reel } = this;
@@ -291,7 +291,7 @@ export class Filming {
   }
 
   private showLevel(level: number): void {
-    // In decibels: from a quiet room to a strong breath.
+    // In decibels, from a quiet room to a strong breath.
     const share = Math.max(0, Math.min(1, (20 * Math.log10(level + 1e-6) + 66) / 60));
     this.loud = share;
     this.level.style.transform = `scaleX(${share.toFixed(3)})`;

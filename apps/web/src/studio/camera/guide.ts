@@ -1,22 +1,22 @@
-// What to say to somebody who films: what to do next, and what is wrong with the picture.
+// Instructions for filming: the next action, and problems of the picture.
 
 import type { Seen } from '@wisp/studio';
 
-/** What is done, one after another. */
+/** Actions, in order. */
 export type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
 
-/** What is filmed: a flame with sound or without, something that falls. */
+/** Subject: a flame with or without sound, or falling objects. */
 export type Filmed = 'flame' | 'mute flame' | 'falls';
 
-/** Seconds of each. Without sound there is nothing to blow for. */
+/** Seconds of each action. Without sound, blowing is left out. */
 const STILL = 4;
 const BLOW = 16;
 const OUT = 9;
 const STILL_ALONE = 20;
 const DROPS = 60;
-/** Seconds without a flame, once it is to be blown out, until it counts as out. */
+/** Seconds without a flame, during blowing out, after which it counts as extinguished. */
 const IS_OUT = 1.2;
-/** A breath and a rest, seconds, and how much of it is breath. */
+/** Seconds of a breath with its rest, and the part that is breath. */
 const ROUND = 4;
 const BREATH = 2;
 
@@ -25,7 +25,7 @@ const BREATHS = ['Blow softly, from the side', 'Softly again', 'A little harder'
 export interface Moment {
   act: Act;
   words: string;
-  /** of all that is filmed, 0 to 1 */
+  /** share of the whole filming, 0 to 1 */
   share: number;
 }
 
@@ -35,7 +35,7 @@ export class Guide {
 
   constructor(private readonly filmed: Filmed) {}
 
-  /** All that will be done, and how many seconds each takes at most. */
+  /** All actions, with the maximum seconds of each. */
   get plan(): readonly (readonly [Act, string, number])[] {
     if (this.filmed === 'falls') return [['drop', 'Drop it, let it land, and again', DROPS]];
     if (this.filmed === 'mute flame') return [['still', 'Hold still, let it flicker', STILL_ALONE]];
@@ -46,7 +46,7 @@ export class Guide {
     ];
   }
 
-  /** What is to be done so many seconds after filming began. `falls`: how many were seen by now. */
+  /** Action at a number of seconds after the start. `falls`: number of falls seen so far. */
   at(seconds: number, state: Seen['state'] | null, falls = 0): Moment {
     const passed = seconds - this.last;
     this.last = seconds;
@@ -70,7 +70,7 @@ export class Guide {
   }
 }
 
-/** Fewer are hardly enough to learn from. */
+/** Minimum number of falls for learning. */
 const ENOUGH_FALLS = 12;
 
 function wordsOfFalls(falls: number): string {
@@ -79,18 +79,18 @@ function wordsOfFalls(falls: number): string {
   return falls === 1 ? said : `${said} ${falls < ENOUGH_FALLS ? 'And again' : 'Enough, or a few more'}`;
 }
 
-/** Of a picture's height, and seconds: what moves as far down, and then is gone as long, has fallen. */
+/** Minimum descent as a share of the picture's height, and seconds of absence after it, of a fall. */
 const FALLEN = 0.35;
 const LANDED = 0.25;
 
-/** Counts falls while they are seen; what is learned is found when the film is over. */
+/** Counts falls during filming; learning detects them anew at the end. */
 export class FallCount {
   falls = 0;
   private from: number | null = null;
   private to = 0;
   private last = 0;
 
-  /** What is seen so many seconds after filming began. */
+  /** Takes the findings at a number of seconds after the start. */
   see({ moving, height }: Seen, seconds: number): void {
     if (moving !== null) {
       const middle = moving.y + moving.height / 2;
@@ -105,20 +105,20 @@ export class FallCount {
   }
 }
 
-/** Of the picture: what moves in more of it is the camera. */
+/** Share of the picture above which motion is the camera's. */
 const SHAKEN = 0.4;
 
-/** What is wrong with a picture in which something is to fall; '' nothing. */
+/** Problem of a picture in which something should fall; '' if none. */
 export function hintOfFalls({ moving, width, height }: Seen): string {
   return moving !== null && moving.width * moving.height > SHAKEN * width * height ? 'Almost all of the picture moves. Let the camera lie still, before a plain wall.' : '';
 }
 
-/** Shares of the picture: nearer to its border is too near, lower than this is too small. */
+/** Shares of the picture: minimum distance to its border, and minimum height. */
 const BORDER = 0.015;
 const SMALL = 0.12;
 const WHITE = 0.5;
 
-/** What is wrong with the picture; '' nothing. */
+/** Problem of the picture; '' if none. */
 export function hintOf(seen: Seen): string {
   const { box, width, height } = seen;
   if (box === null) return 'No flame is found yet. One flame before something dark, large in the picture.';

@@ -1,4 +1,4 @@
-// The first panel: what can be learned from.
+// The first panel: sources to learn from.
 
 import { element } from '../../panel/element.js';
 import type { Thing } from '../words.js';
@@ -6,7 +6,7 @@ import { button } from './verdict.js';
 
 export interface GatherEvents {
   camera(): void;
-  /** with the camera, something that falls */
+  /** films something falling with the camera */
   falls(): void;
   files(files: File[]): void;
 }
@@ -36,7 +36,7 @@ function choice(name: keyof typeof ICONS, title: string, words: string, act: () 
   return card;
 }
 
-/** `more`: something was gathered already, and this is to be learned together with it; `back` returns to it. */
+/** `more`: sources gathered earlier, to be learned together with the new one; `back` returns to them. */
 export function gatherPanel(events: GatherEvents, more: { count: number; thing: Thing; back: () => void } | null): HTMLElement {
   const chooser = (attributes: Record<string, string | boolean>): HTMLInputElement => {
     const input = element('input', { type: 'file', hidden: true, tabindex: '-1', ...attributes });

@@ -1,4 +1,4 @@
-// What was found in a film: whether it will do, what was decided, and what can be done now.
+// Findings in a film: verdict, decisions, and possible next actions.
 
 import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
@@ -11,7 +11,7 @@ const COLOURS: Readonly<Record<string, string>> = { luma: 'all colours', red: 'r
 
 type Fact = readonly [string, string];
 
-/** What was decided by now. */
+/** Decisions made so far. */
 export function partOfSeen({ threshold, channel, flames, frame, state, moving }: Seen, falls: boolean): Fact[] {
   if (falls) return [['Picture', frame.toLocaleString('en')], ['Moves', moving === null ? 'nothing' : 'something']];
   const facts: Fact[] = [['Picture', frame.toLocaleString('en')], ['Flame', state === 'waiting' ? 'not found yet' : state === 'gone' ? 'not in this picture' : 'followed']];
@@ -45,11 +45,11 @@ export interface LookEvents {
   learn(): void;
   more(): void;
   leaveOut(): void;
-  /** which of several flames, 1 the largest */
+  /** index of the flame by size, from 1 */
   flame(which: number): void;
-  /** it is the other: a flame, or something that falls */
+  /** switches between flame and falling object */
   other(): void;
-  /** how many metres of wall the picture shows */
+  /** height of the wall in the picture, metres */
   height(metres: number): void;
 }
 
@@ -85,7 +85,7 @@ export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents
   return panel;
 }
 
-/** Positions are metres, and a film does not say how large what it shows is. */
+/** Field for the wall's height, since positions are in metres and films have no scale. */
 function wallHeight(now: number, events: LookEvents): HTMLElement {
   const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', now);
   input.addEventListener('change', () => {

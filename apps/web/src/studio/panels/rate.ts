@@ -1,22 +1,22 @@
-// How many a second: of pictures, and of a table's rows.
+// Rates: of pictures, and of a table's rows.
 
 import { element } from '../../panel/element.js';
 import { button } from './verdict.js';
 
-/** What cameras mostly do. */
+/** Usual rate of cameras, Hz. */
 const USUAL = 30;
 const MOST = 1000;
 
-/** A field for how many of something there are a second. */
+/** A field for a rate per second. */
 export function rateField(id: string, words: string, value: number | ''): { input: HTMLInputElement; label: HTMLElement } {
   const input = element('input', { type: 'number', min: '0.001', max: '1000000', step: 'any', value, id, inputmode: 'decimal' });
   return { input, label: element('label', { class: 'rate', for: id }, words, input) };
 }
 
-/** The foot of a panel that goes on or back. */
+/** The footer of a panel with buttons to continue or go back. */
 export const goOrBack = (go: HTMLButtonElement, back: () => void): HTMLElement => element('div', { class: 'actions' }, go, button('Back', 'back', back));
 
-/** The panel. `go` is called with what was said. */
+/** The panel. `go` receives the rate. */
 export function ratePanel(name: string, pictures: number, go: (rate: number) => void, back: () => void): HTMLElement {
   const { input: rate, label } = rateField('pictures-rate', 'Pictures a second', USUAL);
   const look = button('Look at them', 'look', () => go(rate.valueAsNumber), true);

@@ -1,4 +1,4 @@
-// What was learned: the verdict first, then how well it does, the flame to blow at, and what would make it better.
+// Result of learning: verdict, quality, the flame to blow at, and suggestions for improvement.
 
 import type { Learned, Recipe } from '@wisp/studio';
 import { element } from '../../panel/element.js';
@@ -11,10 +11,10 @@ import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Th
 
 export interface ResultEvents extends TakingEvents {
   blow(): void;
-  /** a test in which somebody tells what was filmed from what is played; says how that went */
+  /** viewing test of filmed against played flames; returns a message about the result */
   compare(): Promise<string>;
   more(): void;
-  /** from the beginning, without what was gathered */
+  /** starts over without the gathered sources */
   anew(): void;
   again(change: Partial<Recipe>): void;
 }
@@ -28,14 +28,14 @@ function meter({ words, share, good, value }: Meter): HTMLElement {
 
 const TO_PLAY = { flame: ['Blow it out', 'Blow at it all the same'], fall: ['See it fall', 'See it fall all the same'] } as const;
 
-/** What the bars of a result are about. */
+/** Heading of a result's bars. */
 function titleOfMeters(thing: Thing, learned: Learned): string {
   if (thing === 'fall') return 'Beside what was recorded';
   if (learned.judged !== undefined) return 'On the last rows, which a trial had not seen';
   return isHeldOut(learned.report) ? 'On seconds that it had not seen' : 'How well it fits what it was learned from';
 }
 
-/** The panel of a session that has learned something. */
+/** The panel of a session with a learned model. */
 export function resultPanel(session: Session, events: ResultEvents): HTMLElement {
   const { learned, takes, recipe } = session;
   if (learned === null) return element('div', { class: 'panel' });
@@ -84,7 +84,7 @@ function knobsOf({ kind }: Recipe): typeof FLAME_KNOBS {
   return kind === 'leaf' || kind === 'chain' ? [] : FLAME_KNOBS;
 }
 
-/** Controls that learn again, and the report as the program prints it. */
+/** Controls for learning again, and the report as printed by the program. */
 function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | null, events: ResultEvents): HTMLElement {
   const details = element('details', { class: 'more' }, element('summary', {}, knobsOf(recipe).length > 0 ? 'More: learn it in another way' : 'More'));
   for (const [words, name, options] of knobsOf(recipe)) {

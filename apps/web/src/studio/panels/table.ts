@@ -1,4 +1,4 @@
-// A table: which columns go in, which come out, how often a row comes, and what in it will spoil a model.
+// Panel of a table: inputs, outputs, rate, and defects that will harm a model.
 
 import type { Captured, TableSettings } from '@wisp/studio';
 import { element } from '../../panel/element.js';
@@ -10,11 +10,11 @@ import { button, choice, list } from './verdict.js';
 const ROLES = ['input', 'output', 'ignored'] as const;
 const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as const;
 
-/** How long a choice stands until the table is looked at again. */
+/** Milliseconds after a choice until the table is examined again. */
 const SETTLED_MS = 200;
 
 export interface TableEvents {
-  /** with what was chosen; without a rate the table says it */
+  /** learns with these settings; without a rate the table has its own */
   learn(settings: TableSettings): void;
   advise(settings: TableSettings): Promise<Captured>;
   back(): void;

@@ -1,4 +1,4 @@
-// Taking it away: the model, what it was learned from, a link, a tag for a page, a few seconds of film, files for other tools.
+// Export of results: model, recording, link, tag for a page, short film, files for other tools.
 
 import type { ExportSettings } from '@wisp/studio';
 import { MAX_PACKED_BYTES, packModel } from '../../model_link.js';
@@ -13,25 +13,25 @@ async function copy(text: string): Promise<string> {
   return 'Copied';
 }
 
-/** Pictures that move. */
+/** Formats of moving pictures. */
 export type Moving = 'film' | 'gif';
 
 /** Files for other tools. */
 export type Format = ExportSettings['format'];
 
 export interface TakingEvents {
-  /** saves three seconds of it burning in the page's room */
+  /** saves three seconds of the flame in the page's room */
   film(kind: Moving): Promise<string>;
-  /** learns a model that fits in a link */
+  /** learns a model small enough for a link */
   small(): Promise<Uint8Array>;
-  /** saves it as a file for other tools; says how that went */
+  /** saves a file for other tools; returns a message about the result */
   make(format: Format): Promise<string>;
 }
 
-/** The name that files in C can have. */
+/** An identifier valid in C. */
 export const nameInC = (name: string): string => name.normalize('NFKD').replace(/\W+/g, '_').replace(/^(?=\d)|^_+/, 'wisp_');
 
-/** The buttons. */
+/** The export buttons. */
 export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const { learned, takes } = session;
   if (learned === null) return element('div');

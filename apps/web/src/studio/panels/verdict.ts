@@ -1,4 +1,4 @@
-// What panels share: a verdict in a colour, lists, and buttons for what can be done.
+// Elements shared by panels: coloured verdict, lists, and action buttons.
 
 import { element } from '../../panel/element.js';
 
@@ -8,7 +8,7 @@ export function button(words: string, name: string, act: () => void, main = fals
   return made;
 }
 
-/** One of several: a button each, with its attributes. */
+/** A choice among options: one button each, with its attributes. */
 export function choice(words: string, options: readonly (readonly [string, Parameters<typeof element>[1], () => void])[]): HTMLElement {
   const made = options.map(([label, attributes, act]) => {
     const one = element('button', { type: 'button', ...attributes }, label);
@@ -18,7 +18,7 @@ export function choice(words: string, options: readonly (readonly [string, Param
   return element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words), ...made);
 }
 
-/** A list under a head; nothing where it is empty. */
+/** A list with a heading; nothing where it is empty. */
 export function list(title: string, lines: readonly string[], kind: string): HTMLElement[] {
   if (lines.length === 0) return [];
   return [element('section', { class: kind }, element('h3', {}, title), element('ul', {}, ...lines.map((line) => element('li', {}, line))))];

@@ -1,4 +1,4 @@
-// The panel of work that takes a while: which stage it is at, what that means, how far it is, and a way out.
+// Panel of long work: current stage with explanation, progress, and a way to cancel.
 
 import type { Seen, Watch } from '@wisp/studio';
 import { element } from '../../panel/element.js';
@@ -12,7 +12,7 @@ export class Working {
   private readonly control = new AbortController();
   private shown = '';
 
-  /** `announce`: read out, not shown */
+  /** `announce`: message for screen readers only */
   constructor(title: string, words: string, private readonly announce: (words: string) => void, private readonly thing: Thing | 'either' = 'flame') {
     const cancel = element('button', { type: 'button', class: 'tool', 'data-act': 'cancel' }, 'Cancel');
     cancel.addEventListener('click', () => this.control.abort());
@@ -28,7 +28,7 @@ export class Working {
     );
   }
 
-  /** What the work tells while it goes on. */
+  /** Observer of the work that this panel shows. */
   watch(seen?: (seen: Seen) => void): Watch {
     return {
       signal: this.control.signal,
@@ -41,7 +41,7 @@ export class Working {
     this.control.abort();
   }
 
-  /** Something that was decided, by its name. */
+  /** Shows a decision by its name. */
   found(facts: readonly (readonly [string, string])[]): void {
     const text = facts.map(([name, value]) => `${name}: ${value}`).join();
     if (text === this.shown) return;

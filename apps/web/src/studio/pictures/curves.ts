@@ -1,4 +1,4 @@
-// Plots of a report's curves: those with the same axes share one.
+// Plots of a report's curves; curves with the same axes share a plot.
 
 import type { Library } from '@wisp/player';
 import type { Captured, Curve } from '@wisp/studio';
@@ -11,7 +11,7 @@ const MAX_PLOTS = 6;
 
 const short = (value: number): string => (value === 0 ? '0' : String(Number(value.toPrecision(Math.abs(value) < 1e-3 ? 2 : 3))).replace('-', '−'));
 
-/** What is plotted, in this order, by how its ids begin; of the rest nothing is. */
+/** Curves to plot, in this order, by prefix of their ids; others are not plotted. */
 const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
   [/^fall\./, 'Recorded'],
@@ -26,7 +26,7 @@ const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^(input|output):/, ''],
 ];
 
-/** Curves that share a plot: a channel's own, and everything of one kind that has no channel. */
+/** Key of the plot of a curve: its channel, or its kind where it has no channel. */
 function plotKey({ id }: Curve): string | null {
   const family = FAMILIES.findIndex(([begins]) => begins.test(id));
   if (family < 0) return null;
@@ -35,12 +35,12 @@ function plotKey({ id }: Curve): string | null {
   return `${family} ${own}`;
 }
 
-/** Plots of all of them. */
+/** Plots of all curves. */
 export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   const groups = new Map<string, Curve[]>();
   for (const curve of curves) {
     const key = plotKey(curve);
-    // Two reports may hold the same curve: it is drawn once.
+    // A curve contained in two reports is drawn once.
     if (key === null || groups.get(key)?.some(({ id }) => id === curve.id) === true) continue;
     groups.set(key, [...(groups.get(key) ?? []), curve]);
   }
@@ -50,31 +50,31 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
     .map(([key, group], _, all) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? '', all.map(([, other]) => other)));
 }
 
-/** What a legend calls it. */
+/** Name of a curve in the legend. */
 const nameOf = ({ id, label }: Pick<Curve, 'id' | 'label'>): string => (id.startsWith('zeros') ? `zeros, ${label}` : label);
 
-/** Poles and zeros, in the z plane. */
+/** Whether a curve is poles or zeros in the z plane. */
 const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
 
-/** One of many alike, which need no names. */
+/** Whether a curve is one of many similar ones, which need no names. */
 const isFall = ({ id }: Curve): boolean => /^(fall|played)\./.test(id);
 
-/** The edge of an interval, drawn beside its curve. */
+/** Whether a curve is an interval's edge, drawn beside its main curve. */
 const isEdge = ({ id }: Curve): boolean => /\.(low|high|bound)$/.test(id);
 
-/** Width by height of plots of falls, within what a screen has room for. */
+/** Minimum and maximum width / height of plots of falls. */
 const SHAPES = [0.45, 1.8] as const;
 
-/** Falls that are shown. */
+/** Maximum number of falls shown. */
 const MAX_FALLS = 12;
 
-/** A way as seen from the side, from where it begins. */
+/** Side view of a path, relative to its start. */
 function wayOf(id: string, across: readonly number[], up: readonly number[]): Curve {
   const from = (values: readonly number[]): number[] => values.map((value) => value - (values[0] as number));
   return { id, label: id, x_label: 'metres', y_label: 'm', x: from(across), y: from(up) };
 }
 
-/** Sideways and up, metres, of every recorded fall. */
+/** Sideways and vertical position of every recorded fall, metres. */
 function waysOf({ series, episodes, rows }: Captured): [Float64Array, Float64Array][] {
   const [x, z] = ['pos.x', 'pos.z'].map((name) => series.find((one) => one.name === name)?.samples);
   if (x === undefined || z === undefined) return [];
@@ -83,13 +83,13 @@ function waysOf({ series, episodes, rows }: Captured): [Float64Array, Float64Arr
 
 const fallsOf = (captured: Captured): Curve[] => waysOf(captured).slice(0, MAX_FALLS).map(([x, z], k) => wayOf(`fall.${k}`, [...x], [...z]));
 
-/** Falls as lines over their film, pixels, x and y by turns. `metres`: of wall that the picture shows, top to bottom. */
+/** Falls as lines over their film, pixels, x and y alternating. `metres`: height of the wall in the picture. */
 export function linesOfFalls(captured: Captured, metres: number, { width, height }: { width: number; height: number }): Float32Array[] {
   const scale = height / metres;
   return waysOf(captured).map(([x, z]) => Float32Array.from({ length: 2 * x.length }, (_, k) => (k % 2 === 0 ? width / 2 + scale * (x[k / 2] as number) : height - scale * (z[(k - 1) / 2] as number))));
 }
 
-/** Falls of a model, as many and as long as those that are shown of the recording. */
+/** Falls of a model, equal in number and duration to the shown recorded ones. */
 export function fallsPlayed(wisp: Library, bytes: Uint8Array, { episodes, rows }: Captured): Curve[] {
   const shown = episodes.slice(0, MAX_FALLS);
   const model = wisp.model(bytes);
@@ -112,7 +112,7 @@ export function fallsPlayed(wisp: Library, bytes: Uint8Array, { episodes, rows }
   return ways.map(([across, up], k) => wayOf(`played.${k}`, across, up));
 }
 
-/** Columns of a table, as curves over time; no more points than can be seen. */
+/** Columns of a table as curves over time, reduced to as many points as are visible. */
 function curvesOf({ series, rate, rows }: Captured): Curve[] {
   const every = Math.max(1, Math.ceil(rows / 2000));
   return series.map(({ name, unit, samples, role }) => {
@@ -128,7 +128,7 @@ function curvesOf({ series, rate, rows }: Captured): Curve[] {
   });
 }
 
-/** What was recorded: falls from the side, or every column over time. */
+/** The recording as curves: falls from the side, or every column over time. */
 export function recordedOf(captured: Captured): Curve[] {
   const falls = fallsOf(captured);
   return falls.length > 0 ? falls : curvesOf(captured);
@@ -136,7 +136,7 @@ export function recordedOf(captured: Captured): Curve[] {
 
 /** `all`: the other plots beside it. */
 function plotOf(curves: readonly Curve[], title: string, all: readonly (readonly Curve[])[]): HTMLElement {
-  // Falls that were recorded and those that are played are drawn to one scale.
+  // Recorded and played falls have a common scale.
   const scale = curves.some(isFall) ? all.filter((other) => other.some(isFall)).flat() : curves;
   const named = curves.filter((curve) => !isEdge(curve) && !isFall(curve));
   const canvas = element('canvas', { role: 'img', 'aria-label': `${title} ${named.map(({ label }) => label).join(', ')}` });
@@ -164,7 +164,7 @@ function extent(values: readonly number[]): [number, number] {
   return low < high ? [low, high] : [low - 0.5, low + 0.5];
 }
 
-/** `scale`: what the axes hold. */
+/** `scale`: curves that define the axes' ranges. */
 function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readonly Curve[]): void {
   const surface = surfaceOf(canvas);
   if (surface === null) return;
@@ -177,7 +177,7 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readon
     [low, high] = [Math.min(low, -1.05), Math.max(high, 1.05)];
   }
   if (places || curves.some(isFall)) {
-    // To the side is as long as up.
+    // Horizontal and vertical scales are equal.
     const shape = (width - MARGIN.left - MARGIN.right) / (height - MARGIN.top - MARGIN.bottom);
     const wider = Math.max(0, shape * (high - low) - (right - left)) / 2;
     const taller = Math.max(0, (right - left) / shape - (high - low)) / 2;
@@ -202,7 +202,7 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readon
   context.lineWidth = 1.5;
   context.lineJoin = 'round';
   if (places) {
-    // The edge of stability.
+    // The unit circle, the limit of stability.
     context.strokeStyle = 'rgb(255 240 220 / 40%)';
     context.beginPath();
     context.ellipse(x(0), y(0), x(1) - x(0), y(0) - y(1), 0, 0, 2 * Math.PI);

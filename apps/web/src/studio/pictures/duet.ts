@@ -1,4 +1,4 @@
-// The film and the flame that learned from it, side by side: the same wind, the same moment, the same scale.
+// The film and the flame learned from it, side by side: same wind, time and scale.
 
 import type { Library } from '@wisp/player';
 import { FrameLoop } from '@wisp/player/parts/stage/frame_loop';
@@ -10,10 +10,10 @@ import { Play } from '../play.js';
 import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
 import type { Outlines } from '../outlines.js';
 
-/** Seconds; a longer step is a jump, not a frame. */
+/** Seconds; a longer step counts as a jump. */
 const LONGEST = 0.1;
 
-/** The part of the film that both show: where the flame ever was, and some air around it. */
+/** Region of the film shown in both: all places of the flame, with a margin. */
 export function partOf({ bounds, base, height }: Outlines): Region {
   const left = Math.min(bounds.x, base.x - 0.45 * height);
   const right = Math.max(bounds.x + bounds.width, base.x + 0.45 * height);
@@ -31,12 +31,12 @@ export class Duet {
   private readonly part: Region;
   private readonly address: string | null;
   private filmed = false;
-  /** seconds of the film's picture that is shown; null: the browser does not say */
+  /** film time of the displayed picture, seconds; null: not reported by the browser */
   private shown: number | null = null;
   private clock = 0;
   private readonly loop = new FrameLoop((passed) => this.frame(passed));
 
-  /** `moved`: the moment that is shown, as a share of the film */
+  /** `moved`: receives the shown time, as a share of the film */
   constructor(
     wisp: Library,
     private readonly take: Take,
@@ -74,7 +74,7 @@ export class Duet {
 
   private openFilm(address: string): void {
     this.video.muted = true;
-    // A film that only the engine can decode is shown by the pictures that were kept of it.
+    // A film that only the engine can decode is shown by its kept pictures.
     this.video.addEventListener('loadeddata', () => (this.filmed = true));
     this.video.addEventListener('error', () => (this.filmed = false));
     this.video.src = address;
@@ -85,7 +85,7 @@ export class Duet {
     if (!('requestVideoFrameCallback' in this.video)) return;
     this.video.requestVideoFrameCallback((_, { mediaTime }) => {
       this.shown = mediaTime;
-      // Picture and outline of one moment: the next frame may already be another's.
+      // Picture and outline must be of one moment, as the next frame may already be another.
       this.drawFilm(this.rowAt(mediaTime));
       this.watchFilm();
     });
@@ -96,7 +96,7 @@ export class Duet {
     const { rows, rate } = this.outlines;
     if (this.filmed) {
       if (this.video.paused) this.video.play().catch(() => (this.filmed = false));
-      // What is shown, not what is due: a slow machine shows pictures late.
+      // The displayed time, not the requested one, as slow machines show pictures late.
       this.clock = this.shown ?? this.video.currentTime;
     } else {
       this.clock = (this.clock + seconds) % (rows / rate);
@@ -148,7 +148,7 @@ export class Duet {
     if (this.play.size > 0) paintFlame(context, line, fit.scale * this.outlines.height);
   }
 
-  /** What the flame stands on in the film: a picture of it, from the flame's base downwards. */
+  /** Draws the flame's support from a picture of the film, from the flame's base downwards. */
   private drawCandle(context: CanvasRenderingContext2D, fit: Fit, width: number, height: number): void {
     const kept = this.take.reel.at(0.4 * (this.outlines.rows / this.outlines.rate));
     if (kept === null) return;
@@ -159,7 +159,7 @@ export class Duet {
     context.rect(0, foot, width, height - foot);
     context.clip();
     drawKept(context, kept, fit);
-    // What the film has behind it begins softly.
+    // The film's background fades in.
     const soft = context.createLinearGradient(0, foot, 0, foot + 0.14 * fit.scale * tall);
     soft.addColorStop(0, '#030304');
     soft.addColorStop(1, 'rgb(3 3 4 / 0%)');

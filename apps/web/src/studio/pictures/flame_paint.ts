@@ -1,4 +1,4 @@
-// A flame as light: a body from its outline, a bright core, a blue foot, and its glow in the air.
+// Paints a flame: a body from its outline, a bright core, a blue foot, and a glow.
 
 import { trace } from './surface.js';
 
@@ -7,8 +7,8 @@ type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 const WHOLE = { scale: 1, x: 0, y: 0 };
 
 /**
- * Paints a flame whose outline is given in pixels, x and y by turns, from the base's left over the tip to its right.
- * `reach`: of its glow, in heights.
+ * Paints a flame with an outline in pixels, x and y alternating, from the base's left over the tip to its right.
+ * `reach`: radius of its glow, in heights.
  */
 export function paintFlame(context: Context, line: Float32Array, height: number, reach = 1.5): void {
   let [top, foot, middle, low] = [Infinity, -Infinity, 0, 0];
@@ -51,7 +51,7 @@ export function paintFlame(context: Context, line: Float32Array, height: number,
   context.restore();
 }
 
-// The same shape, narrower towards its own middle at every height, and not quite as tall.
+// The same shape, narrowed towards its middle at every height, and slightly lower.
 function paintCore(context: Context, line: Float32Array, foot: number, top: number, inset: number): void {
   const points = line.length / 2;
   context.beginPath();

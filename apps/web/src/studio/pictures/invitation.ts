@@ -1,4 +1,4 @@
-// What stands in the film's place while there is none: what will be looked for, an outline and the points that hold it.
+// Placeholder before a film is chosen: a live flame with an outline and its control points.
 
 import type { Bank, Instance, Library } from '@wisp/player';
 import { FrameLoop } from '@wisp/player/parts/stage/frame_loop';
@@ -8,7 +8,7 @@ import { surfaceOf, trace } from './surface.js';
 
 const POINTS = 64;
 const NANOSECONDS = 1e9;
-/** Share of the place that the flame is high. */
+/** Height of the flame as a share of the place. */
 const HEIGHT = 0.5;
 
 export class Invitation {
@@ -21,7 +21,7 @@ export class Invitation {
 
   constructor(private readonly wisp: Library) {}
 
-  /** Lets a flame live in it. */
+  /** Shows a live flame of a model. */
   fill(model: Uint8Array): void {
     const made = this.wisp.model(model);
     this.bank = made.bank({ polylinePoints: POINTS });
@@ -43,7 +43,7 @@ export class Invitation {
     const { bank } = this;
     const surface = surfaceOf(this.canvas);
     if (bank === null || surface === null) return;
-    // A breath now and then.
+    // An occasional breath.
     const breath = this.still ? 0 : Math.max(0, Math.sin(0.9 * this.clock)) ** 3 * 0.55;
     if (bank.inputs > 0) bank.setInstanceInputs(this.flame, [breath]);
     bank.advance(seconds * NANOSECONDS);

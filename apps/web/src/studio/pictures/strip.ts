@@ -1,4 +1,4 @@
-// A film strip: what was recorded above, what the model plays in the same wind below, at the same moments.
+// A film strip: recorded frames above, and the model's play in the same wind at the same times below.
 
 import type { Library } from '@wisp/player';
 import type { Region } from '@wisp/studio';
@@ -12,7 +12,7 @@ import { contain, drawKept, surfaceOf, trace } from './surface.js';
 
 const PICTURES = 9;
 const FEWER = 6;
-/** CSS pixels; a narrower strip shows fewer. */
+/** Width in CSS pixels below which a strip shows fewer frames. */
 const NARROW = 560;
 
 export class Strip {
@@ -40,7 +40,7 @@ export class Strip {
     const each = width / pictures;
     for (let k = 0; k < pictures; ++k) {
       const row = rowsShown[k] as number;
-      // Step by step: a jump would begin anew.
+      // Stepwise, as a long jump would restart the play.
       for (let on = 0; on < row; on += 100) play.goTo(on);
       play.goTo(row);
       const cell = { x: k * each + 1, width: each - 2, height: height / 2 - 1 };
@@ -53,7 +53,7 @@ export class Strip {
     play.free();
   }
 
-  /** Moments of which there are pictures, evenly over the film; fewer than wanted where few pictures were kept. */
+  /** Rows with kept pictures, evenly over the film; fewer where few pictures were kept. */
   private rowsShown(pictures: number): number[] {
     const { rows, rate } = this.outlines;
     const wanted = Array.from({ length: pictures }, (_, k) => {

@@ -1,8 +1,8 @@
-// A canvas as sharp as the screen.
+// A canvas at the screen's resolution.
 
 import type { Kept } from '../reel.js';
 
-/** Fits a canvas to its place and clears it; null where nothing can be drawn. The unit is the CSS pixel. */
+/** Fits a canvas to its element's size and clears it; null where drawing is impossible. Units are CSS pixels. */
 export function surfaceOf(canvas: HTMLCanvasElement): { context: CanvasRenderingContext2D; width: number; height: number } | null {
   const context = canvas.getContext('2d');
   const { clientWidth: width, clientHeight: height } = canvas;
@@ -18,26 +18,26 @@ export function surfaceOf(canvas: HTMLCanvasElement): { context: CanvasRendering
   return { context, width, height };
 }
 
-/** How a picture lies in a place: every pixel of it is `scale` of ours, the first at x and y. */
+/** Placement of a picture: `scale` of our pixels per pixel, its corner at x and y. */
 export interface Fit {
   scale: number;
   x: number;
   y: number;
 }
 
-/** All of a picture, in the middle. */
+/** Placement of a whole picture, centred. */
 export function contain(picture: { width: number; height: number }, width: number, height: number): Fit {
   const scale = Math.min(width / picture.width, height / picture.height);
   return { scale, x: (width - scale * picture.width) / 2, y: (height - scale * picture.height) / 2 };
 }
 
-/** A line through points, x and y by turns; `x` and `y` say where each goes. */
+/** Draws a line through points, x and y alternating; `x` and `y` convert coordinates. */
 export function trace(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
   context.beginPath();
   for (let k = 0; k + 1 < line.length; k += 2) context.lineTo(x + scale * (line[k] as number), y + scale * (line[k + 1] as number));
 }
 
-/** A kept picture, at its place in the film. */
+/** Draws a kept picture at its position in the film. */
 export function drawKept(context: CanvasRenderingContext2D, { part, bitmap }: Kept, { scale, x, y }: Fit): void {
   context.drawImage(bitmap, x + scale * part.x, y + scale * part.y, scale * part.width, scale * part.height);
 }

@@ -1,11 +1,11 @@
-// Wind and the tip's lean, all of a recording below each other, with the moment that is shown.
+// Plots of wind and the tip's lean over a whole recording, with a marker of the shown time.
 
 import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import type { Outlines } from '../outlines.js';
 import { surfaceOf } from './surface.js';
 
-/** A line: its name, colour and values; what is NaN leaves a gap. */
+/** A line: name, colour and values; NaN leaves a gap. */
 interface Line {
   name: string;
   colour: string;
@@ -24,7 +24,7 @@ function rangeOf(values: ArrayLike<number>, least: readonly [number, number]): {
   return { low, high };
 }
 
-/** How far the tip of an outline leans to the right of its base, in heights; NaN where there is none. */
+/** Displacement of an outline's tip to the right of its base, in heights; NaN without an outline. */
 function leanOf(outline: Float32Array): number {
   if (outline.length < 6) return NaN;
   const last = outline.length - 2;
@@ -34,7 +34,7 @@ function leanOf(outline: Float32Array): number {
   return ((outline[tip] as number) - base.x) / Math.max(1, base.y - (outline[tip + 1] as number));
 }
 
-/** Appends a value for every frame up to one, between the last that was seen and this. */
+/** Appends values up to a frame, interpolated from the last value. */
 function extend(values: number[], frame: number, value: number): void {
   const from = values.length;
   const before = values.at(-1) ?? NaN;
@@ -56,7 +56,7 @@ export class Traces {
     new ResizeObserver(() => this.draw()).observe(this.place);
   }
 
-  /** Shows a recording's. */
+  /** Shows a recording. */
   fill({ wind, lean, rows, rate }: Outlines): void {
     this.seconds = rows / rate;
     this.marker.hidden = true;
@@ -64,11 +64,11 @@ export class Traces {
       ...(wind === null ? [] : [{ name: 'Wind', colour: '#7fc4ff', values: wind, ...rangeOf(wind, [0, 1]) }]),
       { name: 'Tip', colour: '#ffb35c', values: lean, ...rangeOf(lean, [-0.2, 0.2]) },
     ];
-    // One that is taken out and put back the same size tells no observer.
+    // A resize observer does not report an element reinserted at the same size.
     this.draw();
   }
 
-  /** Begins with nothing: what is seen is added while it comes. */
+  /** Starts empty; findings are added as they arrive. */
   begin(): void {
     this.live = { lean: [], loud: [] };
     this.lines = [];
@@ -77,7 +77,7 @@ export class Traces {
     this.draw();
   }
 
-  /** What was seen by now, and how loud it is, 0 to 1; null: that is not known while it is looked at. */
+  /** Adds findings and loudness, 0 to 1; null: unknown during analysis of a film. */
   add({ frame, outline }: Seen, loud: number | null): void {
     const { live } = this;
     extend(live.lean, frame, leanOf(outline));
@@ -89,14 +89,14 @@ export class Traces {
     this.draw();
   }
 
-  /** The moment that is shown, as a share of all. */
+  /** Marks the shown time, as a share of the recording. */
   mark(share: number): void {
-    // The lines are not drawn anew for it.
+    // Does not redraw the lines.
     this.marker.hidden = false;
     this.marker.style.left = `${(100 * share).toFixed(2)}%`;
   }
 
-  /** Once it has its place, and once a picture of the screen, however often something is added. */
+  /** Draws once laid out, at most once per screen refresh. */
   private draw(): void {
     this.drawing ||= requestAnimationFrame(() => {
       this.drawing = 0;

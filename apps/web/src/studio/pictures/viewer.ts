@@ -1,16 +1,16 @@
-// The film while it is looked at: its picture, the outline that was found drawn over it, and a box to say "this one".
+// The film during analysis: picture, detected outline, and a box for choosing the object.
 
 import type { Region, Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import type { Kept } from '../reel.js';
 import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
 
-/** Places of what moved that are shown behind it. */
+/** Number of past positions drawn behind a moving object. */
 const TRAIL = 40;
-/** Frames from one place to the next that may be of one fall. */
+/** Maximum number of frames between positions of one fall. */
 const APART = 12;
 
-/** Narrower boxes are presses that slipped, CSS pixels. */
+/** CSS pixels: smaller boxes are accidental presses. */
 const SLIP = 12;
 /** Share of the picture by which a key moves or widens the box. */
 const KEY_STEP = 0.03;
@@ -26,21 +26,21 @@ export class Viewer {
   });
   private readonly caption = element('p', { class: 'caption', hidden: true });
   private picture: ImageBitmap | null = null;
-  /** the last that was shown with an outline */
+  /** last findings with an outline, and their picture */
   private followed: { seen: Seen; picture: ImageBitmap } | null = null;
   private kept: Kept | null = null;
   private size: { width: number; height: number } | null = null;
   private seen: Seen | null = null;
   private box: Region | null = null;
-  /** where the middle of what moves was, of falls */
+  /** past centres of a falling object */
   private trail: number[] = [];
   private falls: readonly Float32Array[] = [];
   private drawing = 0;
   private from: { x: number; y: number } | null = null;
 
-  /** `chosen`: somebody said where to look, pixels of the film; null: anywhere */
+  /** `chosen`: receives the chosen region, pixels of the film; null: anywhere */
   constructor(private readonly chosen: (region: Region | null) => void) {
-    // A camera's own sound is never played.
+    // The camera's own sound is never played.
     this.video.muted = true;
     this.place.append(this.video, this.over, this.caption);
     this.over.addEventListener('pointerdown', (event) => this.begin(event));
@@ -51,7 +51,7 @@ export class Viewer {
     new ResizeObserver(() => this.draw()).observe(this.place);
   }
 
-  /** Words over the picture; '' for none. */
+  /** Shows words over the picture; '' for none. */
   say(words: string): void {
     this.caption.hidden = words === '';
     if (this.caption.textContent !== words) this.caption.textContent = words;
@@ -62,7 +62,7 @@ export class Viewer {
     return this.picture !== null;
   }
 
-  /** Forgets what it shows. */
+  /** Clears picture and findings. */
   clear(): void {
     this.letGo();
     this.picture = this.kept = this.size = this.seen = this.box = this.followed = null;
@@ -72,7 +72,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** A camera's live picture, or none. */
+  /** Shows a camera's live picture; null: none. */
   camera(stream: MediaStream | null): void {
     this.video.srcObject = stream;
     this.video.hidden = stream === null;
@@ -81,7 +81,7 @@ export class Viewer {
     this.video.play().catch(() => undefined);
   }
 
-  /** What was seen of the film; its picture is this one's from now on. */
+  /** Shows findings in the film, and takes over their picture. */
   show(seen: Seen): void {
     this.follow(seen, seen.frame - (this.seen?.frame ?? 0));
     this.seen = seen;
@@ -94,7 +94,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Goes back to the last picture in which something was followed: a flame that is blown out leaves a dark one. */
+  /** Shows the last picture with an outline, as after blowing out the picture is dark. */
   showFollowed(): void {
     if (this.followed === null) return;
     if (this.picture !== this.followed.picture) this.picture?.close();
@@ -113,7 +113,7 @@ export class Viewer {
     this.followed?.picture.close();
   }
 
-  /** Falls that were found, over the film's last picture. `lines` is told its size. */
+  /** Shows detected falls over the film's last picture. `lines` receives its size. */
   showFalls(lines: (size: { width: number; height: number }) => readonly Float32Array[]): void {
     this.trail = [];
     this.falls = this.size === null ? [] : lines(this.size);
@@ -126,7 +126,7 @@ export class Viewer {
     if (moving !== null) this.trail = [...this.trail, moving.x + moving.width / 2, moving.y + moving.height / 2].slice(-2 * TRAIL);
   }
 
-  /** A moment of a camera's film, which is not kept but for small pictures. */
+  /** Shows one moment of a camera's film, of which only small pictures are kept. */
   still(kept: Kept, outline: Float32Array): void {
     if (this.picture !== null) return;
     this.kept = kept;
@@ -134,7 +134,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Where it was told to look, pixels of the film. */
+  /** Shows the chosen region, pixels of the film. */
   showBox(region: Region | null): void {
     this.box = region;
     this.draw();
@@ -150,7 +150,7 @@ export class Viewer {
     return dimensions === null ? null : contain(dimensions, this.over.clientWidth, this.over.clientHeight);
   }
 
-  /** Once a picture of the screen, however often something is seen. */
+  /** Draws at most once per screen refresh. */
   private draw(): void {
     this.drawing ||= requestAnimationFrame(() => {
       this.drawing = 0;
@@ -158,8 +158,8 @@ export class Viewer {
     });
   }
 
-  // One canvas for the picture and what lies over it: each more is a layer as large as the screen, drawn anew ten times a
-  // second while a film is looked at.
+  // One canvas for picture and overlay: each further one is a screen-sized layer, redrawn ten times a second during
+  // analysis.
   private drawNow(): void {
     const surface = surfaceOf(this.over);
     const { fit, seen, box } = this;
@@ -242,7 +242,7 @@ function inside(box: Region, all: { width: number; height: number }): Region {
   return { x: at(box.x, all.width - width), y: at(box.y, all.height - height), width, height };
 }
 
-/** The outline that was found, as a bright thread with a dark one under it: seen on a flame and beside it. */
+/** Draws the detected outline as a bright line with a dark border, visible on the flame and beside it. */
 export function drawOutline(context: CanvasRenderingContext2D, outline: Float32Array, fit: Fit): void {
   context.lineJoin = 'round';
   trace(context, outline, fit);
@@ -254,7 +254,7 @@ export function drawOutline(context: CanvasRenderingContext2D, outline: Float32A
   context.stroke();
 }
 
-/** What moves, and the way that it came. */
+/** Draws a moving object and its past path. */
 function drawMoving(context: CanvasRenderingContext2D, { x, y, width, height }: Region, trail: readonly number[], fit: Fit): void {
   drawOutline(context, Float32Array.from(trail), fit);
   const air = 4;
