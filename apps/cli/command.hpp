@@ -30,7 +30,7 @@ enum class Kind {
   kSamples,        ///< a range A:B of samples, 1-based, inclusive
 };
 
-/// One flag of a command.
+/// A flag of a command.
 struct Flag {
   std::string name;  ///< name without the dashes
   Kind kind = Kind::kSwitch;
@@ -106,7 +106,7 @@ struct Command {
   std::function<Result<void>(const Arguments&, Terminal&)> run;
 };
 
-/// All commands, in the order of help and manual.
+/// All commands, in the order of the help and the manual.
 const std::vector<Command>& commands();
 
 /// Flags common to all commands.

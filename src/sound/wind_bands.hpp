@@ -24,7 +24,7 @@ struct BandSums {
   }
 };
 
-/// One channel's filters.
+/// Filters of one channel.
 template <class T>
 class Bands {
  public:

@@ -33,7 +33,7 @@ struct Design {
 
   int hop = 80;        ///< analysis samples per hop; a multiple of voice_step
   int voice_step = 2;  ///< decimation for the search of a voice's period (to about 4 kHz)
-  int first_lag = 10;  ///< shortest and longest period of a voice, in those samples
+  int first_lag = 10;  ///< shortest and longest period of a voice, in samples after that decimation
   int last_lag = 57;
 
   float power_approach = 1;     ///< weight of one hop in the mean of band powers (50 ms)

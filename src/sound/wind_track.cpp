@@ -149,9 +149,9 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   return frames;
 }
 
-/// Removes knocks on the table, which read as wind many times the strongest gust. A knock decays while it sounds,
-/// faster than any blow: it is replaced by the larger of the wind before and after it. `seconds_at` gives the beginning
-/// of a frame.
+/// Removes knocks on the table, which read as wind: in nearly calm recordings, as many times its maximum. A knock
+/// decays while it sounds, faster than any blow: it is replaced by the larger of the wind before and after it.
+/// `seconds_at` gives the beginning of a frame.
 template <class SecondsAt>
 void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const SecondsAt& seconds_at) {
   using Place = std::vector<WindFrame>::iterator;

@@ -118,11 +118,11 @@ void add_pair(const Report& report, const std::string& figure, const char* secon
   sheet.plots.push_back(std::move(b));
 }
 
-// Draws the series of a chain's report, into a folder (made where it is missing), each sheet as PNG and SVG. Of falls:
-// recorded and synthesized ones side by side, seen from the side and from above, and one of each with its events
-// marked, the synthesized one's segments coloured by mode. Of gusts, the paper's figure 8: a row a gust, on the left
-// the recorded falls, on the right the model's; thin lines are clones, thick ones their means, green where the wind
-// blows; dashed is the mean without wind.
+// Draws the series of a chain's report into a folder (created if missing), each sheet as PNG and SVG. For falls:
+// recorded and synthesized ones side by side, from the side and from above, and one of each with its events marked, the
+// synthesized one's segments coloured by mode. For gusts, as in the paper's figure 8: one row per gust, with the
+// recorded falls on the left and the model's on the right; thin lines are clones, thick ones their means, green where
+// the wind blows; dashed is the mean without wind.
 // Errors: the folder cannot be made, a file cannot be written.
 Result<void> write_chain_figures(const std::filesystem::path& folder, const Report& report) {
   const std::pair<const char*, const char*> figures[] = {{"falls-side", "Falls seen from the side"},
@@ -144,7 +144,7 @@ Result<void> write_chain_figures(const std::filesystem::path& folder, const Repo
   return gusts.plots.empty() ? Result<void>() : write_figure(folder, "gusts-above", gusts);
 }
 
-// Films recorded falls on the left, the model's on the right.
+// Writes a film with recorded falls on the left and the model's on the right.
 Result<void> film(const Model& model, const Recording& real, const Arguments& arguments, Terminal& terminal) {
   const auto* pose = std::get_if<PoseView>(&model.view);
   if (!pose) return Error{"--film is for poses; this model has positions only"};
@@ -176,8 +176,7 @@ Result<void> check_chain_flags(const Arguments& arguments) {
   return arguments.has("film") ? check_film_name(arguments.text("film")) : Result<void>();
 }
 
-// Reads the recording and its twin without wind, if it is one of a pair: the second argument, or REC.calm.csv beside
-// REC.csv.
+// Reads the recording and, for a pair, its calm twin: the second argument, or REC.calm.csv beside REC.csv.
 Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
   auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));

@@ -8,7 +8,7 @@ namespace wisp::cli {
 namespace {
 
 constexpr int kHeight = 720;
-constexpr int kLoneWidth = 640;  // leaves room for one flame to lean either way
+constexpr int kLoneWidth = 640;  // room for a lone flame to lean to either side
 constexpr int kWidest = 1920;
 
 }  // namespace

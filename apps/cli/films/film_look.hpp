@@ -28,7 +28,7 @@ class FilmLook {
   /// Precondition: the frame has the view's size, and the outline at least three points.
   void learn(const Image& frame, std::span<const Point> outline);
 
-  /// Whether any frame was learned from.
+  /// Whether any frame was learned.
   bool known() const { return frames_ > 0; }
 
   /// Draws the view with another outline burning in it.

@@ -15,13 +15,13 @@ namespace wisp::cli {
 struct OverlayContent {
   const OutlineRows& captured;
   const OutlineRows& simulated;
-  std::string simulated_label;  ///< "simulated from the wind", "predicted 5 frames ahead"
+  std::string simulated_label;  ///< for example "predicted 5 frames ahead"
 };
 
 /// The clip that a recording was captured from; its frames from `first_frame` (0-based) on are the rows.
 struct ClipFrames {
   std::filesystem::path path;  ///< empty: no clip, pictures are black
-  double rate_hz = 0;          ///< for a folder of images; 0 otherwise
+  double rate_hz = 0;          ///< frame rate of a folder of images; 0 for films
   std::size_t first_frame = 0;
 };
 
@@ -30,7 +30,7 @@ struct ClipFrames {
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
                            const OverlayContent& content, Terminal& terminal);
 
-/// Contents of a film strip: moments of the recording above, the same moments of the synthesized play below.
+/// Contents of a film strip: frames of the recording above, synthesized frames at the same times below.
 struct StripContent {
   std::vector<std::size_t> rows;   ///< one per column
   double rate_hz = 0;              ///< rate of both recordings

@@ -16,7 +16,7 @@ namespace wisp::cli {
 template <class Value, class... Others>
 concept OneOf = (std::same_as<Value, Others> || ...);
 
-/// Values that one flag can say. Of other fields (orders, extinction, a preparation) a command makes the flags itself.
+/// Types of fields set by a single flag. Commands define other flags themselves (orders, extinction, a preparation).
 template <class Value>
 concept FlagValue = std::is_enum_v<Value> || std::is_arithmetic_v<Value> ||
     OneOf<Value, std::string, std::vector<std::string>, std::optional<int>, EventSpec>;

@@ -34,7 +34,7 @@ constexpr double kClippedShare = 0.01;  // share of samples at full scale above 
 
 // An absence of the outline that begins during wind or just after, and ends with the flame back, is a blow-out followed
 // by re-ignition. Half of the strong wind is the least that extinguishes a flame.
-constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // of wind 1; seconds; seconds
+constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // in wind units; seconds; seconds
 
 void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
   if (wind.frames.empty()) return;

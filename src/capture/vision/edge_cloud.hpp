@@ -41,7 +41,7 @@ inline constexpr int kPaceSteps = 64;
 /// Options for converting a boundary to a cloud.
 struct EdgeCloudOptions {
   BaseSide base = BaseSide::kBottom;
-  bool underside = false;  ///< follow the underside too
+  bool underside = false;  ///< whether to follow the underside
   int max_points = 320;    ///< maximum number of edge points; longer boundaries are subsampled evenly. 40 per control
                            ///< point (for 8) are ample, and cost is proportional
   /// Positions of the landmarks in the cloud: left corner, tip, right corner; ascending. The corners are at 0 and 1
@@ -60,10 +60,10 @@ double at_pace(std::span<const double> pace, double place);
 
 /// Edge points of one outline.
 struct EdgeCloud {
-  std::vector<EdgePoint> points;  ///< base's left, over the tip, to base's right; first and last are the base's ends
+  std::vector<EdgePoint> points;  ///< from the base's left over the tip to its right; first and last are its ends
   std::vector<double> s;          ///< curve parameter assigned to each point, 0 to 1, ascending
   std::array<double, 3> shares{0, 0.5, 1};  ///< share of the arc length at each landmark
-  double height = 0;                        ///< from the base's middle to the tip, pixels
+  double height = 0;                        ///< distance from the base's middle to the tip, pixels
   double base_x = 0;                        ///< midpoint of the base's corners
   double base_y = 0;
   double area = 0;               ///< enclosed by the edge points and a straight line at the base, square pixels
@@ -76,7 +76,7 @@ struct EdgeCloud {
 /// The part of a picture in which a boundary was followed.
 struct BoundaryWindow {
   ImageView image;  ///< the window's pixels
-  Region place;     ///< where the window lies in the picture
+  Region place;     ///< position of the window in the picture
   Region area;      ///< searchable part of the picture: nothing is visible beyond its border
   int level = 0;    ///< brightness threshold of the region
 };

@@ -11,12 +11,12 @@
 namespace wisp {
 namespace {
 
-constexpr int kMaxPoints = 96;              // points wide and high, at most
+constexpr int kMaxPoints = 96;              // maximum width and height of the grid, points
 constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
 constexpr int kDark = 24;                   // grey levels: above coding errors and camera noise
 constexpr double kMaxIsNew = 0.4;           // share of the light that is new: cuts 0.6 to 1, a snuffed candle 0.2
 constexpr double kMinTotalLight = 3 * 255;  // sum over all points: less is a spark
-constexpr int kFlat = 250;                  // of 255 levels
+constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 
 // Correlation of two pictures' blocks; 1 where either is nearly uniform, as a dark room before a candle is lit.
 double likeness(const std::vector<double>& a, const std::vector<double>& b) {

@@ -12,7 +12,7 @@ namespace wisp {
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;
-  float change = 0;        ///< mean absolute difference from the frame before, in the thing's neighbourhood
+  float change = 0;        ///< mean absolute difference from the last frame, near the object
   float brightness = 0;    ///< brightness of the object
   float residual = 0;      ///< RMS, pixels
   bool elsewhere = false;  ///< kNothing: whether an object of similar brightness and size is elsewhere

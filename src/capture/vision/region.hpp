@@ -13,7 +13,7 @@
 
 namespace wisp {
 
-/// One bright region.
+/// A bright region.
 struct BrightRegion {
   Region box;             ///< bounding box
   std::int64_t area = 0;  ///< number of bright pixels, without holes

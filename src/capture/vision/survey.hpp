@@ -35,7 +35,7 @@ struct SurveyOptions {
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;               ///< pixels whose value (inverted for dark objects) is above this belong to the object
-  Histogram histogram{};       ///< of the channel as stored (inverted for dark things), over the pictures that count
+  Histogram histogram{};       ///< of the stored channel (inverted for dark objects), over the pictures that count
   Region home;                 ///< union of all places where the object was seen
   std::vector<Region> seen;    ///< box of the object in each picture with it
   bool stands = false;         ///< whether it has mostly merged with its stand at that level

@@ -10,7 +10,7 @@
 namespace wisp::drawing {
 namespace {
 
-// Flatness of the candle's top, seen from slightly above.
+// Aspect ratio (height / width) of the candle's top in the picture, seen from slightly above.
 constexpr float kFlatness = 0.17F;
 
 // Position of a candle in pixels.
@@ -89,7 +89,7 @@ Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, cons
 // Wax that ran down the side and set: a runnel with a heavy round end.
 struct Drip {
   float across = 0;  // position, as Spot::across
-  float half = 0;    // half its width at the end, in shares of the candle's half width
+  float half = 0;    // half its width at the end, relative to the candle's half width
   float length = 0;  // model units below the rim
 };
 
@@ -271,7 +271,7 @@ void draw_wick(Image& image, const Wick& wick, const Lamp& own, float ambient) {
   const float length = std::max(1.0F, wick.root.y - wick.end.y);
   for (int row = 0; row < wick.box.height; ++row) {
     const int y = wick.box.y + row;
-    // Soaked with wax below, charred above.
+    // The wick is soaked with wax below and charred above.
     const float charred = smooth_step(0.15F, 0.55F, (wick.root.y - static_cast<float>(y)) / length);
     const float power = own.power + ambient;
     const Light soaked = 0.09F * power * Light{1.0F, 0.52F, 0.22F};

@@ -111,8 +111,8 @@ float mantle(float t, float thick) {
   return shell * (1 - smooth_step(0.00F, 0.27F, t));
 }
 
-// Adds the flame's light to the field. `shade` dims it where the wick stands in it, 0 … 1, over the shape's box; an
-// empty plane dims nothing.
+// Adds the flame's light to the field. `shade`, 0 … 1 over the shape's box, dims it where the wick is; empty: no
+// dimming.
 void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const Plane& shade) {
   if (shape.empty() || shape.thickest <= 0) return;
   const SootRamp ramp;

@@ -43,7 +43,7 @@ struct Plane {
   std::vector<float> values;
 };
 
-/// Emission over the pixels of a picture.
+/// Emitted light per pixel of a picture.
 struct LightField {
   LightField(int width, int height) : red(width, height), green(width, height), blue(width, height) {}
 
@@ -83,8 +83,8 @@ Plane halved(const Plane& fine);
 /// Returns the share of the background visible through light of that strength, about e^(−light).
 float transmitted(float light);
 
-/// Adds the light to the picture by the exposure curve 1 − (1 − there)·e^(−light), approximately. Pixels without light
-/// keep their bytes.
+/// Adds the light to the picture by the exposure curve 1 − (1 − p)·e^(−light), approximately, with p the pixel's value.
+/// Pixels without light keep their bytes.
 ///
 /// Precondition: the field has the picture's size.
 void add_light(Image& image, const LightField& field);
@@ -121,7 +121,7 @@ struct Wick {
   Plane coverage;   ///< share of each pixel of the box inside the wick
   Point root;       ///< where it leaves the wax, pixels
   Point end;        ///< its upper end, pixels
-  float width = 0;  ///< pixels, at its root
+  float width = 0;  ///< width at its root, pixels
 
   bool empty() const { return box.width == 0; }
 };
@@ -214,7 +214,7 @@ void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int 
 struct Stand {
   Lamp lamp;
   Point foot;        ///< pixel of the centre of the candle's foot, on the table
-  float unit = 1;    ///< pixels of the mean flame height
+  float unit = 1;    ///< mean flame height in pixels
   float half = 0;    ///< half the candle's width, model units
   float height = 0;  ///< candle height, model units; 0: no candle
 };

@@ -76,7 +76,7 @@ void merge_meeting(std::vector<PixelBox>& boxes) {
       if (!meet(boxes[k], boxes[other])) continue;
       boxes[k] = around(boxes[k], boxes[other]);
       boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(other));
-      other = k;  // The larger box may meet others now.
+      other = k;  // The larger box may overlap others now.
     }
   }
 }

@@ -22,7 +22,7 @@ constexpr float kThreadSeconds = 1.0F / 200;
 // One oscillation of the ribbon: the sideways displacement depends on the time at which the smoke left the wick.
 struct Swing {
   float rate_hz;
-  float across;  // model units, when fully grown
+  float across;  // model units, at full size
   float upward;
   float phase;
   float twist;  // phase difference over the ribbon's width, in turns

@@ -31,7 +31,7 @@ struct Ticks {
 /// Round values over the scale, about `wanted` of them (2 … 20).
 Ticks make_ticks(const Scale& scale, int wanted, bool whole_numbers);
 
-/// Collects the range of data.
+/// Determines the range of data.
 class Extent {
  public:
   /// Includes a value in the range, unless the axis cannot show it.

@@ -101,7 +101,7 @@ void look_for_sentinel(const std::string& name, const Samples& all, std::vector<
   }
 }
 
-// Rows, from 1, of samples far from the median of the five around them.
+// Row numbers, from 1, of samples far from the median of five rows around them.
 std::vector<std::size_t> outliers_in(const Samples& all) {
   constexpr double kFar = 12;
   std::vector<std::size_t> rows;

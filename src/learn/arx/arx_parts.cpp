@@ -34,7 +34,7 @@ struct Table {
 
 // A CSV file being read; the reader is at the first row of the file's range.
 struct OpenTable {
-  std::unique_ptr<std::ifstream> stream;  // on the heap, where the reader's view of it survives moves
+  std::unique_ptr<std::ifstream> stream;  // on the heap, so that the reader's pointer to it survives moves
   std::unique_ptr<CsvReader> reader;
 };
 
@@ -133,7 +133,7 @@ Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState
   }
 }
 
-// Operating point and scales, as gather_signals() finds them. Errors: a channel without samples.
+// Operating point and scales, as in gather_signals(). Errors: a channel without samples.
 Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
   FitFacts facts;
   facts.options = options;

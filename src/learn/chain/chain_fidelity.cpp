@@ -64,7 +64,7 @@ Jumps jumps_at(const Motion& motion, std::span<const std::vector<std::size_t>> r
   return jumps;
 }
 
-// `joins`: rows of each piece of `made` at which a segment was joined.
+// `joins`: for each piece of `made`, the rows at which a segment was joined.
 JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, const Motion& made,
                        std::span<const std::vector<std::size_t>> joins) {
   Jumps all;

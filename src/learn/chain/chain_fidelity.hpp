@@ -40,14 +40,14 @@ FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows)
 
 struct ChainFidelityOptions {
   SegmentationOptions segmentation{};
-  int smooth_rows = 0;  ///< as motion_of()
+  int smooth_rows = 0;  ///< as in motion_of()
   std::uint64_t seed = 1;
 };
 
 /// Summary figures of a set of falls.
 struct FallFigures {
   double descent_speed = 0;     ///< metres a second
-  double lateral_spread = 0;    ///< metres: root-mean-square distance over ground between start and end of a fall
+  double lateral_spread = 0;    ///< root-mean-square horizontal distance between start and end of a fall, metres
   double event_seconds = 0;     ///< mean time between events
   double flips_per_second = 0;  ///< rate at which the body turns its other side up; 0 without orientation
 };
@@ -60,8 +60,8 @@ struct ChainFidelity {
   FallFigures real;
   FallFigures synthesized;
   Bounded energy_distance;
-  Bounded long_energy_distance;  ///< over windows of two seconds; NaN where recordings are shorter
-  Bounded spectra;               ///< spectra_apart()
+  Bounded long_energy_distance;  ///< the same over windows of two seconds; NaN where recordings are shorter
+  Bounded spectra;               ///< result of spectra_apart()
   JoinDefect join_defect;
   std::size_t windows = 0;  ///< number of windows on each side
   double window_seconds = 0;

@@ -23,7 +23,7 @@ struct FidelityOptions {
   std::uint64_t seed = 1;
 };
 
-/// A measure between its two bounds.
+/// A measure with its two bounds.
 struct Bounded {
   double value = 0;    ///< real against synthesized
   double floor = 0;    ///< real against real: one half of the recordings, or of a single one's time, against the other
@@ -43,7 +43,7 @@ struct Fidelity {
   std::vector<ChannelFidelity> channels;
   Bounded log_spectral_distance;  ///< mean over channels
 
-  Bounded energy_distance;  ///< normalised, in [0, 1], over standardised windows of all channels and their velocities
+  Bounded energy_distance;  ///< normalised to [0, 1], over standardised windows of all channels and their velocities
 
   // Measures over windows of two seconds (long_distances()). NaN where the recording has too few such windows.
   Bounded long_motion;   ///< normalised energy distance of windows of all channels and their velocities

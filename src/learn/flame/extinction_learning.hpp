@@ -22,7 +22,7 @@ struct LearnedExtinction {
   std::string input;  ///< the wind channel that extinguishes the flame
   Origin origin = Origin::kDefault;
   std::optional<ExtinctionFit> fit;  ///< set where the rule was learned
-  ExtinctionAgreement agreement;     ///< of the rule with the recordings
+  ExtinctionAgreement agreement;     ///< agreement of the rule with the recordings
   std::size_t unexplained = 0;       ///< number of absences of the outline without wind
   std::optional<std::string> warning;
 };

@@ -334,7 +334,7 @@ Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Rec
   return model;
 }
 
-// Band power of the play relative to a trace, in decibels.
+// Band power of the play relative to the learned and to the held-out part, in decibels.
 ReportTable bands_of(const Traces& play, const Light& light) {
   constexpr std::size_t kSegment = 128;
   ReportTable table{"spectrum",

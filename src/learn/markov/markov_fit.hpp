@@ -27,7 +27,7 @@ struct FitOptions {
 struct Candidate {
   int modes = 1;
   double log_likelihood = 0;           ///< of the training rows
-  double held_out_log_likelihood = 0;  ///< of the held-out rows: the last 30 % of every stretch
+  double held_out_log_likelihood = 0;  ///< of the held-out rows, the last 30 % of every stretch
   double gain_std_error = 0;           ///< standard error of its held-out gain over the candidate before it
   bool determined = true;              ///< false: a mode had too few rows for its coefficients
 };
@@ -38,7 +38,7 @@ struct Summary {
   std::vector<Candidate> candidates;  ///< begins with a single mode
   std::vector<std::size_t> mode_rows;
   std::vector<bool> mode_changed;            ///< whether each mode was stabilised
-  std::vector<double> fit_percent;           ///< one step ahead, per output
+  std::vector<double> fit_percent;           ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) one step ahead, per output
   std::vector<double> free_run_fit_percent;  ///< simulated from the input alone; empty without inputs
   Usable usable;
 };

@@ -6,7 +6,7 @@
 
 namespace wisp {
 
-/// One column of a regression: channel `channel` at t − lag. Channels are the outputs, then the inputs; the constant
+/// A column of a regression: channel `channel` at t − lag. Channels are the outputs, then the inputs; the constant
 /// column is channel −1.
 struct LaggedChannel {
   int channel = 0;

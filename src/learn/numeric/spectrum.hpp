@@ -16,7 +16,7 @@ using Samples = std::span<const std::vector<double>>;
 /// Power spectral density.
 struct Spectrum {
   std::vector<double> frequency_hz;  ///< 0 … rate/2
-  std::vector<double> power;         ///< one-sided, squared unit per hertz; sums over frequency to the variance
+  std::vector<double> power;         ///< one-sided, squared unit per hertz; integrates over frequency to the variance
   std::size_t segments = 0;          ///< number of averaged periodograms
 };
 

@@ -17,7 +17,7 @@ namespace wisp {
 
 /// Options of align_offset().
 struct AlignmentOptions {
-  double rate_hz = 60;     ///< of both series, > 0
+  double rate_hz = 60;     ///< sampling rate of both series, > 0
   double max_seconds = 1;  ///< range of offsets searched, ±, > 0
 };
 
@@ -26,7 +26,7 @@ struct Alignment {
   double offset_seconds = 0;  ///< motion(t) corresponds to wind(t − offset): positive where the motion is later
   double low_seconds = 0;     ///< ends of its 95 % interval
   double high_seconds = 0;
-  double correlation = 0;  ///< of the whitened series at that offset, −1 to 1
+  double correlation = 0;  ///< correlation of the whitened series at that offset, −1 to 1
   double chance = 0;       ///< 99th percentile of the largest |correlation| of unrelated recordings
   bool usable = false;     ///< whether the offset is significant, within the search range and sharp
   std::string reason;      ///< one clause: the finding, or why it is not usable

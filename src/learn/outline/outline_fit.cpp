@@ -14,7 +14,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kWindows = 120;       // per side: gives the distance to 0.01 within 10 ms
+constexpr std::size_t kWindows = 120;       // per side: an accuracy of 0.01 for 10 ms of computation
 constexpr double kPlayed = 30;              // minimum duration of play, seconds
 constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlines used for comparison
 constexpr std::size_t kMaxPlayed = 500;

@@ -74,7 +74,7 @@ RegressorShape shape_of(const Model& model) {
   return shape;
 }
 
-// The recording in pixels with its outputs replaced by series in the model's units and knots.
+// The recording in pixels, with its outputs replaced by `series`, which has the model's units and knots.
 Recording in_pixels(const PreparedOutlines& prepared, const Recording& original,
                     const std::vector<std::vector<double>>& series) {
   Recording units = prepared.recordings.front();
@@ -159,7 +159,7 @@ void hide_unseen(const Recording& recorded, const std::vector<std::string>& outp
   }
 }
 
-// Plays freely with noise and compares with the recording in the model's units.
+// Compares a free play with noise with the recording, in the model's units.
 Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& driving,
                           const ValidationOptions& options, OutlineJudgement& out) {
   const auto rows = static_cast<std::size_t>(std::ceil(options.play_seconds * model.whole.rate_hz));

@@ -33,7 +33,7 @@ struct PreparationOptions {
   double pixels_per_unit = 0;  ///< 0: each recording's mean calm height becomes 1
 };
 
-/// Recordings in the model's units and knots, with its regressors as inputs.
+/// Recordings in the model's units and knots, with regressors as inputs.
 struct PreparedOutlines {
   OutlineLayout layout;  ///< layout of the prepared recordings, outputs first
   std::vector<OutlineInput> inputs;

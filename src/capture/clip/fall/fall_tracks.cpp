@@ -94,7 +94,7 @@ bool pass(const Candidate& one, const Candidate& other) {
   return false;
 }
 
-// The height at which most falls end; the picture's border without falls.
+// Median height at which falls end; the picture's border without falls.
 double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   std::vector<double> ends;
   for (const Candidate& fall : falls) {

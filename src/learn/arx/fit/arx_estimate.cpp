@@ -59,7 +59,7 @@ double effective_number(const SharedProblem& problem, const SharedSolution& solu
   return (solution.inverse * products(problem.columns, problem.columns)).trace();
 }
 
-// Residuals in the triangle's space: the triangle times [−θ; 1], one column an output.
+// Residuals in the triangle's space: the triangle times [−θ; 1], one column per output.
 Eigen::MatrixXd residuals_of(const Eigen::MatrixXd& triangle, const ArxDesign& design, const GroupThetas& theta) {
   Eigen::MatrixXd residuals(triangle.rows(), design.layout.outputs());
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
@@ -81,8 +81,8 @@ struct ResidualProducts {
   GroupThetas gradient;  // Σ x r, laid out like the coefficients
 };
 
-// One pass over the data with given coefficients. Residuals are computed row by row, so that their products do not
-// suffer from cancellation.
+// Computes residuals for given coefficients in one pass over the data. They are computed row by row, so that their
+// products do not suffer from cancellation.
 class ResidualPass {
  public:
   ResidualPass(const Signals& signals, const ArxDesign& design, const GroupThetas& theta)
@@ -189,8 +189,8 @@ std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan,
     estimate.effective.push_back(effective_number(problem, *solution, gram));
     estimate.groups.push_back(std::move(*solution));
   }
-  // One step leaves condition⁴ · 1e-32 of the coefficients' error; rows of different groups share no formula for what
-  // the step does to the products of their residuals, so these are computed again unless the step hardly changed them.
+  // A refinement step reduces the coefficients' relative error to condition⁴ · 1e-32. For rows of different groups
+  // there is no update formula for products of residuals, so these are recomputed unless the step is negligible.
   constexpr double kNegligible = 1e-13;
   ResidualProducts products;
   for (int pass = 0; pass < 3; ++pass) {
@@ -258,11 +258,11 @@ ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::v
 
 namespace {
 
-// A column of norm 1 of which less than this is left after the columns before it are taken out is rounding error: data
-// is known to 1e-16, and some digits are lost over the rows.
+// A column of norm 1 counts as dependent if less than this remains after projecting out the columns before it: data are
+// accurate to 1e-16, and rounding over the rows loses some digits.
 constexpr double kNothingLeft = 1e-12;
 
-// A column enters the account of a dependent one where it carries more than this of its norm.
+// Minimum share of a dependent column's norm from which another column is named as its cause.
 constexpr double kPartOfDependence = 1e-6;
 
 DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>& kept, int column) {
@@ -278,7 +278,7 @@ DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>&
   return dependent;
 }
 
-// From the eigenvalues of the Gram matrix where these have eight digits, else from singular values, which cost more.
+// Condition number, from eigenvalues of the Gram matrix if accurate, else from singular values (slower).
 double condition_number(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return 1;
   const Eigen::MatrixXd gram = matrix.transpose() * matrix;
@@ -290,7 +290,7 @@ double condition_number(const Eigen::MatrixXd& matrix) {
   return values[0] / values[values.size() - 1];
 }
 
-// Fills in all that follows from the factor of the kept columns, scaled to norm 1.
+// Computes the solution from the triangular factor of the kept columns, scaled to norm 1.
 SharedSolution finish(const SharedProblem& problem, const Eigen::MatrixXd& factor, const Eigen::MatrixXd& rotated,
                       const std::vector<int>& kept, const Eigen::VectorXd& norm) {
   const auto d = static_cast<Eigen::Index>(problem.columns.size());
@@ -314,7 +314,7 @@ SharedSolution finish(const SharedProblem& problem, const Eigen::MatrixXd& facto
   return solution;
 }
 
-// Householder reflections column after column, so that a column is dependent only on those before it and can be named.
+// Householder reduction, column by column, so that a dependent column depends only on those before it and can be named.
 struct Reduction {
   Eigen::MatrixXd matrix;
   std::vector<int> kept;

@@ -19,13 +19,13 @@ namespace wisp {
 
 /// A regressor that depends linearly on regressors before it.
 struct DependentColumn {
-  int column = 0;       ///< position among the rows' regressors
+  int column = 0;       ///< index among the rows' regressors
   std::vector<int> of;  ///< positions of the regressors that it depends on; empty: the column is zero
 };
 
 /// The least-squares solution for output rows that share the regressors X, in scaled units.
 struct SharedSolution {
-  Eigen::MatrixXd theta;    ///< one column an output row, without A's sign; 0 for dependent regressors
+  Eigen::MatrixXd theta;    ///< one column per output row, without A's sign; 0 for dependent regressors
   Eigen::MatrixXd inverse;  ///< (XᵀX + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
   std::vector<DependentColumn> dependent;
   double condition = 1;         ///< condition number of X in the data's units, without dependent columns
@@ -48,7 +48,7 @@ SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const Shared
 std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
                                               double max_condition);
 
-/// Nine digits in standard errors: condition² · 2.2e-16 = 1e-9.
+/// Gives nine accurate digits in standard errors: condition² · 2.2e-16 = 1e-9.
 inline constexpr double kMaxConditionForGram = 2e3;
 
 /// Coefficients of every group of rows: regressors × rows, in scaled units, without A's sign.

@@ -27,12 +27,12 @@ struct FitFacts {
   std::size_t episodes_used = 0;
   std::size_t episodes_skipped = 0;
   std::size_t rows_left_out = 0;
-  double drawn_in = 1;  ///< share of the largest stable radius to which unstable poles are scaled
+  double drawn_in = 1;  ///< share of the maximum stable radius to which unstable poles are scaled
 };
 
 struct Criteria {
   double fpe = 0;        ///< det Λ (1 + d/n)/(1 − d/n), d = coefficients / outputs
-  double fpe_total = 0;  ///< the same with d = coefficients
+  double fpe_total = 0;  ///< FPE with d = coefficients
   double aic = 0;        ///< n ln det Λ + 2 coefficients
   double aicc = 0;       ///< aic + 2 c (c + 1)/(n − c − 1), c = coefficients; infinite where n <= c + 1
   double bic = 0;        ///< n ln det Λ + c ln n
@@ -44,7 +44,7 @@ Criteria criteria_of(std::span<const double> covariance, int outputs, double row
 /// Inverse of a channel's scale; 0 for the scale 0 of a constant channel.
 inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
 
-/// The model, stable unless the options say otherwise, and its summary; `usable` is judged by judge_fit.
+/// The model, stabilised unless disabled, and its summary; judge_fit sets `usable`.
 ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);
 
 /// Warns of outputs with a good one-step fit but a poor free-run fit. `outputs` are their names.

@@ -38,10 +38,10 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
 struct VerdictEvidence {
   const ChannelChoice& channels;
   const ArxOrders& orders;
-  std::vector<double> persistence{};               ///< per output, or empty where unknown
-  const ResidualTests* least_squares{};            ///< residuals of least squares, or none
+  std::vector<double> persistence{};               ///< mean squared change per output; empty where unknown
+  const ResidualTests* least_squares{};            ///< tests of least-squares residuals; null: none
   std::vector<double> held_out{};                  ///< held_out_fits(); empty: the fits of the training rows are judged
-  std::vector<int> integrators{};                  ///< as ArxOptions::integrators
+  std::vector<int> integrators{};                  ///< as in ArxOptions::integrators
   std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
 };

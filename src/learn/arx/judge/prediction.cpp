@@ -37,8 +37,8 @@ class StepErrors {
   StepErrors(const ArxModel& model, const Signals& signals, int steps)
       : filter_(model, signals), response_(noise_response(model, steps)), steps_(steps) {}
 
-  /// Calls visit(k, first, errors) for k = 1 … steps and every block of a run; `errors` has one column an output and
-  /// row 0 is row `first` of the recording. Rows before run.begin + k − 1 have no k-step prediction.
+  /// Calls visit(k, first, errors) for k = 1 … steps and every block of a run; `errors` has one column per output, and
+  /// its row 0 is row `first` of the recording. Rows before run.begin + k − 1 have no k-step prediction.
   template <class Visit>
   void run(const RowRun& run, Visit visit) {
     const int ny = static_cast<int>(response_.front().rows());
@@ -255,7 +255,7 @@ namespace {
 // Maximum number of rows for estimating the initial state: a stable model has forgotten it by then.
 constexpr std::size_t kRowsForInitialState = 4096;
 
-// Outputs over time, row after row: `memory` rows of the past, then the simulated ones.
+// Outputs over time, concatenated rows: `memory` rows of the past, then the simulated ones.
 using Series = std::vector<double>;
 
 struct Tap {
@@ -289,7 +289,7 @@ class Runner {
     return signals_.samples[recording_][channel][row] - signals_.offset[channel];
   }
 
-  /// Writes the inputs' and the constant's part of rows [begin, begin + count) below the first `memory()` rows.
+  /// Writes the contribution of inputs and constant to rows [begin, begin + count), after the first `memory()` rows.
   template <class Number>
   void force(std::size_t begin, std::size_t count, Series& series) const {
     const std::size_t ny = outputs();
@@ -325,7 +325,7 @@ class Runner {
     return true;
   }
 
-  /// The past outputs, memory × ny, with which the simulation from `begin` fits best by least squares.
+  /// Past outputs, memory × ny, that minimise the squared error of the simulation from `begin`.
   std::vector<double> estimate_past(std::size_t begin, std::size_t count) const {
     const std::size_t unknowns = memory_ * outputs();
     const std::size_t rows = std::min(count, kRowsForInitialState);

@@ -22,7 +22,7 @@
 
 namespace wisp {
 
-/// Takes simulated deviations of all outputs, row after row, from row `first` of the recording on.
+/// Receives simulated deviations of all outputs, row by row, from row `first` of the recording on.
 using SimulatedRows = std::function<void(std::size_t first, std::size_t rows, const double* values)>;
 
 /// Start of a simulation.
@@ -56,10 +56,10 @@ Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Re
 /// Accuracy of a model's predictions over recordings.
 struct PredictionFigures {
   int steps = 1;                    ///< steps ahead, or kFreeRun
-  std::size_t rows = 0;             ///< rows that were predicted and measured
+  std::size_t rows = 0;             ///< number of rows predicted and measured
   std::vector<double> mean_square;  ///< mean squared error per output, its unit²
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over those rows, per output; 0 where y is constant
-  std::vector<double> j;  ///< J_k: mean size of the error, per output
+  std::vector<double> j;  ///< J_k: mean norm of the error, per output
 };
 
 /// Options of prediction_figures.
@@ -100,7 +100,7 @@ class Tally {
   void add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations);
 
   /// Adds the errors of simulated rows [first, first + rows) of a recording: `values` are the simulated deviations, row
-  /// after row. Rows where an output was not measured do not count.
+  /// by row. Rows with an output not measured are skipped.
   void add_simulated(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
                      const double* values);
 
@@ -115,7 +115,7 @@ class Tally {
   std::vector<double> norm_;
 };
 
-/// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
+/// Errors of free simulation over all recordings, from row `first_sample` of every episode on.
 ///
 /// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
 Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start);

@@ -28,7 +28,7 @@ inline constexpr int kReportedLags = 20;
 struct Whiteness {
   std::vector<double> correlation;  ///< r(1) … r(lags)
   double bound = 0;                 ///< 1.96/√n: 95 % of the correlations of a white residual lie within
-  double statistic = 0;             ///< Ljung and Box's Q
+  double statistic = 0;             ///< the Ljung–Box statistic Q
   double p = 1;                     ///< probability of a Q at least this large for a white residual
 };
 

@@ -36,11 +36,11 @@ StepResponse step_response(const ArxModel& model, int output, int input, int sam
 struct FrequencyResponse {
   std::vector<std::complex<double>> value;  ///< G(e^{iω})
   std::vector<double> amplitude_sd;         ///< standard deviation of |G|; empty without a covariance
-  std::vector<double> phase_sd;             ///< of arg G, radians; empty without a covariance
+  std::vector<double> phase_sd;             ///< standard deviation of arg G, radians; empty without a covariance
 };
 
-/// G(e^{iω}) from `input` to `output` at angular frequencies ω in radians a sample (0 … π; times the rate, radians a
-/// second).
+/// G(e^{iω}) from `input` to `output` at angular frequencies ω in radians per sample (0 … π; multiplied by the rate:
+/// radians per second).
 ///
 /// Preconditions: as step_response.
 FrequencyResponse frequency_response(const ArxModel& model, int output, int input, std::span<const double> omega,

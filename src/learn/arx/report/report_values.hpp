@@ -40,7 +40,7 @@ std::string as_id(const std::string& name);
 /// The id of an element's field: "inputs[2].name".
 std::string element(const char* list, std::size_t index, const char* field);
 
-/// `values[output][input]` of a model.
+/// Matrix [output][input] of values of a model.
 template <class Value>
 ReportList per_pair(const ArxOrders& orders, Value value) {
   ReportList rows;

@@ -20,12 +20,11 @@ struct Responding {
 /// Adds the series `poles`: x is the real part, y the imaginary part.
 void add_poles(const ArxModel& model, Report& report);
 
-/// Beside the poles, series, I an output and K an input: `poles.I.K` and `zeros.I.K` like them, without those that
-/// cancel each other; `step.I.K` over seconds,
-/// `amplitude.I.K` and `phase.I.K` (degrees) over Hz; with a covariance the ends of their 95 % bands, the same id with
-/// `.low` and `.high` after it. Where `listed`, also the lists of `responses`: `seconds` and `step` [output][input]
-/// {`value`, `sd`}; `hz` and `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`, `phase_sd`}, phases in
-/// radians.
+/// Adds, besides the poles, series for output I and input K: `poles.I.K` and `zeros.I.K` without pairs that cancel;
+/// `step.I.K` over seconds, `amplitude.I.K` and `phase.I.K` (degrees) over Hz; with a covariance also the ends of their
+/// 95 % bands, under the same ids with `.low` and `.high`. If `listed`, also the lists of `responses`: `seconds` and
+/// `step` [output][input] {`value`, `sd`}; `hz` and `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`,
+/// `phase_sd`}, phases in radians.
 void add_responses(const Responding& responding, bool listed, Report& report);
 
 }  // namespace wisp::arx

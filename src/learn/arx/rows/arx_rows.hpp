@@ -13,15 +13,15 @@
 
 namespace wisp {
 
-/// Channels by name, in the model's order. Roles in the recording do not matter: an output of one system may be another
-/// one's input.
+/// Names of channels, in the model's order. Roles in the recording are ignored: an output of one system may be an input
+/// of another.
 struct ChannelChoice {
   std::vector<std::string> inputs;   ///< may be empty: a model without input
   std::vector<std::string> outputs;  ///< may be empty: no input
 };
 
-/// The chosen channels of all recordings. The regression works on (sample − offset)·scale; scales are powers of two
-/// near 1/RMS, so that they cost no rounding, and 0 for a channel that never moves.
+/// The chosen channels of all recordings. The regression uses (sample − offset)·scale; scales are powers of two near
+/// 1/RMS, which cause no rounding, and 0 for constant channels.
 struct Signals {
   int outputs = 0;
   int inputs = 0;
@@ -51,14 +51,14 @@ struct ChannelPoint {
 /// Operating point of a channel. Precondition: sums.count > 0.
 ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset);
 
-/// Target rows [begin, end) of one recording, all of them usable.
+/// Target rows [begin, end) of one recording, all usable.
 struct RowRun {
   std::size_t recording = 0;
   std::size_t begin = 0;
   std::size_t end = 0;
 };
 
-/// All target rows.
+/// All target rows of the regression.
 struct RowPlan {
   std::vector<RowRun> runs;
   std::size_t rows = 0;
@@ -85,7 +85,7 @@ Signals middle_of(const Signals& signals, std::size_t most);
 /// Precondition: first_sample >= layout.history().
 RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample);
 
-/// Rows [begin, end) of the first recording, and whether it ends there.
+/// Rows [begin, end) of the first recording, and whether the recording ends at `end`.
 struct RowPart {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -99,7 +99,7 @@ RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sam
 /// Rows whose inputs are all present, whether or not outputs are missing.
 RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample);
 
-/// Samples of all channels over a block of rows and the history before it, offset and scaled.
+/// Scaled samples of all channels over a block of rows and the history before it.
 class ScaledBlock {
  public:
   /// Preconditions: `signals` outlives the block; history >= 0.

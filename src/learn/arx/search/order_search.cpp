@@ -215,7 +215,7 @@ class Search {
   std::optional<SearchWindows> validation_;
 };
 
-// Criteria that are sums over rows are compared per row: candidates may have different windows.
+// Criteria that are sums over rows are divided by the number of rows, as candidates may have different windows.
 double value_of(const OrderCandidate& candidate, OrderCriterion by) {
   const double n = static_cast<double>(candidate.rows);
   double value = 0;

@@ -31,7 +31,7 @@ struct SearchOptions {
   ArxOffset offset = ArxOffset::kMean;  ///< kMean subtracts each set's own means
 };
 
-/// One candidate and its figures. Fits are as estimated, without stabilisation.
+/// A candidate and its figures. Fits are as estimated, without stabilisation.
 struct OrderCandidate {
   ArxOrders orders;
   int na = 0;  ///< orders and delay of the grid point

@@ -25,7 +25,7 @@ struct MotionPiece {
   std::size_t first_row = 0;  ///< index of the piece's first row in the recording
   std::vector<Triple> position;
   std::vector<Triple> velocity;   ///< units per second, world axes
-  std::vector<Quad> orientation;  ///< unit, w first, body to world, sign continuous; empty without orientation
+  std::vector<Quad> orientation;  ///< unit quaternions, w first, body to world, continuous sign; or empty
   std::vector<Triple> spin;       ///< radians a second, world axes; empty without orientation
 
   std::size_t rows() const { return position.size(); }

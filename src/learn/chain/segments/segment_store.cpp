@@ -19,7 +19,7 @@ namespace {
 struct JoinOptions {
   bool heading_free = true;
   bool bounded_height = false;  ///< prefer successors that begin near the height at which the segment ends
-  int breadth = 4;              ///< successors of each segment and mode, > 0
+  int breadth = 4;              ///< number of successors per segment and mode, > 0
 };
 
 // Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
@@ -103,7 +103,7 @@ std::vector<std::uint16_t> best_successors(const Motion& motion, std::span<const
   scale(starts, weight);
   scale(ends, weight);
   std::vector<std::uint16_t> follow;
-  std::vector<std::pair<double, std::uint16_t>> near;  // one buffer for all: a list a segment would be its square
+  std::vector<std::pair<double, std::uint16_t>> near;  // reused buffer: a list per segment would need quadratic memory
   for (std::size_t from = 0; from < segments.size(); ++from) {
     for (std::size_t begin = 0, end = 0; begin < segments.size(); begin = end) {
       near.clear();
