@@ -570,7 +570,7 @@ namespace Wisp
         public void Reset() { Native.Check(Native.wisp_bank_reset(handle)); }
         public void Reset(ulong instance) { Native.Check(Native.wisp_bank_reset_instance(handle, instance)); }
 
-        /// <summary>The whole state; a bank of the same model and capacity restored from it goes on with the same bits.</summary>
+        /// <summary>The whole state; restoring it in a bank of this model and capacity gives the same bits.</summary>
         public byte[] Save()
         {
             UIntPtr size;

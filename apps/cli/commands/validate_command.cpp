@@ -62,7 +62,7 @@ ValidationPictures wanted_pictures(const Arguments& arguments) {
   return {path("overlay"), path("film-strip"), path("figures")};
 }
 
-// Plots of a chain's validation.
+// ---- Plots of a chain's validation ----
 
 constexpr Colour kModeColours[] = {{31, 119, 180}, {214, 96, 20},  {44, 140, 44},   {190, 40, 40},
                                    {130, 90, 180}, {120, 80, 60},  {210, 100, 170}, {90, 90, 90},

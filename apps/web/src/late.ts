@@ -105,7 +105,7 @@ export function sayWrong(app: App, error: unknown): void {
   app.notices.say(`${/[.!?]$/.test(words) ? words : `${words}.`} What plays goes on.`);
 }
 
-/** Plays a model that was dropped or chosen. What can be learned from opens the studio, which takes everything else while it is open. */
+/** Plays a dropped or chosen model. Files to learn from open the studio, which takes all files while it is open. */
 export function openDropped(app: App, { files, entries }: Dropped): void {
   const [file] = files;
   if (file === undefined) return;

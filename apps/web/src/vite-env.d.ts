@@ -1,6 +1,6 @@
 /// <reference types="vite/client" />
 
-// What is used of gifenc, which comes without types. `delay` in milliseconds; the first frame's palette is all the others'.
+// The parts of gifenc in use; it has no types. `delay` in milliseconds; all frames use the first frame's palette.
 declare module 'gifenc' {
   export type Palette = number[][];
   type Bytes = Uint8Array | Uint8ClampedArray;

@@ -130,7 +130,7 @@ function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneS
   };
 }
 
-/** Milliseconds between looks at whether sound comes; after two without any it sleeps, and after two more awake ones without any it is opened anew. */
+/** Milliseconds between checks for sound: after two silent ones it sleeps, after two more while awake it is reopened. */
 const LOOK_EVERY = 500;
 const ASLEEP = 2;
 const STUCK = 4;

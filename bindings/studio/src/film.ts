@@ -93,7 +93,7 @@ async function hear(engine: Engine, input: Input, first: number): Promise<string
   return '';
 }
 
-/** Shows the engine a whole film. `looked` is told after each frame, with the frame as it is stored and the share that is done. */
+/** Passes a whole film to the engine. `looked` receives the stored frame and the finished share after each frame. */
 export async function showFilm(
   engine: Engine,
   file: Blob,

@@ -10,7 +10,7 @@ export interface Region {
 
 /** Settings of a film's capture. Omitted ones have the program's defaults. */
 export interface PictureSettings {
-  /** an outline that wind bends, or something light that falls before a plain wall; `either`: falls where the film has usable ones; `flame` */
+  /** an outline in the wind, or something light falling before a plain wall; `either`: falls if usable; default: `flame` */
   looks_for?: 'flame' | 'falls' | 'either';
   /** for falls: height in metres of the wall in the picture; default 1 */
   height?: number;
@@ -111,8 +111,8 @@ export interface Recipe {
   nk?: number;
   inputs?: string[];
   outputs?: string[];
-  /** the last share of the rows, 0 to 1, that a model of the rest is judged on; the model that is given is then learned
-   * from all of them. A flame keeps back its own */
+  /** share of the rows, 0 to 1, at the end, on which a model of the rest is judged; the returned model is learned from
+   * all rows. Flames hold out their own share */
   kept_back?: number;
 }
 

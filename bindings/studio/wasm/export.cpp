@@ -49,8 +49,8 @@ Result<void> write(const Model& model, Format format, const TakeOptions& options
 using namespace wisp;
 using namespace wisp::studio;
 
-// A model's play as a file; `wind` is a constant value of every input. `name` ends with a zero and begins all names in
-// C.
+// A model's play as a file; `wind` is a constant value of every input. `name` is zero-terminated and the prefix of all
+// names in C.
 extern "C" __attribute__((export_name("studio_export"))) int studio_export(const std::byte* bytes, std::size_t size,
                                                                            int format, double seconds, int loop,
                                                                            int instances, double wind, double seed,

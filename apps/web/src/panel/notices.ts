@@ -14,7 +14,7 @@ export interface Offer {
 export class Notices {
   constructor(private readonly place: HTMLElement) {}
 
-  /** Shows a sentence or two for a while, and something that can be done about it; the same one again only stays longer. */
+  /** Shows a sentence or two for a while, with an optional action; a repeated message only stays longer. */
   say(text: string, offer?: Offer): void {
     for (const shown of this.place.querySelectorAll('.notice')) {
       if (shown.querySelector('p')?.textContent === text) shown.remove();

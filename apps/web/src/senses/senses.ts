@@ -1,4 +1,4 @@
-// Tilt and touch, opt-in: a phone that makes wind where it is tilted, goes round where it is turned, and vibrates when a flame goes out.
+// Tilt and touch, opt-in: tilting a phone makes wind, rotating it moves the eye, and it vibrates when a flame goes out.
 
 import type { Air } from '@wisp/player/parts/stage/scene';
 import { Tilt } from './tilt.js';

@@ -34,7 +34,7 @@ class Angle {
 function lie({ alpha, beta, gamma }: DeviceOrientationEvent): [roll: number, pitch: number, heading: number] | null {
   if (alpha === null || beta === null || gamma === null) return null;
   const [a, b, c, held] = [alpha, beta, gamma, window.screen.orientation?.angle ?? 0].map((degrees) => (degrees * Math.PI) / 180) as [number, number, number, number];
-  // The vertical in the phone's axes, and its first two axes from above. Its angles themselves jump where it stands upright.
+  // Vertical in the phone's axes, and its first two axes from above, as the angles themselves jump when it is upright.
   const up = [-Math.cos(b) * Math.sin(c), Math.sin(b), Math.cos(b) * Math.cos(c)] as const;
   const first = [Math.cos(a) * Math.cos(c) - Math.sin(a) * up[1] * Math.sin(c), Math.sin(a) * Math.cos(c) + Math.cos(a) * up[1] * Math.sin(c)] as const;
   const second = [-Math.sin(a) * Math.cos(b), Math.cos(a) * Math.cos(b)] as const;

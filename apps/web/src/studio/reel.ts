@@ -3,7 +3,7 @@
 
 import type { Region, Seen } from '@wisp/studio';
 
-/** Pictures, and the pixels that each is high at most: together some 90 MB; of a film that plays by itself the strip needs a quarter. */
+/** Maximum number of pictures and their maximum height in pixels: about 90 MB; beside a playable film a quarter suffices. */
 const MOST = 420;
 export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;

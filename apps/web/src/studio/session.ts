@@ -57,7 +57,7 @@ export function emptied({ takes }: Session): Session {
   return newSession();
 }
 
-/** With a take more: at the place of the one that was looked at again, else after the others. A flame and a leaf are not learned together. */
+/** Adds a take, in place of an earlier version of it or last. Flames and leaves are not learned together. */
 export function withTake(session: Session, take: Take): Session {
   const thing = shownIn(take);
   const made = session.takes.some((one) => shownIn(one) !== thing) ? emptied(session) : session;

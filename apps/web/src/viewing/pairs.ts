@@ -84,7 +84,7 @@ export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): 
   return made;
 }
 
-/** Pairs of a visitor's own film and the flame learned from it; a short film gives fewer than `many`. */
+/** Pairs of a visitor's film and the flame learned from it; a short film gives fewer than `many`. */
 export function filmPairs(wisp: Library, bytes: Uint8Array, film: Outlines, many: number): Pair[] {
   const model = wisp.model(bytes);
   const rows = Math.round(SECONDS * film.rate);

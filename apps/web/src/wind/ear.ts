@@ -21,7 +21,7 @@ const CLIPPED = 0.02;
 
 /** dB above the quietest sound that count as the requested blow during tuning, whatever the spectrum. */
 const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 3, 'blow hard': 5 };
-/** Frames before a step that say how quiet it is; sound below this says nothing: microphones open with silence. */
+/** Frames before a step that define the quiet level; softer ones than this are ignored, as microphones open silent. */
 const READY = 60;
 const SILENT = 3e-4;
 

@@ -5,7 +5,7 @@
 const SPEED = 7;
 /** Half of the path length across the table, where breath enters. */
 const EDGE = 2;
-/** Share that is lost on the way to the far side. */
+/** Share lost on the way to the far side. */
 const LOST = 0.3;
 /** Weakening with the squared distance from the breath's axis, per square unit. */
 const NARROW = 0.1;

@@ -134,7 +134,7 @@ export function recordedOf(captured: Captured): Curve[] {
   return falls.length > 0 ? falls : curvesOf(captured);
 }
 
-/** `all`: the other plots beside it. */
+/** `all`: all plots, for a common scale. */
 function plotOf(curves: readonly Curve[], title: string, all: readonly (readonly Curve[])[]): HTMLElement {
   // Recorded and played falls have a common scale.
   const scale = curves.some(isFall) ? all.filter((other) => other.some(isFall)).flat() : curves;

@@ -21,7 +21,7 @@ Hit hitOf(vec2 pixel) {
   vec3 onPlate = onRay(way, (0.06 - uEye) / min(way.y, -1e-4));
   float rim = length(onPlate.xz - middle) - uCake.x;
   if (rim < 0.36) {
-    // The plate curves up to its edge.
+    // The plate curves up towards its edge.
     vec2 out_ = normalize(onPlate.xz - middle);
     float bend = -0.55 * smoothstep(0.20, 0.36, rim);
     hit = Hit(onPlate, normalize(vec3(out_.x * bend, 1, out_.y * bend)), kOnPlate);
