@@ -128,7 +128,7 @@ export class WindLevel {
     return this.frameAt(this.frames);
   }
 
-  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound; silence changes nothing, as the room needs none. */
+  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. The room needs no calibration. */
   calibrate(ask: WindAsk | number, seconds = 3): void {
     if (typeof ask === 'string') this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
