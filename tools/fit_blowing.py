@@ -16,7 +16,7 @@ import numpy as np
 from sklearn.metrics import roc_auc_score
 from sklearn.neural_network import MLPClassifier
 
-FEATURES = ["low", "high", "voicing", "tone", "peaked"]
+FEATURES = ["low", "high", "voicing", "tone", "peaked", "voice", "newest", "flutter", "clipped"]
 STEADY = ["seawaves", "helicopter", "traffic", "fan"]
 HIDDEN = 6
 FOLDS = 5
@@ -96,9 +96,9 @@ def main():
 
 namespace wisp::wind {{
 
-constexpr int kLikenessUnits = {len(bias)};
-/// Of low, high, voicing, tone, peaked; a row for each unit.
-constexpr float kLikenessFirst[kLikenessUnits][{len(FEATURES)}] = {{""")
+constexpr int kLikenessUnits = {len(bias)}, kLikenessFeatures = {len(FEATURES)};
+/// Of {", ".join(FEATURES)}; a row for each unit.
+constexpr float kLikenessFirst[kLikenessUnits][kLikenessFeatures] = {{""")
     for unit in first.T:
         print(f"    {row(unit)},")
     print(f"""}};

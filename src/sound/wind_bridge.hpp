@@ -38,25 +38,28 @@ T heard_speed(T speed, const Observation<T>& seen, T floor_db) {
 /// at most that before them, decaying within half a second.
 ///
 /// "Before" is 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a few
-/// frames, so for 80 ms after blowing the measurement is still accepted.
+/// frames, so after blowing the measurement is still accepted for as long as that lasted, at most 80 ms.
 template <class T>
 class LiveBridge {
  public:
-  T end_frame(T speed, const Observation<T>& seen, T floor_db, const Design& d) {
+  T believed(T speed, const Observation<T>& seen, T floor_db, const Design& d) {
     const bool heard = floor_db + T(kForeignDb) < seen.loudness_db;
     if (!heard || sounds_like_blowing(seen)) {
-      believed_frames_ = heard ? d.trust_frames : 0;
+      if (believed_frames_ < d.trust_frames) ++believed_frames_;
+      if (!heard) believed_frames_ = 0;
       foreign_frames_ = 0;
-      before_[at_ % before_.size()] = speed;
-      ++at_;
       return speed;
     }
     if (foreign_frames_ == 0) most_ = settled(d);
     if (++foreign_frames_ <= believed_frames_) return speed;
+    believed_frames_ = 0;
     most_ = most_ * T(d.bridge_keep);
     if (most_ < T(1e-6F)) most_ = T(0.0F);
     return speed < most_ ? speed : most_;
   }
+
+  /// Takes the frame's wind as it was passed on.
+  void end_frame(T wind) { before_[at_++ % before_.size()] = wind; }
 
  private:
   /// Mean of the frames 50 to 100 ms ago.

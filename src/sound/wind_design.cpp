@@ -15,17 +15,8 @@ constexpr int kTapsPerPhase = 4;       // taps of the low-pass per phase
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
   if (found >= least && found <= most) return {};
-  const auto text = [](double x) {
-    std::string s = std::to_string(x);
-    while (s.find('.') != std::string::npos && (s.back() == '0' || s.back() == '.')) {
-      const bool dot = s.back() == '.';
-      s.pop_back();
-      if (dot) break;
-    }
-    return s;
-  };
-  return Error{std::string("wind level: ") + what + " is " + text(found) + unit + ", expected " + text(least) + " to " +
-               text(most) + unit};
+  return Error{std::string("wind level: ") + what + " is " + decimal(found) + unit + ", expected " + decimal(least) +
+               " to " + decimal(most) + unit};
 }
 
 int rounded(double x) { return static_cast<int>(x + 0.5); }
@@ -66,6 +57,7 @@ void set_times(Design& d, const WindOptions& options) {
   d.trust_frames = rounded(0.08 * rate);
   d.bridge_delay_frames = rounded(0.05 * rate) + 1;
   d.bridge_keep = static_cast<float>(1 - approach(1 / rate, 0.5));
+  d.wind_step = static_cast<float>(1 / (0.1 * rate));
   d.sustain_frames = static_cast<float>(0.24 * rate);
   d.quiet_run_frames = rounded(0.3 * rate);
   d.quiet_span_frames = static_cast<float>(10 * rate);
@@ -75,6 +67,13 @@ void set_times(Design& d, const WindOptions& options) {
 }
 
 }  // namespace
+
+std::string decimal(double x) {
+  std::string text = std::to_string(x);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
 
 Design design(const SoundFormat& format, const WindOptions& options) {
   Design d;

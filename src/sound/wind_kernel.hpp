@@ -29,6 +29,10 @@ struct Features {
   T voicing = T(0.0F);         ///< periodicity with peak hold, 0 to 1
   T tone = T(0.0F);            ///< steadiness of periodicity, 0 to 1
   T peaked = T(0.0F);          ///< log of the voice band's kurtosis relative to a Gaussian's, −1 to 3
+  T voice_db = T(0.0F);        ///< power of the voice band relative to all above 80 Hz
+  T newest_db = T(0.0F);       ///< power of the voice band in the newest 10 ms relative to the 50 ms
+  T flutter_db = T(0.0F);      ///< mean absolute change of that power from hop to hop, over 150 ms
+  T clipped = T(0.0F);         ///< share of samples at full scale: a blow overloads the capsule
   T loudness_db = T(-120.0F);  ///< power of the voice band (100–900 Hz)
 };
 
@@ -46,11 +50,12 @@ struct Observation {
 /// Classifier for blowing, 0 to 1: a layer of rectified sums, then a logistic unit.
 template <class T>
 T likeness_of(const Features<T>& f) {
-  const T features[] = {f.low_db, f.high_db, f.voicing, f.tone, f.peaked};
+  const T features[] = {f.low_db,   f.high_db,   f.voicing,    f.tone,   f.peaked,
+                        f.voice_db, f.newest_db, f.flutter_db, f.clipped};
   T z = T(kLikenessOffset);
   for (int unit = 0; unit < kLikenessUnits; ++unit) {
     T sum = T(kLikenessBias[unit]);
-    for (int i = 0; i < 5; ++i) sum = sum + T(kLikenessFirst[unit][i]) * features[i];
+    for (int i = 0; i < kLikenessFeatures; ++i) sum = sum + T(kLikenessFirst[unit][i]) * features[i];
     if (T(0.0F) < sum) z = z + T(kLikenessSecond[unit]) * sum;
   }
   return sigmoid(z);
@@ -99,6 +104,7 @@ class Kernel {
     for (int c = 0; c < d_.channels; ++c) channels_.emplace_back(d_);
     per_channel_ = T(1.0F / static_cast<float>(d_.channels));
     per_hop_ = T(1.0F / static_cast<float>(d_.channels * d_.hop));
+    per_sample_ = T(1.0F / static_cast<float>(d_.channels * d_.hop * d_.box * d_.decimation));
   }
 
   /// Takes one sample of every channel. Returns whether a hop has ended, so that features() is new.
@@ -169,7 +175,9 @@ class Kernel {
   bool take(Channel& channel, T x) {
     group_power_ = group_power_ + x * x;
     const float at = plain(x);
-    if (at >= kFullScale || at <= -kFullScale) ++clipped_;
+    const bool full = at >= kFullScale || at <= -kFullScale;
+    clipped_ += full;
+    hop_clipped_ += full;
     return channel.decimator.push(x);
   }
 
@@ -212,7 +220,7 @@ class Kernel {
       channel.bands.end_hop();
       channel.history.end_hop();
     }
-    describe();
+    describe(sums.voice * per_hop_);
     began_suddenly_ = sudden_.end_hop(features_.loudness_db, d_);
     likeness_now_ = began_suddenly_ && judged(sums.voice) ? likeness_of(features_) : T(0.0F);
     likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
@@ -239,14 +247,24 @@ class Kernel {
     follow(mean_.high, sums.high);
     follow(mean_.voice, sums.voice);
     follow(mean_.voice_fourth, sums.voice_fourth);
+    const T full = T(static_cast<float>(hop_clipped_)) * per_sample_;
+    features_.clipped = audible_power(features_.clipped + T(d_.power_approach) * (full - features_.clipped));
+    hop_clipped_ = 0;
   }
 
-  void describe() {
+  void describe(T newest_voice) {
     const auto db = [](T power, float gain) { return decibels(power * T(gain)); };
     const T total = db(mean_.total, d_.total_gain);
     features_.low_db = db(mean_.low, d_.low_gain) - total;
     features_.high_db = db(mean_.high, d_.high_gain) - total;
     features_.loudness_db = db(mean_.voice, d_.voice_gain);
+    features_.voice_db = features_.loudness_db - total;
+    const T newest = db(newest_voice, d_.voice_gain), change = newest - newest_db_;
+    newest_db_ = newest;
+    features_.newest_db = newest - features_.loudness_db;
+    features_.flutter_db =
+        features_.flutter_db +
+        T(d_.tone_approach) * ((change < T(0.0F) ? T(0.0F) - change : change) - features_.flutter_db);
     const T gaussian = T(3.0F) * mean_.voice * mean_.voice;
     T peaked = T(-1.0F);
     if (T(1e-24F) < gaussian) peaked = T(0.6931471806F) * log2_of(T(1e-6F) + mean_.voice_fourth / gaussian);
@@ -263,10 +281,12 @@ class Kernel {
   Voicing<T> voicing_;
   T per_channel_ = T(1.0F);
   T per_hop_ = T(1.0F);
+  T per_sample_ = T(1.0F);
   int in_hop_ = 0;
-  std::int64_t samples_ = 0, clipped_ = 0, analysed_ = 0;
+  std::int64_t samples_ = 0, clipped_ = 0, analysed_ = 0, hop_clipped_ = 0;
   T group_power_ = T(0.0F), power_ = T(0.0F), frame_band_ = T(0.0F), band_power_ = T(0.0F);
   BandSums<T> mean_;
+  T newest_db_ = T(-120.0F);
   Features<T> features_;
   Sudden<T> sudden_;
   bool began_suddenly_ = false;

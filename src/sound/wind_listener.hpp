@@ -37,8 +37,10 @@ class Listener {
     const bool blows = T(kGustConfidence) < confidence_of(seen, floor);
     hear_gust(blows && T(0.0F) < power, decibels(power));
     WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, reference_.level_db()}, d_.power_exponent);
-    const T believed = bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_);
-    frame.wind = plain(sustained_.end_frame(believed, T(kSureLikeness) < seen.likeness_now, d_));
+    const T believed = bridge_.believed(heard_speed(T(frame.speed), seen, floor), seen, floor, d_);
+    const T wind = sustained_.end_frame(believed, T(kSureLikeness) < seen.likeness_now, d_);
+    bridge_.end_frame(wind);
+    frame.wind = plain(wind);
     return frame;
   }
 

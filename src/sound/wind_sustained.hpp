@@ -6,7 +6,7 @@
 
 namespace wisp::wind {
 
-/// Wind up to 1 passes unchanged. The excess passes after sufficient evidence: 0.24 s of wind 1, or less time the
+/// Wind takes 0.1 s to rise to 1. The excess passes after sufficient evidence: 0.24 s of wind 1, or less time the
 /// stronger it is (0.15 s of 1.6, 0.08 s of 3.2), until an equally long pause. Softer blowing counts neither as
 /// evidence nor as pause. Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
 template <class T>
@@ -25,12 +25,16 @@ class Sustained {
       evidence_ = T(0.0F);
       lasts_ = false;
     }
-    return strong && !lasts_ ? T(1.0F) : wind;
+    T most = before_ + T(d.wind_step);
+    if (T(1.0F) < most) most = T(1.0F);
+    before_ = !lasts_ && most < wind ? most : wind;
+    return before_;
   }
 
  private:
   T evidence_ = T(0.0F);  ///< sum of strong wind, minus one per frame without blowing
   bool lasts_ = false;
+  T before_ = T(0.0F);  ///< the wind that passed in the last frame
 };
 
 }  // namespace wisp::wind

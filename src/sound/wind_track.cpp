@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/statistics.hpp"
 #include "sound/wind_background.hpp"
 #include "sound/wind_bridge.hpp"
 #include "sound/wind_design.hpp"
@@ -33,12 +34,6 @@ struct Knock {
 };
 constexpr Knock kKnocks[] = {{1.5F, 6, 0.3}, {0.15F, 0, 0.1}};
 
-float percentile(std::vector<float> values, float share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// Loudness of the softest frames that contain any sound.
 float find_floor(const Seen& seen) {
   std::vector<float> loudness;
@@ -46,7 +41,7 @@ float find_floor(const Seen& seen) {
     if (one.loudness_db >= wind::kNothingDb) loudness.push_back(one.loudness_db);
   }
   if (loudness.empty()) return wind::kMinFloorDb;
-  return std::max(percentile(std::move(loudness), kFloorShare), wind::kMinFloorDb);
+  return std::max(quantile(std::move(loudness), kFloorShare), wind::kMinFloorDb);
 }
 
 bool is_quiet(const wind::Observation<float>& one, float floor_db) {
@@ -97,7 +92,7 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
       gusts.push_back(wind::decibels(power));
   }
   if (gusts.empty()) return false;
-  gust_db = percentile(std::move(gusts), 0.95F);
+  gust_db = quantile(std::move(gusts), 0.95F);
   return true;
 }
 
@@ -174,20 +169,13 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const 
   }
 }
 
-std::string decimal(double x) {
-  std::string text = std::to_string(x);
-  while (text.size() > 1 && text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
-
 Result<void> check_times(std::span<const double> times) {
   if (times.size() < 2)
     return Error{"wind track: " + std::to_string(times.size()) + " frame times, expected at least 2"};
   for (std::size_t i = 0; i < times.size(); ++i) {
     const bool fine = std::isfinite(times[i]) && times[i] >= 0 && (i == 0 || times[i] > times[i - 1]);
     if (fine) continue;
-    return Error{"wind track: frame time " + std::to_string(i) + " is " + decimal(times[i]) +
+    return Error{"wind track: frame time " + std::to_string(i) + " is " + wind::decimal(times[i]) +
                  " s, expected finite, not negative and later than the one before"};
   }
   return {};
@@ -294,8 +282,8 @@ Result<WindTrack> WindTracker::finish() const {
   WindTrack track;
   track.seconds = static_cast<double>(state_->position) / state_->format.rate_hz;
   if (seen.empty()) {
-    return Error{"wind track: the sound lasts " + decimal(track.seconds) + " s, expected at least one video frame (" +
-                 decimal(state_->end_seconds()) + " s)"};
+    return Error{"wind track: the sound lasts " + wind::decimal(track.seconds) +
+                 " s, expected at least one video frame (" + wind::decimal(state_->end_seconds()) + " s)"};
   }
   wind::Surroundings<float> around;
   around.floor_db = find_floor(seen);

@@ -19,7 +19,6 @@ struct Surroundings {
 };
 
 constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing is distinguished from the room
-constexpr float kPassedDb = 8;       ///< the same threshold for passing wind, whose background is subtracted
 constexpr float kMinPower = 1e-12F;  ///< band power below which there is no wind
 
 /// Confidence, 0 to 1, that loudness exceeds the floor.

@@ -18,16 +18,17 @@ void print(const KnownSound& one, int blowing, double rms, double lows) {
     if (!kernel.push(&x)) continue;
     const auto& f = kernel.features();
     if (++hop > 50 && f.loudness_db > -75)
-      std::printf("%s,%s,%d,%.3f,%.0f,%d,%.2f,%.2f,%.3f,%.3f,%.3f,%.2f,%.4f\n", one.kind.c_str(), one.from.c_str(),
-                  blowing, rms, lows, hop, f.low_db, f.high_db, f.voicing, f.tone, f.peaked, f.loudness_db,
-                  kernel.likeness());
+      std::printf("%s,%s,%d,%.3f,%.0f,%d,%.2f,%.2f,%.3f,%.3f,%.3f,%.2f,%.2f,%.3f,%.4f,%.2f,%.4f\n", one.kind.c_str(),
+                  one.from.c_str(), blowing, rms, lows, hop, f.low_db, f.high_db, f.voicing, f.tone, f.peaked,
+                  f.voice_db, f.newest_db, f.flutter_db, f.clipped, f.loudness_db, kernel.likeness());
   }
 }
 
 }  // namespace
 
 void print_features() {
-  std::printf("kind,from,blowing,rms,lows,hop,low,high,voicing,tone,peaked,loudness,likeness\n");
+  std::printf(
+      "kind,from,blowing,rms,lows,hop,low,high,voicing,tone,peaked,voice,newest,flutter,clipped,loudness,likeness\n");
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const double low = 500 + 100 * static_cast<double>(seed % 7);
     const double high = 2200 + 300 * static_cast<double>(seed % 5);
@@ -50,13 +51,20 @@ void print_features() {
     for (const KnownSound& one : breaths()) print(one, 1, 0.03, lows);
     for (KnownSound one : blows()) {
       print(one, 1, 0.5, lows);
+      print(one, 1, 1.5, lows);                                                                // the capsule overloads
       sounds::add(one.samples, sounds::steady_blowing(1, kSoundRate, 0.3, 7), 0, kSoundRate);  // a fan 10 dB below
       print(one, 1, 0.03, lows);
     }
     for (const KnownSound& one : puffs()) print(one, 1, 0.4, lows);
     for (const KnownSound& one : winds()) print(one, 1, 0.1, lows);
-    for (const KnownSound& one : recorded_puffs()) print(one, 1, 0.1, lows);
-    for (const KnownSound& one : other_sounds()) print(one, 0, 0.1, lows);
+    for (const KnownSound& one : recorded_puffs()) {
+      print(one, 1, 0.1, lows);
+      print(one, 1, 0.7, lows);
+    }
+    for (const KnownSound& one : other_sounds()) {
+      print(one, 0, 0.1, lows);
+      print(one, 0, 0.5, lows);
+    }
     for (const KnownSound& one : steady_sounds()) print(one, 0, 0.1, lows);
   }
 }

@@ -80,6 +80,21 @@ TEST(WindBridge, WindThatSwingsFastLosesNothing) {
   EXPECT_GT(mean(now, &WindFrame::wind, 1.2, 4.8), 0.95 * mean(now, &WindFrame::speed, 1.2, 4.8));
 }
 
+TEST(WindBridge, KnocksOnATableAreHardlyAnyWindLive) {
+  int frames_with_wind = 0;
+  float most = 0;
+  for (std::uint64_t seed = 31; seed < 35; ++seed) {
+    Samples sound = sounds::room(13, kRate, 3e-4);
+    sounds::add(sound, sounds::knocks(10, kRate, 0.4, seed), 2, kRate);
+    for (const WindFrame& frame : live(sound)) {
+      frames_with_wind += frame.wind > 0.3F;
+      most = std::max(most, frame.wind);
+    }
+  }
+  EXPECT_LT(frames_with_wind, 0.5 * 4 * 16);  // of 16 knocks each
+  EXPECT_LT(most, 0.9F);
+}
+
 /// Blowing from 1 to 3 s, a gust under one word from 4 to 5 s, and talk over blowing until the end.
 TEST(WindBridge, ARecordingReadsTheWindBetweenAVoicesHarmonics) {
   Samples sound = sounds::room(8, kRate, 1e-3);

@@ -140,9 +140,8 @@ CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> k
   return best;
 }
 
-CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points, bool place) {
+CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points) {
   CurveShape best = fit_pace(clouds, uniform_knots(points));
-  if (!place) return best;
   const double enough = std::min(kWorthwhile * best.misfit, best.misfit - kMinGain);
   const Density bend = bending(clouds);
   for (const double power : {0.5, 1.0}) {

@@ -28,9 +28,9 @@ struct CurveShape {
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots);
 
 /// The best knots found for `points` control points. Uniform knots unless others have a misfit lower by 2 % (and by 0.2
-/// % of the area), or where `place` is false.
+/// % of the area).
 ///
 /// Precondition: points >= 4; clouds is not empty and was made with an even pace.
-CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points, bool place);
+CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points);
 
 }  // namespace wisp

@@ -208,7 +208,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   survey_ = std::move(*survey);
   if (survey_->flames > 0) candle_ = look_of_candle(pictures, survey_->home);
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
-  cloud_options_.base = options_.base.value_or(survey_->flames > 0 ? BaseSide::kBottom : base_side(*survey_, area));
+  cloud_options_.base = survey_->flames > 0 ? BaseSide::kBottom : base_side(*survey_, area);
   seeker_.emplace(*survey_, area, cloud_options_.base, options_.dark);
   Samples samples = take_samples(pictures);
   tracker_.emplace(decide_shape(samples));
@@ -273,8 +273,8 @@ std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
       for (int k = 0; k < 3; ++k) options.landmarks[k] += cloud.shares[k] / static_cast<double>(clouds.size());
     }
     for (EdgeCloud& cloud : clouds) place_points(cloud, options);
-    CurveShape shape = options_.knots.empty() ? choose_shape(clouds, options_.points, options_.place_knots)
-                                              : fit_pace(clouds, options_.knots);
+    CurveShape shape =
+        options_.knots.empty() ? choose_shape(clouds, options_.points) : fit_pace(clouds, options_.knots);
     if (!best.knots.empty() && !worth_following(shape, best)) continue;
     best = std::move(shape);
     options.pace = best.pace;

@@ -104,8 +104,6 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
     const double score = static_cast<double>(region.area) * likeness;
     if (score <= best) continue;
     best = score;
-    moved.centre_x += place.x;
-    moved.centre_y += place.y;
     moved.seed_x += place.x;
     moved.seed_y += place.y;
     found_ = moved;

@@ -46,12 +46,8 @@ int RegionFinder::join(int a, int b) {
   if (a == b) return a;
   if (b < a) std::swap(a, b);
   parent_[b] = a;  // the older region is the root: its seed is higher
-  Sum& into = sums_[a];
-  const Sum& from = sums_[b];
-  into.region.box = enclosing(into.region.box, from.region.box);
-  into.region.area += from.region.area;
-  into.x += from.x;
-  into.y += from.y;
+  regions_[a].box = enclosing(regions_[a].box, regions_[b].box);
+  regions_[a].area += regions_[b].area;
   return a;
 }
 
@@ -70,20 +66,14 @@ void RegionFinder::find_runs(const std::uint8_t* row, int width, int level, std:
 int RegionFinder::new_region(const Run& run, int y) {
   const int region = static_cast<int>(parent_.size());
   parent_.push_back(region);
-  Sum sum;
-  sum.region.seed_x = run.begin;
-  sum.region.seed_y = y;
-  sums_.push_back(sum);
+  regions_.push_back({.box = {}, .seed_x = run.begin, .seed_y = y});
   return region;
 }
 
 void RegionFinder::add(int region, const Run& run, int y) {
-  Sum& sum = sums_[region];
   const int length = run.end - run.begin;
-  sum.region.area += length;
-  sum.region.box = enclosing(sum.region.box, {run.begin, y, length, 1});
-  sum.x += 0.5 * length * (run.begin + run.end - 1);
-  sum.y += static_cast<double>(length) * y;
+  regions_[region].area += length;
+  regions_[region].box = enclosing(regions_[region].box, {run.begin, y, length, 1});
 }
 
 void RegionFinder::connect(std::vector<Run>& runs, const std::vector<Run>& above, int y) {
@@ -100,7 +90,7 @@ void RegionFinder::connect(std::vector<Run>& runs, const std::vector<Run>& above
 
 std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int level, std::int64_t min_area) {
   parent_.clear();
-  sums_.clear();
+  regions_.clear();
   above_.clear();
   bright_.resize(image.width);
   for (int y = 0; y < image.height; ++y) {
@@ -109,12 +99,8 @@ std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int lev
     std::swap(runs_, above_);
   }
   found_.clear();
-  for (std::size_t k = 0; k < sums_.size(); ++k) {
-    Sum& sum = sums_[k];
-    if (parent_[k] != static_cast<int>(k) || sum.region.area < min_area) continue;
-    sum.region.centre_x = sum.x / static_cast<double>(sum.region.area);
-    sum.region.centre_y = sum.y / static_cast<double>(sum.region.area);
-    found_.push_back(sum.region);
+  for (std::size_t k = 0; k < regions_.size(); ++k) {
+    if (parent_[k] == static_cast<int>(k) && regions_[k].area >= min_area) found_.push_back(regions_[k]);
   }
   std::stable_sort(found_.begin(), found_.end(),
                    [](const BrightRegion& a, const BrightRegion& b) { return a.area > b.area; });

@@ -17,9 +17,7 @@ namespace wisp {
 struct BrightRegion {
   Region box;             ///< bounding box
   std::int64_t area = 0;  ///< number of bright pixels, without holes
-  double centre_x = 0;    ///< centre of gravity
-  double centre_y = 0;
-  int seed_x = 0;  ///< leftmost pixel of its first row, where its boundary starts
+  int seed_x = 0;         ///< leftmost pixel of its first row, where its boundary starts
   int seed_y = 0;
 };
 
@@ -50,16 +48,11 @@ class RegionFinder {
   int new_region(const Run& run, int y);
   void add(int region, const Run& run, int y);
 
-  struct Sum {
-    BrightRegion region;
-    double x = 0;
-    double y = 0;
-  };
   std::vector<std::uint8_t> bright_;
   std::vector<Run> runs_;
   std::vector<Run> above_;
   std::vector<int> parent_;
-  std::vector<Sum> sums_;
+  std::vector<BrightRegion> regions_;  // until all rows are seen
   std::vector<BrightRegion> found_;
 };
 

@@ -26,7 +26,7 @@ Plane spear(double lean) {
 std::vector<EdgeCloud> spears() { return {cloud_of(spear(-6), 118), cloud_of(spear(0), 118), cloud_of(spear(7), 118)}; }
 
 TEST(Knots, GatherWhereTheOutlineBends) {
-  const CurveShape uniform = choose_shape(spears(), 8, false), placed = choose_shape(spears(), 8, true);
+  const CurveShape uniform = fit_pace(spears(), uniform_knots(8)), placed = choose_shape(spears(), 8);
   EXPECT_EQ(uniform.knots, uniform_knots(8));
   EXPECT_TRUE(valid_knots(placed.knots));
   EXPECT_LT(placed.misfit, 0.8 * uniform.misfit);
@@ -41,18 +41,18 @@ TEST(Knots, StayUniformWhereNothingIsGained) {
   support::paint(plane, 230, 2.0,
                  [](double x, double y) { return std::min(80 - std::hypot(x - 100, y - 100), 100 - y); });
   const std::vector<EdgeCloud> clouds{cloud_of(plane, 118)};
-  EXPECT_EQ(choose_shape(clouds, 8, true).knots, uniform_knots(8));
+  EXPECT_EQ(choose_shape(clouds, 8).knots, uniform_knots(8));
 }
 
 TEST(Knots, MisfitIsAboutTheOverlapThatIsMissing) {
   const std::vector<EdgeCloud> clouds{cloud_of(support::flame_picture(Flame{}), 118)};
-  EXPECT_LT(choose_shape(clouds, 16, true).misfit, 0.02);
-  EXPECT_LT(choose_shape(clouds, 8, true).misfit, 0.05);
-  EXPECT_GT(choose_shape(clouds, 5, false).misfit, choose_shape(clouds, 8, false).misfit);
+  EXPECT_LT(choose_shape(clouds, 16).misfit, 0.02);
+  EXPECT_LT(choose_shape(clouds, 8).misfit, 0.05);
+  EXPECT_GT(fit_pace(clouds, uniform_knots(5)).misfit, fit_pace(clouds, uniform_knots(8)).misfit);
 }
 
 TEST(Knots, APaceAscendsFromNoughtToOne) {
-  const CurveShape shape = choose_shape(spears(), 8, true);
+  const CurveShape shape = choose_shape(spears(), 8);
   EXPECT_DOUBLE_EQ(shape.pace.front(), 0);
   EXPECT_DOUBLE_EQ(shape.pace.back(), 1);
   for (std::size_t k = 1; k < shape.pace.size(); ++k) EXPECT_GT(shape.pace[k], shape.pace[k - 1]);

@@ -25,9 +25,6 @@ struct OutlineCaptureOptions {
   bool dark = false;                    ///< the object is dark on a light background
   int flame = 1;                        ///< size rank of the flame to capture, 1 the largest; 0: any moving object
   Region region;                        ///< search region, pixels; empty: the whole picture
-  std::optional<BaseSide> base;         ///< side where the outline is open; none: the side that cuts it off, else
-                                        ///< bottom
-  bool place_knots = true;              ///< place knots where the outline bends, if that fits better than uniform knots
   std::vector<double> knots;            ///< full knot vector to use, of a model or an earlier capture; empty: estimated
   std::optional<bool> underside;        ///< include the underside, as with those knots; none: where it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
