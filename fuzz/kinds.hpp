@@ -12,7 +12,7 @@ namespace wisp::fuzz {
 
 inline const std::vector<Model>& kinds() {
   static const std::vector<Model> all = [] {
-    Model gaussian = flame_model({.points = 4, .wind = InputShape::kEvenOdd, .noise_rank = 1});
+    Model gaussian = flame_model({.points = 4, .wind = InputShape::kEvenOdd});
     gaussian.extinction.emplace();
     return std::vector<Model>{gaussian,
                               default_flame_model(),

@@ -125,28 +125,21 @@ class Gust:  # what the wind has changed of the velocity
         low, high = min(i["range"][0] for i in model["inputs"]), max(i["range"][1] for i in model["inputs"])
         unit = unit_of({"range": [min(low, 0), max(high, 0)]})
         axes = [d["gust"][name] for name in ("ground", "ground", "vertical")]
-        self.lags = [[(F(c), F(w * unit), F(4 * p * unit)) for c, w, p in zip(a["change"], a["wind"], a["press"])] for a in axes]
+        self.parts = [(F(a["change"]), F(a["wind"] * unit), F(4 * a["press"] * unit)) for a in axes]
         self.rest()
 
     def rest(self):
-        self.changes, self.winds, self.presses = ([np.zeros(3, F)] * len(self.lags[0]) for _ in range(3))
+        self.change = self.wind = np.zeros(3, F)
 
     def blow(self, wind, q):
-        if not any((abs(v) > F(1e-4)).any() for v in [wind, *self.changes, *self.winds]):
+        if not any((abs(v) > F(1e-4)).any() for v in (wind, self.change, self.wind)):
             return self.rest()
         normal_half = vector(q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1], F(0.5) - (q[1] * q[1] + q[2] * q[2]))
-        press = normal_half * dot(normal_half, wind - self.changes[0])
-        self.winds, self.presses = [wind] + self.winds[:-1], [press] + self.presses[:-1]
-        change = vector(0, 0, 0)
-        for axis in range(3):
-            for k, (kept, of_wind, of_press) in enumerate(self.lags[axis]):
-                part = kept * self.changes[k][axis]
-                change[axis] = part if k == 0 else change[axis] + part
-                change[axis] = change[axis] + of_wind * self.winds[k][axis]
-                change[axis] = change[axis] + of_press * self.presses[k][axis]
-        change = clamped(change, 1e3)
-        self.changes = [change] + self.changes[:-1]
-        return change
+        press = normal_half * dot(normal_half, wind - self.change)
+        change = vector(*(kept * self.change[k] + of_wind * wind[k] + of_press * press[k]
+                          for k, (kept, of_wind, of_press) in enumerate(self.parts)))
+        self.wind, self.change = wind, clamped(change, 1e3)
+        return self.change
 
 
 def play_chain(model, winds, seed=1, noise=True):

@@ -90,7 +90,7 @@ def play(model, winds, seed=1, noise=True):
         if "shock" in mode:
             shocks = list(enumerate(mode["shock"][i][: i + 1]))
         else:
-            shocks = [(i, d["noise"]["sd"][i])] + list(enumerate(d["noise"]["mixing"][i], ny))
+            shocks = [(i, d["noise"]["sd"][i])]
         return kept(mode["constant"][i] / unit[i]), [(kept(w), c, lag) for w, c, lag in taps], \
             [(kept(size / unit[i]), k) for k, size in shocks]
 

@@ -187,7 +187,6 @@ typedef struct wisp_arx_facts {
   uint32_t outputs;    /* rows of the matrices of orders */
   uint32_t regressors; /* number of inputs of the dynamics */
   uint32_t history;    /* largest lag, steps */
-  uint32_t shocks;     /* number of noise sources shared among outputs */
   uint32_t resamples;  /* 1 if recorded residuals are replayed, 0 if the noise is Gaussian */
 } wisp_arx_facts;
 

@@ -171,7 +171,6 @@ wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
     return hand_out(wisp_arx_facts{.outputs = static_cast<uint32_t>(arx.orders.outputs()),
                                    .regressors = static_cast<uint32_t>(arx.orders.inputs()),
                                    .history = static_cast<uint32_t>(arx.orders.history()),
-                                   .shocks = static_cast<uint32_t>(arx.noise.rank),
                                    .resamples = arx.noise.resampled.empty() ? 0U : 1U},
                     facts);
   });
@@ -199,7 +198,7 @@ wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* fact
     return hand_out(wisp_chain_facts{.modes = static_cast<uint32_t>(chain.modes),
                                      .segments = static_cast<uint32_t>(chain.segments.size()),
                                      .history = static_cast<uint32_t>(chain.history),
-                                     .gust_order = chain.gust ? static_cast<uint32_t>(chain.gust->order()) : 0,
+                                     .gust_order = chain.gust ? 1U : 0U,
                                      .heading_free = chain.heading_free ? 1U : 0U},
                     facts);
   });

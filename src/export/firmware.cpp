@@ -50,7 +50,6 @@ void add_mode(const ArxModel& arx, double shock, Lamp& lamp) {
 
 void add_only_mode(const ArxModel& arx, Lamp& lamp) {
   double square = arx.noise.sd.empty() ? 0 : arx.noise.sd[0] * arx.noise.sd[0];
-  for (const double each : arx.noise.mixing) square += each * each;
   if (const auto& resampled = arx.noise.resampled; !resampled.empty()) {
     std::vector<double> rows(resampled.rows.begin(), resampled.rows.end());
     for (double& row : rows) row *= resampled.scale[0];

@@ -32,7 +32,6 @@ void add_noise(const ResidualNoise& noise, ReportSection& section) {
   for (const auto& interval : noise.sd_ci95) intervals.push_back(list(interval));
   add(section, id + "sd", noise.sd);
   add(section, id + "sd_ci95", std::move(intervals));
-  add(section, id + "mixing", rows(noise.mixing, static_cast<std::size_t>(noise.rank), noise.sd.size()));
   const ResampledResiduals& resampled = noise.resampled;
   if (resampled.empty()) return add(section, id + "resampled", {});
   const std::string to = id + "resampled.";

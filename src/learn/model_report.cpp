@@ -60,7 +60,6 @@ void add_dynamics(const ArxModel& arx, ReportSection& section) {
   const double radius = spectral_radius(arx);
   add(section, "dynamics.kind", "arx");
   add_orders(arx.orders, section);
-  add(section, "dynamics.noise_rank", arx.noise.rank);
   add(section, "dynamics.radius", radius);
   add(section, "", "arx, " + samples(arx.orders.history()) + ", spectral radius " + number_text(radius, 5), "dynamics");
   arx::describe(arx, "dynamics.", section);

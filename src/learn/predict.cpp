@@ -69,7 +69,7 @@ Recording table_of(const Recording& measured, const ChannelChoice& channels, con
   return out;
 }
 
-Series sd_of(const ArxModel& arx, int steps) { return prediction_sd(arx, {}, steps == kFreeRun ? kSettled : steps); }
+Series sd_of(const ArxModel& arx, int steps) { return prediction_sd(arx, steps == kFreeRun ? kSettled : steps); }
 
 Result<Recording> predict_plain(const Model& model, const Recording& measured, const PredictionOptions& options) {
   const auto prepared = prepare(measured, model.training.preparation);
@@ -138,10 +138,7 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
                  ": is a segment chain, which lives by chance and predicts no row; wisp validate compares "
                  "how it lives"};
   }
-  if (options.steps < 0 || options.steps > 100'000) {
-    return Error{"predictions were requested " + std::to_string(options.steps) +
-                 " steps ahead, expected 1 to 100000, or free"};
-  }
+  if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
   const bool outline = std::holds_alternative<OutlineView>(model.view);
   if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) return predict_modes(model, recording, options);
   return outline ? predict_outline(model, recording, options) : predict_plain(model, recording, options);

@@ -305,30 +305,15 @@ std::vector<Number> copied(const fb::Vector<Number>* values) {
   return out;
 }
 
-std::vector<double> joined(const std::vector<double>& ground, const std::vector<double>& vertical) {
-  std::vector<double> both = ground;
-  both.insert(both.end(), vertical.begin(), vertical.end());
-  return both;
-}
-
 fb::Offset<file::GustResponse> write_gust(fb::FlatBufferBuilder& builder, const GustResponse& gust) {
-  const auto change = builder.CreateVector(joined(gust.ground.change, gust.vertical.change));
-  const auto wind = builder.CreateVector(joined(gust.ground.wind, gust.vertical.wind));
-  const auto press = builder.CreateVector(joined(gust.ground.press, gust.vertical.press));
-  return file::CreateGustResponse(builder, change, wind, press);
+  const auto stored = [](const GustResponse::Axis& axis) { return file::GustAxis(axis.change, axis.wind, axis.press); };
+  const file::GustAxis ground = stored(gust.ground), vertical = stored(gust.vertical);
+  return file::CreateGustResponse(builder, &ground, &vertical);
 }
 
 GustResponse read_gust(const file::GustResponse& stored) {
-  GustResponse gust;
-  const auto split = [](const std::vector<double>& both, std::vector<double>& ground, std::vector<double>& vertical) {
-    const auto middle = both.begin() + static_cast<long>(both.size() / 2);
-    ground.assign(both.begin(), middle);
-    vertical.assign(middle, both.end());
-  };
-  split(copied(stored.change()), gust.ground.change, gust.vertical.change);
-  split(copied(stored.wind()), gust.ground.wind, gust.vertical.wind);
-  split(copied(stored.press()), gust.ground.press, gust.vertical.press);
-  return gust;
+  const auto axis = [](const file::GustAxis& of) { return GustResponse::Axis{of.change(), of.wind(), of.press()}; };
+  return {axis(*stored.ground()), axis(*stored.vertical())};
 }
 
 fb::Offset<file::ChainDrift> write_drift(fb::FlatBufferBuilder& builder, const ChainDrift& drift) {

@@ -55,7 +55,6 @@ void turn_dynamics(ArxModel& arx, const Places& places) {
   arx.input_mean.resize(static_cast<std::size_t>(arx.orders.inputs()), 0.0);
   repeat_last(arx.noise.sd, vectors);
   repeat_last(arx.noise.sd_ci95, vectors);
-  arx.noise.mixing.resize(arx.noise.mixing.size() + vectors * static_cast<std::size_t>(arx.noise.rank), 0.0);
   arx.noise.resampled.across = places.vectors;
 }
 

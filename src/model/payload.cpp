@@ -62,10 +62,8 @@ fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
   const auto input_mean = builder.CreateVector(arx.input_mean);
   const auto sd = builder.CreateVector(arx.noise.sd);
   const auto ci = optional_vector(builder, joined(arx.noise.sd_ci95));
-  const auto mixing = optional_vector(builder, arx.noise.mixing);
   const auto resampled = write_resampled(builder, arx.noise.resampled);
-  return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci,
-                         static_cast<std::uint16_t>(arx.noise.rank), mixing, resampled);
+  return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci, resampled);
 }
 
 fb::Offset<file::ArxMode> write_mode(Builder& builder, const ArxMode& mode) {
@@ -217,8 +215,6 @@ ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
 
 Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
   noise.sd = numbers(stored.noise_sd());
-  noise.rank = stored.noise_rank();
-  noise.mixing = numbers(stored.noise_mixing());
   if (stored.noise_resampled()) noise.resampled = read_resampled(*stored.noise_resampled());
   const std::vector<double> ci = numbers(stored.noise_sd_ci95());
   if (!ci.empty() && ci.size() != 2 * noise.sd.size())

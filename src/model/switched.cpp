@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <string>
 
@@ -67,9 +68,10 @@ ArxModel mode_model(const SwitchedArxModel& model, std::size_t mode) {
   const ArxMode& of = model.modes[mode];
   const auto ny = static_cast<std::size_t>(std::max(0, model.orders.outputs()));
   ArxModel arx{model.orders, of.theta, of.std_error, of.constant, model.output_mean, model.input_mean, {}};
-  arx.noise.sd.assign(ny, 0.0);
-  arx.noise.rank = static_cast<int>(ny);
-  arx.noise.mixing = of.shock;
+  for (std::size_t i = 0; i < ny && (i + 1) * ny <= of.shock.size(); ++i) {
+    const auto row = of.shock.begin() + static_cast<std::ptrdiff_t>(i * ny);
+    arx.noise.sd.push_back(std::sqrt(std::inner_product(row, row + static_cast<std::ptrdiff_t>(ny), row, 0.0)));
+  }
   return arx;
 }
 

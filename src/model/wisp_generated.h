@@ -28,6 +28,8 @@ struct ResampledResidualsBuilder;
 struct Arx;
 struct ArxBuilder;
 
+struct GustAxis;
+
 struct GustResponse;
 struct GustResponseBuilder;
 
@@ -330,6 +332,40 @@ inline const char *EnumNameUnderside(Underside e) {
   const size_t index = static_cast<size_t>(e);
   return EnumNamesUnderside()[index];
 }
+
+FLATBUFFERS_MANUALLY_ALIGNED_STRUCT(8) GustAxis FLATBUFFERS_FINAL_CLASS {
+ private:
+  double change_;
+  double wind_;
+  double press_;
+
+ public:
+  struct Traits;
+  GustAxis()
+      : change_(0),
+        wind_(0),
+        press_(0) {
+  }
+  GustAxis(double _change, double _wind, double _press)
+      : change_(flatbuffers::EndianScalar(_change)),
+        wind_(flatbuffers::EndianScalar(_wind)),
+        press_(flatbuffers::EndianScalar(_press)) {
+  }
+  double change() const {
+    return flatbuffers::EndianScalar(change_);
+  }
+  double wind() const {
+    return flatbuffers::EndianScalar(wind_);
+  }
+  double press() const {
+    return flatbuffers::EndianScalar(press_);
+  }
+};
+FLATBUFFERS_STRUCT_END(GustAxis, 24);
+
+struct GustAxis::Traits {
+  using type = GustAxis;
+};
 
 struct Input FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef InputBuilder Builder;
@@ -751,9 +787,7 @@ struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_INPUT_MEAN = 18,
     VT_NOISE_SD = 20,
     VT_NOISE_SD_CI95 = 22,
-    VT_NOISE_RANK = 24,
-    VT_NOISE_MIXING = 26,
-    VT_NOISE_RESAMPLED = 28
+    VT_NOISE_RESAMPLED = 24
   };
   const flatbuffers::Vector<uint16_t> *na() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_NA);
@@ -785,12 +819,6 @@ struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *noise_sd_ci95() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_NOISE_SD_CI95);
   }
-  uint16_t noise_rank() const {
-    return GetField<uint16_t>(VT_NOISE_RANK, 0);
-  }
-  const flatbuffers::Vector<double> *noise_mixing() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_NOISE_MIXING);
-  }
   const wisp::file::ResampledResiduals *noise_resampled() const {
     return GetPointer<const wisp::file::ResampledResiduals *>(VT_NOISE_RESAMPLED);
   }
@@ -816,9 +844,6 @@ struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(noise_sd()) &&
            VerifyOffset(verifier, VT_NOISE_SD_CI95) &&
            verifier.VerifyVector(noise_sd_ci95()) &&
-           VerifyField<uint16_t>(verifier, VT_NOISE_RANK, 2) &&
-           VerifyOffset(verifier, VT_NOISE_MIXING) &&
-           verifier.VerifyVector(noise_mixing()) &&
            VerifyOffset(verifier, VT_NOISE_RESAMPLED) &&
            verifier.VerifyTable(noise_resampled()) &&
            verifier.EndTable();
@@ -859,12 +884,6 @@ struct ArxBuilder {
   void add_noise_sd_ci95(flatbuffers::Offset<flatbuffers::Vector<double>> noise_sd_ci95) {
     fbb_.AddOffset(Arx::VT_NOISE_SD_CI95, noise_sd_ci95);
   }
-  void add_noise_rank(uint16_t noise_rank) {
-    fbb_.AddElement<uint16_t>(Arx::VT_NOISE_RANK, noise_rank, 0);
-  }
-  void add_noise_mixing(flatbuffers::Offset<flatbuffers::Vector<double>> noise_mixing) {
-    fbb_.AddOffset(Arx::VT_NOISE_MIXING, noise_mixing);
-  }
   void add_noise_resampled(flatbuffers::Offset<wisp::file::ResampledResiduals> noise_resampled) {
     fbb_.AddOffset(Arx::VT_NOISE_RESAMPLED, noise_resampled);
   }
@@ -899,12 +918,9 @@ inline flatbuffers::Offset<Arx> CreateArx(
     flatbuffers::Offset<flatbuffers::Vector<double>> input_mean = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> noise_sd = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> noise_sd_ci95 = 0,
-    uint16_t noise_rank = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> noise_mixing = 0,
     flatbuffers::Offset<wisp::file::ResampledResiduals> noise_resampled = 0) {
   ArxBuilder builder_(_fbb);
   builder_.add_noise_resampled(noise_resampled);
-  builder_.add_noise_mixing(noise_mixing);
   builder_.add_noise_sd_ci95(noise_sd_ci95);
   builder_.add_noise_sd(noise_sd);
   builder_.add_input_mean(input_mean);
@@ -915,7 +931,6 @@ inline flatbuffers::Offset<Arx> CreateArx(
   builder_.add_nk(nk);
   builder_.add_nb(nb);
   builder_.add_na(na);
-  builder_.add_noise_rank(noise_rank);
   return builder_.Finish();
 }
 
@@ -936,8 +951,6 @@ inline flatbuffers::Offset<Arx> CreateArxDirect(
     const std::vector<double> *input_mean = nullptr,
     const std::vector<double> *noise_sd = nullptr,
     const std::vector<double> *noise_sd_ci95 = nullptr,
-    uint16_t noise_rank = 0,
-    const std::vector<double> *noise_mixing = nullptr,
     flatbuffers::Offset<wisp::file::ResampledResiduals> noise_resampled = 0) {
   auto na__ = na ? _fbb.CreateVector<uint16_t>(*na) : 0;
   auto nb__ = nb ? _fbb.CreateVector<uint16_t>(*nb) : 0;
@@ -949,7 +962,6 @@ inline flatbuffers::Offset<Arx> CreateArxDirect(
   auto input_mean__ = input_mean ? _fbb.CreateVector<double>(*input_mean) : 0;
   auto noise_sd__ = noise_sd ? _fbb.CreateVector<double>(*noise_sd) : 0;
   auto noise_sd_ci95__ = noise_sd_ci95 ? _fbb.CreateVector<double>(*noise_sd_ci95) : 0;
-  auto noise_mixing__ = noise_mixing ? _fbb.CreateVector<double>(*noise_mixing) : 0;
   return wisp::file::CreateArx(
       _fbb,
       na__,
@@ -962,8 +974,6 @@ inline flatbuffers::Offset<Arx> CreateArxDirect(
       input_mean__,
       noise_sd__,
       noise_sd_ci95__,
-      noise_rank,
-      noise_mixing__,
       noise_resampled);
 }
 
@@ -971,27 +981,19 @@ struct GustResponse FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef GustResponseBuilder Builder;
   struct Traits;
   enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
-    VT_CHANGE = 4,
-    VT_WIND = 6,
-    VT_PRESS = 8
+    VT_GROUND = 4,
+    VT_VERTICAL = 6
   };
-  const flatbuffers::Vector<double> *change() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_CHANGE);
+  const wisp::file::GustAxis *ground() const {
+    return GetStruct<const wisp::file::GustAxis *>(VT_GROUND);
   }
-  const flatbuffers::Vector<double> *wind() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_WIND);
-  }
-  const flatbuffers::Vector<double> *press() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_PRESS);
+  const wisp::file::GustAxis *vertical() const {
+    return GetStruct<const wisp::file::GustAxis *>(VT_VERTICAL);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
-           VerifyOffsetRequired(verifier, VT_CHANGE) &&
-           verifier.VerifyVector(change()) &&
-           VerifyOffsetRequired(verifier, VT_WIND) &&
-           verifier.VerifyVector(wind()) &&
-           VerifyOffsetRequired(verifier, VT_PRESS) &&
-           verifier.VerifyVector(press()) &&
+           VerifyFieldRequired<wisp::file::GustAxis>(verifier, VT_GROUND, 8) &&
+           VerifyFieldRequired<wisp::file::GustAxis>(verifier, VT_VERTICAL, 8) &&
            verifier.EndTable();
   }
 };
@@ -1000,14 +1002,11 @@ struct GustResponseBuilder {
   typedef GustResponse Table;
   flatbuffers::FlatBufferBuilder &fbb_;
   flatbuffers::uoffset_t start_;
-  void add_change(flatbuffers::Offset<flatbuffers::Vector<double>> change) {
-    fbb_.AddOffset(GustResponse::VT_CHANGE, change);
+  void add_ground(const wisp::file::GustAxis *ground) {
+    fbb_.AddStruct(GustResponse::VT_GROUND, ground);
   }
-  void add_wind(flatbuffers::Offset<flatbuffers::Vector<double>> wind) {
-    fbb_.AddOffset(GustResponse::VT_WIND, wind);
-  }
-  void add_press(flatbuffers::Offset<flatbuffers::Vector<double>> press) {
-    fbb_.AddOffset(GustResponse::VT_PRESS, press);
+  void add_vertical(const wisp::file::GustAxis *vertical) {
+    fbb_.AddStruct(GustResponse::VT_VERTICAL, vertical);
   }
   explicit GustResponseBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -1016,22 +1015,19 @@ struct GustResponseBuilder {
   flatbuffers::Offset<GustResponse> Finish() {
     const auto end = fbb_.EndTable(start_);
     auto o = flatbuffers::Offset<GustResponse>(end);
-    fbb_.Required(o, GustResponse::VT_CHANGE);
-    fbb_.Required(o, GustResponse::VT_WIND);
-    fbb_.Required(o, GustResponse::VT_PRESS);
+    fbb_.Required(o, GustResponse::VT_GROUND);
+    fbb_.Required(o, GustResponse::VT_VERTICAL);
     return o;
   }
 };
 
 inline flatbuffers::Offset<GustResponse> CreateGustResponse(
     flatbuffers::FlatBufferBuilder &_fbb,
-    flatbuffers::Offset<flatbuffers::Vector<double>> change = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> wind = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> press = 0) {
+    const wisp::file::GustAxis *ground = nullptr,
+    const wisp::file::GustAxis *vertical = nullptr) {
   GustResponseBuilder builder_(_fbb);
-  builder_.add_press(press);
-  builder_.add_wind(wind);
-  builder_.add_change(change);
+  builder_.add_vertical(vertical);
+  builder_.add_ground(ground);
   return builder_.Finish();
 }
 
@@ -1039,21 +1035,6 @@ struct GustResponse::Traits {
   using type = GustResponse;
   static auto constexpr Create = CreateGustResponse;
 };
-
-inline flatbuffers::Offset<GustResponse> CreateGustResponseDirect(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    const std::vector<double> *change = nullptr,
-    const std::vector<double> *wind = nullptr,
-    const std::vector<double> *press = nullptr) {
-  auto change__ = change ? _fbb.CreateVector<double>(*change) : 0;
-  auto wind__ = wind ? _fbb.CreateVector<double>(*wind) : 0;
-  auto press__ = press ? _fbb.CreateVector<double>(*press) : 0;
-  return wisp::file::CreateGustResponse(
-      _fbb,
-      change__,
-      wind__,
-      press__);
-}
 
 struct ChainDrift FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef ChainDriftBuilder Builder;

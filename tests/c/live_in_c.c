@@ -58,7 +58,7 @@ const char* account_of_a_flame(const void* bytes, size_t size) {
   EXPECT(wind.lowest == -1 && wind.highest == 1 && wind.splits_sign == 1);
   arx.size = sizeof arx;
   EXPECT(wisp_model_get_arx(model, &arx) == WISP_OK);
-  EXPECT(arx.outputs == 16 && arx.regressors == 6 && arx.shocks == 2 && arx.resamples == 0 && arx.history == 4);
+  EXPECT(arx.outputs == 16 && arx.regressors == 6 && arx.resamples == 0 && arx.history == 4);
   EXPECT(wisp_model_arx_na(model, na, 256) == WISP_OK && na[0] == 4 && na[1] == 4 && na[2] == 0 && na[255] == 4);
   EXPECT(wisp_model_arx_nb(model, nb, 96) == WISP_OK && nb[0] == 0 && nb[3] == 4 && nb[6] == 4);
   EXPECT(wisp_model_arx_nk(model, nk, 96) == WISP_OK && nk[0] == 0);
@@ -89,7 +89,7 @@ const char* account_of_a_leaf(const void* bytes, size_t size) {
   chain.size = sizeof chain;
   EXPECT(wisp_model_get_chain(model, &chain) == WISP_OK);
   EXPECT(chain.modes == 2 && chain.segments == 3 && chain.history == 2);
-  EXPECT(chain.gust_order == 2 && chain.heading_free == 1);
+  EXPECT(chain.gust_order == 1 && chain.heading_free == 1);
   EXPECT(wisp_model_chain_initial(model, initial, 2) == WISP_OK && initial[0] == 0.75 && initial[1] == 0.25);
   EXPECT(wisp_model_chain_transitions(model, transitions, 4) == WISP_OK && transitions[1] == 0.75);
   EXPECT(wisp_model_chain_segments(model, modes, steps, 3) == WISP_OK);

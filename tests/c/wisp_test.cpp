@@ -119,7 +119,7 @@ TEST(C, WhatAModelDoesNotHaveIsABadArgument) {
 }
 
 Model made_up_flame() {
-  Model model = flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 2});
+  Model model = flame_model({.wind = InputShape::kEvenOdd});
   model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 2, .recovery = 0.3};
   model.training = {"wisp 0.1.0", {"clip.mp4"}, {{"order", "4"}}, {{"fit", 61.5}}, {true, "made up"}};
   return model;
@@ -128,8 +128,8 @@ Model made_up_flame() {
 Model made_up_leaf() {
   Model model = sample_chain();
   GustResponse gust;
-  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.125, 0.0}};
-  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.25, 0.0}};
+  gust.ground = {0.75, 0.25, 0.125};
+  gust.vertical = {0.5, 0.125, 0.25};
   std::get<ChainModel>(model.dynamics).gust = gust;
   for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -2, 2});
   model.name = "made-up leaf";

@@ -81,8 +81,6 @@ ArxModel arx_of(const Json& json) {
   const Json& noise = json["noise"];
   put(noise["sd"], arx.noise.sd);
   put(noise["sd_ci95"], arx.noise.sd_ci95);
-  put(json["noise_rank"], arx.noise.rank);
-  arx.noise.mixing = flat<double>(noise["mixing"]);
   arx.noise.resampled = resampled_of(noise["resampled"]);
   return arx;
 }
@@ -236,7 +234,7 @@ TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
   for (const char* name : {"flame-2", "flame-6", "leaf"}) {
     expect_complete(std::string(WISP_SOURCE_DIR "/apps/web/public/models/") + name + ".wisp");
   }
-  const FlameOptions mirrored{.points = 4, .wind = InputShape::kEvenOdd, .noise_rank = 2, .resampled_rows = 60};
+  const FlameOptions mirrored{.points = 4, .wind = InputShape::kEvenOdd, .resampled_rows = 60};
   for (const Model& model : {bounded_chain(), steered_chain(), flame_model(mirrored)}) {
     ASSERT_TRUE(write_model(at("m.wisp"), model));
     expect_complete(at("m.wisp"));
@@ -290,7 +288,7 @@ TEST_F(InfoPlayed, GaussianAndSwitchedModelsInPythonAreRunsToTheBit) {
 }
 
 TEST_F(InfoPlayed, PowersOfAnInputAndLargeRangesToo) {
-  Model model = flame_model({.points = 4, .wind = InputShape::kEvenOdd, .noise_rank = 2});
+  Model model = flame_model({.points = 4, .wind = InputShape::kEvenOdd});
   model.inputs[0].lowest = -300;
   model.inputs[0].highest = 300;
   ASSERT_TRUE(write_model(at("m.wisp"), model));

@@ -287,27 +287,10 @@ TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
 
 TEST(ChainModel, ResponsesToGustsThatAreNoneAreRefusedWithAReason) {
   const std::vector<std::pair<std::string, std::function<void(GustResponse&)>>> broken = {
-      {"order 0", [](GustResponse& g) { g = {}; }},
-      {"order 5",
-       [](GustResponse& g) {
-         for (auto* axis : {&g.ground, &g.vertical}) axis->change = axis->wind = axis->press = {0, 0, 0, 0, 0};
-       }},
-      {"hold 1, expected 2", [](GustResponse& g) { g.ground.press.pop_back(); }},
-      {"hold 3, expected 2", [](GustResponse& g) { g.vertical.wind.push_back(0); }},
-      {"coefficient", [](GustResponse& g) { g.vertical.wind[1] = 1001; }},
-      {"coefficient", [](GustResponse& g) { g.ground.press[0] = std::numeric_limits<double>::quiet_NaN(); }},
-      {"never dies away",
-       [](GustResponse& g) {
-         g.ground.change = {1, 0};
-       }},
-      {"never dies away",
-       [](GustResponse& g) {
-         g.vertical.change = {1.5, -1};
-       }},
-      {"never dies away",
-       [](GustResponse& g) {
-         g.vertical.change = {1.9, -0.8};
-       }},  // poles 1.27 and 0.63
+      {"coefficient", [](GustResponse& g) { g.vertical.wind = 1001; }},
+      {"coefficient", [](GustResponse& g) { g.ground.press = std::numeric_limits<double>::quiet_NaN(); }},
+      {"never dies away", [](GustResponse& g) { g.ground.change = 1; }},
+      {"never dies away", [](GustResponse& g) { g.vertical.change = -1.5; }},
   };
   for (const auto& [word, harm] : broken) {
     Model model = windy_chain();
@@ -316,18 +299,9 @@ TEST(ChainModel, ResponsesToGustsThatAreNoneAreRefusedWithAReason) {
     ASSERT_FALSE(ok) << word;
     EXPECT_THAT(ok.error().message, HasSubstr(word));
   }
-  Model least = windy_chain(), most = windy_chain();
-  for (auto* axis : {&chain(least).gust->ground, &chain(least).gust->vertical}) {
-    axis->change = {0.999};
-    axis->wind = {-1000};
-    axis->press = {1000};
-  }
-  for (auto* axis : {&chain(most).gust->ground, &chain(most).gust->vertical}) {
-    axis->change = {1.9, -0.95, 0, 0};  // a pair of radius 0.975
-    axis->wind = axis->press = {1, 2, 3, 4};
-  }
-  EXPECT_TRUE(check(least));
-  EXPECT_TRUE(check(most));
+  Model edge = windy_chain();
+  for (auto* axis : {&chain(edge).gust->ground, &chain(edge).gust->vertical}) *axis = {0.999, -1000, 1000};
+  EXPECT_TRUE(check(edge));
 }
 
 TEST(ChainModel, TransitionsAreThoseAfterOneMode) {

@@ -38,7 +38,6 @@ void expect_same(const Model& a, const Model& b) {
   expect_same_coefficients(x, y);
   EXPECT_EQ(x.noise.sd, y.noise.sd);
   EXPECT_EQ(x.noise.sd_ci95, y.noise.sd_ci95);
-  EXPECT_EQ(x.noise.mixing, y.noise.mixing);
   EXPECT_EQ(a.rate_hz, b.rate_hz);
   EXPECT_EQ(a.inputs.at(0).shape, b.inputs.at(0).shape);
   EXPECT_EQ(a.outputs.at(3).name, b.outputs.at(3).name);
@@ -64,8 +63,6 @@ Model shaped_model() {
   arx.std_error.clear();
   arx.constant = arx.output_mean = arx.noise.sd = {0, 0.5, 1};
   arx.noise.sd_ci95.clear();
-  arx.noise.rank = 0;
-  arx.noise.mixing.clear();
   ShapeComponents& shape = std::get<OutlineView>(model.view).shape;
   shape.symmetric = 2;
   shape.antisymmetric = 1;

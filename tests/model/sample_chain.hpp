@@ -97,8 +97,8 @@ inline Model unblended() {
 inline Model windy_chain() {
   Model model = steered_chain();
   GustResponse gust;
-  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.0, 0.0}};
-  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.0, 0.0}};
+  gust.ground = {0.75, 0.25, 0};
+  gust.vertical = {0.75, 0.25, 0};
   std::get<ChainModel>(model.dynamics).gust = gust;
   for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -3, 3});
   return model;

@@ -30,8 +30,6 @@ inline Model sample_model() {
     arx.noise.sd_ci95.push_back({0.009, 0.02});
   }
   arx.input_mean = {0.25, 0.125, 0.5, 0, 0.25, 0.125};
-  arx.noise.rank = 1;
-  arx.noise.mixing.assign(kOutputs, 0.002);
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(4), 0.03, 200};
   model.training = {

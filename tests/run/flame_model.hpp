@@ -16,7 +16,6 @@ namespace wisp {
 struct FlameOptions {
   int points = 8;
   InputShape wind = InputShape::kLinear;
-  int noise_rank = 0;
   int resampled_rows = 0;  ///< of residuals to play instead, in two stretches; 0: the noise is Gaussian
 };
 
@@ -78,10 +77,8 @@ inline Model flame_model(const FlameOptions& options = {}) {
     arx.constant.push_back(0);
     arx.output_mean.push_back(mean);
     arx.noise.sd.push_back(x_row ? 0.006 : 0.008);
-    for (int r = 0; r < options.noise_rank; ++r) arx.noise.mixing.push_back(0.002 * (1 + r) - 0.0005 * (i % 3));
   }
   arx.input_mean.assign(regressors, 0.1);
-  arx.noise.rank = options.noise_rank;
   if (options.resampled_rows > 0) {
     arx.noise.resampled = resampled_flame_residuals(outputs, options.resampled_rows, has_powers(options.wind));
   }

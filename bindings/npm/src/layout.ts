@@ -31,7 +31,7 @@ export const note = { size: 16, name: 8, value: 12 } as const;
 
 export const figure = { size: 24, name: 8, value: 16 } as const;
 
-export const arxFacts = { size: 24, outputs: 4, regressors: 8, history: 12, shocks: 16, resamples: 20 } as const;
+export const arxFacts = { size: 20, outputs: 4, regressors: 8, history: 12, resamples: 16 } as const;
 
 export const chainFacts = {
   size: 24,

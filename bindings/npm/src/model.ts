@@ -65,8 +65,6 @@ export interface ArxFacts {
   regressors: number;
   /** Longest lag, in steps. */
   history: number;
-  /** Number of noise sources shared by outputs. */
-  shocks: number;
   /** Whether noise is resampled from recorded residuals, larger in wind. */
   resamples: boolean;
   /** Standard deviation of each output's own noise. */
@@ -196,7 +194,6 @@ export class Model {
       outputs: data.getUint32(p + at.arxFacts.outputs, true),
       regressors: data.getUint32(p + at.arxFacts.regressors, true),
       history: data.getUint32(p + at.arxFacts.history, true),
-      shocks: data.getUint32(p + at.arxFacts.shocks, true),
       resamples: data.getUint32(p + at.arxFacts.resamples, true) === 1,
     }));
     const { outputs } = facts;

@@ -50,12 +50,11 @@ WISP_SIZE(wisp_figure, 24);
 WISP_FIELD(wisp_figure, name, 8);
 WISP_FIELD(wisp_figure, value, 16);
 
-WISP_SIZE(wisp_arx_facts, 24);
+WISP_SIZE(wisp_arx_facts, 20);
 WISP_FIELD(wisp_arx_facts, outputs, 4);
 WISP_FIELD(wisp_arx_facts, regressors, 8);
 WISP_FIELD(wisp_arx_facts, history, 12);
-WISP_FIELD(wisp_arx_facts, shocks, 16);
-WISP_FIELD(wisp_arx_facts, resamples, 20);
+WISP_FIELD(wisp_arx_facts, resamples, 16);
 
 WISP_SIZE(wisp_chain_facts, 24);
 WISP_FIELD(wisp_chain_facts, modes, 4);

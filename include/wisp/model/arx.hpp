@@ -90,12 +90,10 @@ inline constexpr std::size_t kMaxResampledLags = 16;
 /// Largest number of rows that residuals are drawn from.
 inline constexpr std::size_t kMaxResampledRows = std::size_t{1} << 22;
 
-/// Residual noise e(t) = diag(sd) w(t) + mixing v(t), w and v independent standard normal.
+/// Residual noise e(t) = diag(sd) w(t), w independent standard normal.
 struct ResidualNoise {
   std::vector<double> sd;                      ///< standard deviation per output, in the output's unit
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
-  int rank = 0;                                ///< number of columns of `mixing`: shocks shared among outputs
-  std::vector<double> mixing;                  ///< ny × rank, row-major
   ResampledResiduals resampled;                ///< if it has rows, they are e(t), and the rest only describes them
 };
 

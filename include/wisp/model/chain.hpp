@@ -54,24 +54,20 @@ struct ChainSegments {
 };
 
 /// Effect of wind on the velocity of a chain's body: v_windy − v_calm = F(wind, attitude), an autoregression with
-/// exogenous inputs. Regressors are lags 1 … n of the change itself, lags 0 … n−1 of the wind and of the normal wind:
-/// the component along the body's normal n, n (n·u), of the wind u relative to the body's changed velocity. If the
-/// coefficients of change and wind sum to 1, a steady wind carries the body along with it at any attitude, as a change
-/// of frame demands. The response is isotropic in the horizontal plane, so that one set of coefficients holds for x and
-/// y and turns with the heading; z has its own.
+/// exogenous inputs. Regressors are the change one step before, the wind and the normal wind: the component along the
+/// body's normal n, n (n·u), of the wind u relative to the body's changed velocity. If the coefficients of change and
+/// wind sum to 1, a steady wind carries the body along with it at any attitude, as a change of frame demands. The
+/// response is isotropic in the horizontal plane, so that one set of coefficients holds for x and y and turns with the
+/// heading; z has its own.
 struct GustResponse {
   struct Axis {
-    std::vector<double> change;
-    std::vector<double> wind;
-    std::vector<double> press;  ///< coefficients of the normal wind; zeros for a chain without orientation
+    double change = 0;
+    double wind = 0;
+    double press = 0;  ///< coefficient of the normal wind; 0 for a chain without orientation
   };
   Axis ground;    ///< coefficients of x and of y
   Axis vertical;  ///< coefficients of z
-
-  int order() const { return static_cast<int>(ground.change.size()); }
 };
-
-inline constexpr int kMaxGustOrder = 4;
 
 /// Predicted displacement of a walk given its present segment; steering weights successors by it. A time τ after the
 /// end of segment s the body's expected position, relative to that end, is `drift` · τ plus τ / (τ + memory) of s's

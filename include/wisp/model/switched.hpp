@@ -38,7 +38,7 @@ struct SwitchedArxModel {
   std::vector<double> shock_quantiles{};
 };
 
-/// Returns one mode as an ARX model of its own, with its shocks as a mixing matrix.
+/// Returns one mode as an ARX model of its own, without the correlation of its outputs' shocks.
 ///
 /// Precondition: mode < model.modes.size().
 ArxModel mode_model(const SwitchedArxModel& model, std::size_t mode);

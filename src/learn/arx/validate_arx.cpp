@@ -45,20 +45,11 @@ struct Judged {
   std::optional<ResidualTests> tests{};  // empty where the recording is too short
 };
 
-Result<void> check_steps(const std::vector<int>& steps) {
-  if (steps.empty()) return Error{"no number of steps was requested"};
-  for (int step : steps) {
-    if (step >= 0 && step <= 100'000) continue;
-    return Error{"predictions were requested " + std::to_string(step) + " steps ahead, expected 1 to 100000, or free"};
-  }
-  return {};
-}
-
 // Standard deviations up to the longest prediction, or until they settle for free simulation.
 std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector<int>& steps) {
   int longest = *std::max_element(steps.begin(), steps.end());
   if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettled);
-  return prediction_sd(arx, {}, longest);
+  return prediction_sd(arx, longest);
 }
 
 Result<Judged> judge(const Subject& subject, const Progress& progress) {
@@ -173,7 +164,7 @@ void add_error_growth(const Subject& subject, ReportSection& section) {
   if (!subject.channels.inputs.empty()) options.steps.push_back(kFreeRun);
   const auto figures = prediction_figures(subject.arx, {&subject.recording, 1}, subject.channels, options);
   if (!figures) return;
-  const auto expected = prediction_sd(subject.arx, {}, kErrorSteps);
+  const auto expected = prediction_sd(subject.arx, kErrorSteps);
   for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
     const std::string id = "error." + std::to_string(i);
     const auto series = [&](const std::string& place, const std::string& label) {
@@ -222,7 +213,7 @@ Report report_of(const Subject& subject, const Judged& judged) {
 
 Result<Report> validate_arx(const Model& model, const Recording& recording, const ValidationOptions& options,
                             const Progress& progress) {
-  if (auto ok = arx::check_steps(options.steps); !ok) return ok.error();
+  if (auto ok = check_steps(options.steps); !ok) return ok.error();
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
   const Recording seen = arx::seen_by(model, recording);

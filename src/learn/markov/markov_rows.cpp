@@ -6,6 +6,7 @@
 #include <string>
 
 #include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/decompositions.hpp"
 
@@ -14,8 +15,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::RowVectorXd;
-
-constexpr int kMaxSteps = 100'000;
 
 Result<Rows> rows_of(const SwitchedArxModel& model, const Recording& recording, const ChannelChoice& channels) {
   if (auto ok = check(model); !ok) return ok.error();
@@ -166,9 +165,7 @@ Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording
 
 Result<Series> predict(const SwitchedArxModel& model, const Recording& recording, const ChannelChoice& channels,
                        int steps) {
-  if (steps < 0 || steps > kMaxSteps) {
-    return Error{"predictions were requested " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
-  }
+  if (auto ok = check_steps({&steps, 1}); !ok) return ok.error();
   const auto rows = rows_of(model, recording, channels);
   if (!rows) return rows.error();
   const Series measured = deviations(*rows, recording, channels);

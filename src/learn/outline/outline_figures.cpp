@@ -55,7 +55,9 @@ void add_shapes(const OutlineCurve& curve, const Recording& recording, const Out
 // Error sums over rows that are measured and predicted.
 class Errors {
  public:
-  explicit Errors(std::size_t outputs) : tally(static_cast<int>(outputs), 2) {}
+  explicit Errors(std::size_t outputs) : tally_(static_cast<int>(outputs)), distance_(outputs / 2) {}
+
+  std::size_t rows() const { return tally_.rows(); }
 
   void add(const Recording& recording, const OutlineLayout& layout, const Predicted& predicted) {
     const auto outputs = static_cast<Eigen::Index>(predicted.size());
@@ -73,13 +75,24 @@ class Errors {
       }
       ++rows;
     }
-    tally.add_errors(errors.topRows(rows));
-    for (Eigen::Index i = 0; i < outputs; ++i) tally.add_output(static_cast<int>(i), deviations.col(i).head(rows));
+    tally_.add_errors(errors.topRows(rows));
+    for (Eigen::Index i = 0; i < outputs; ++i) tally_.add_output(static_cast<int>(i), deviations.col(i).head(rows));
+    for (std::size_t p = 0; p < distance_.size(); ++p) {
+      distance_[p] += errors.block(0, static_cast<Eigen::Index>(2 * p), rows, 2).rowwise().norm().sum();
+    }
   }
 
-  Tally tally;
+  // J is the mean distance of each point from its prediction.
+  PredictionFigures figures(int steps) const {
+    PredictionFigures out = tally_.figures(steps);
+    out.j.clear();
+    for (double sum : distance_) out.j.push_back(sum / static_cast<double>(rows()));
+    return out;
+  }
 
  private:
+  Tally tally_;
+  std::vector<double> distance_;
   std::vector<double> origin_;  // first value per channel; with it a constant channel has spread exactly 0
 };
 
@@ -132,10 +145,10 @@ Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::spa
       errors.add(recording, layout, *series);
       add_shapes(curve, recording, layout, *series, stride, shapes);
     }
-    if (errors.tally.rows() == 0) {
+    if (errors.rows() == 0) {
       return Error{recordings.front().source + ": no row can be predicted: no stretch without gaps is long enough"};
     }
-    add_figures(errors.tally.figures(k), shapes, out);
+    add_figures(errors.figures(k), shapes, out);
   }
   return out;
 }

@@ -115,7 +115,6 @@ ArxProgram lay_out(const Regression& regression, const ResampledProgram& resampl
   program.outputs = static_cast<int>(regression.taps.size());
   program.regressors = regression.regressors;
   program.modes = regression.modes;
-  program.shock_channels = regression.shock_channels;
   program.resampled = resampled;
   program.depth = std::max(regression.history + 1, 2);
   const auto ny = static_cast<std::size_t>(program.outputs), modes = static_cast<std::size_t>(program.modes);
@@ -155,20 +154,12 @@ std::vector<double> channel_units(const Model& model) {
   return units;
 }
 
-// Each output's own shock, and the shared ones.
 Regression regression_of(const Model& model, const ArxModel& arx) {
   const std::vector<double> units = channel_units(model);
   const ModeRows mode[] = {{arx.theta, arx.constant}};
   Regression out = regression_of(arx.orders, mode, units);
-  const int ny = arx.orders.outputs();
-  out.shock_channels = ny + arx.noise.rank;
-  for (int i = 0; i < ny; ++i) {
-    std::vector<ModeWeights>& shocks = out.shocks.emplace_back();
-    keep(shocks, {static_cast<std::uint32_t>(i), 0, {kept(arx.noise.sd[i] / units[i])}});
-    for (int r = 0; r < arx.noise.rank; ++r) {
-      keep(shocks,
-           {static_cast<std::uint32_t>(ny + r), 0, {kept(arx.noise.mixing[i * arx.noise.rank + r] / units[i])}});
-    }
+  for (int i = 0; i < arx.orders.outputs(); ++i) {
+    keep(out.shocks.emplace_back(), {static_cast<std::uint32_t>(i), 0, {kept(arx.noise.sd[i] / units[i])}});
   }
   return out;
 }
@@ -179,7 +170,6 @@ Regression regression_of(const Model& model, const SwitchedArxModel& switched) {
   for (const ArxMode& mode : switched.modes) modes.push_back({mode.theta, mode.constant});
   Regression out = regression_of(switched.orders, modes, units);
   const auto ny = static_cast<std::size_t>(switched.orders.outputs());
-  out.shock_channels = switched.orders.outputs();
   for (std::size_t i = 0; i < ny; ++i) {
     std::vector<ModeWeights>& shocks = out.shocks.emplace_back();
     for (std::size_t j = 0; j <= i; ++j) {

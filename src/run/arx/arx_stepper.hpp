@@ -171,12 +171,11 @@ class ArxStepper : public ChannelHistory<N> {
         modes_(modes),
         resampled_(program.resampled, blocks, arena),
         alone_(program, arena),
-        shared_(arena.take<Real>(static_cast<std::size_t>(blocks) * shared_row())),
-        shaken_(arena.take<std::uint8_t>(program.shock_channels)),
+        shaken_(arena.take<std::uint8_t>(static_cast<std::size_t>(program.outputs))),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
         shock_size_(arena.take<float>(program.shocks * modes.count())) {
     if (arena.measures()) return;
-    own_shocks_ = program.shock_channels == program.outputs && program.shocks == channels.outputs.size();
+    own_shocks_ = program.shocks == channels.outputs.size() && modes_.count() == 1;
   }
 
   using Choice = typename Modes::Choice;
@@ -314,8 +313,8 @@ class ArxStepper : public ChannelHistory<N> {
   template <int kBlocks, class Take>
   void draw(const Moment<N>& moment, Take take) const {
     typename N::Word words[kBlocks][kDrawnAtOnce / 2][kLanes];
-    for (int first = 0; first < program_.shock_channels; first += kDrawnAtOnce) {
-      const int last = std::min(first + kDrawnAtOnce, program_.shock_channels);
+    for (int first = 0; first < program_.outputs; first += kDrawnAtOnce) {
+      const int last = std::min(first + kDrawnAtOnce, program_.outputs);
       for (int b = 0; b < kBlocks; ++b) draw_words(moment.later(b), first, last, words[b]);
       for (int channel = first; channel < last; channel += 2) {
         const bool second = channel + 1 < last && shaken_[channel + 1];
@@ -361,25 +360,18 @@ class ArxStepper : public ChannelHistory<N> {
     return sum;
   }
 
-  // Returns the address of a standard normal number; an output's own is where its sum will be.
-  Real* shock(int block, int channel) {
-    if (channel < program_.outputs) return ring_.sample(block, 0) + channel * kLanes;
-    return shared_.data() + block * shared_row() + static_cast<std::size_t>(channel - program_.outputs) * kLanes;
-  }
-  std::size_t shared_row() const {
-    return static_cast<std::size_t>(program_.shock_channels - program_.outputs) * kLanes;
-  }
+  // Returns the address of an output's standard normal number, where its sum will be.
+  Real* shock(int block, int output) { return ring_.sample(block, 0) + output * kLanes; }
 
   ArxProgram program_;
   Modes modes_;
   ResampledLanes<N> resampled_;
   TimeLanes<N> alone_;
-  std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers shared by outputs
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether any output uses it
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
   std::span<float> shock_size_;     // shock sizes of the program, scaled
   bool noisy_ = false;
-  bool own_shocks_ = false;  // every output has one shock of its own and none is shared
+  bool own_shocks_ = false;  // every output has one shock, its own
 };
 
 template <class N>

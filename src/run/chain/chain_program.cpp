@@ -100,17 +100,11 @@ void fill_changes(ChainProgram& program) {
 }
 
 GustProgram gust_program(const GustResponse& gust, double wind_unit) {
-  GustProgram program;
-  program.order = gust.order();
-  const auto fill = [&](const GustResponse::Axis& from, auto& to) {
-    for (std::size_t k = 0; k < from.change.size(); ++k) {
-      to[k] = {static_cast<float>(from.change[k]), static_cast<float>(from.wind[k] * wind_unit),
-               static_cast<float>(4 * from.press[k] * wind_unit)};
-    }
+  const auto filled = [&](const GustResponse::Axis& axis) {
+    return std::array{static_cast<float>(axis.change), static_cast<float>(axis.wind * wind_unit),
+                      static_cast<float>(4 * axis.press * wind_unit)};
   };
-  fill(gust.ground, program.ground);
-  fill(gust.vertical, program.vertical);
-  return program;
+  return {true, filled(gust.ground), filled(gust.vertical)};
 }
 
 void take_drift(const ChainDrift& drift, ChainProgram& program) {
@@ -200,8 +194,8 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
        program.orientation_scale, program.velocity_scale, program.spin_scale, program.half_width, program.half_length},
       before);
   hash = hash_number(program.blend_steps, hash);
-  for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
-    for (const auto& lag : *axis) hash = hash_floats({lag[0], lag[1], 0.25f * lag[2]}, hash);
+  for (const auto& axis : {program.gust.ground, program.gust.vertical}) {
+    hash = hash_floats({axis[0], axis[1], 0.25f * axis[2]}, hash);
   }
   for (std::int16_t number : program.rows)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);

@@ -11,12 +11,11 @@
 
 namespace wisp {
 
-/// A response to gusts: per lag coefficients of the velocity change, the wind, and the normal wind.
+/// A response to gusts: coefficients of the velocity change, the wind, and a quarter of the normal wind.
 struct GustProgram {
-  int order = 0;  ///< 0: none
-  // Per lag the coefficients of the change, of the wind, and of a quarter of the normal wind.
-  std::array<std::array<float, 3>, kMaxGustOrder> ground{};
-  std::array<std::array<float, 3>, kMaxGustOrder> vertical{};
+  bool present = false;
+  std::array<float, 3> ground{};
+  std::array<float, 3> vertical{};
 };
 
 /// A curve between given values and slopes: two parabolas. Second differences as factors of the change of value, beyond

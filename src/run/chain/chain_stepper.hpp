@@ -52,7 +52,7 @@ class ChainStepper : private ChainLives<N> {
         steering_(program_, chain.drift.has_value(), arena) {
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
     stirred_ = arena.take<std::uint8_t>(static_cast<std::size_t>(blocks));
-    if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
+    if (program_.gust.present) gusts_ = arena.take<GustLane<Real>>(lanes);
     regressor_row_ = regressor_count(model.inputs) * kLanes;
     regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
   }
@@ -123,7 +123,7 @@ class ChainStepper : private ChainLives<N> {
     const Drawn words = Joining::draw(party, block, moment, 1);
     const Mover mover(program_);
     Lane life;
-    if (program_.gust.order > 0) gust_of(block, lane) = {};
+    if (program_.gust.present) gust_of(block, lane) = {};
     const std::uint32_t segment = mover.draw_first(life.state, choice_, {words[0][0], words[1][0]});
     const HalfTurn<Real> turn = random_turn(words[2][0], words[3][0]);
     mover.place(life, segment, mover.beginning_of(segment), turn.cos, turn.sin);
@@ -194,7 +194,7 @@ class ChainStepper : private ChainLives<N> {
     const ChainGap<Real> gap = mover.place(life, best, body);
     life.state = Real(static_cast<float>(program_.state_after(0, program_.mode[best])));
     put(block, lane, life);
-    if (program_.gust.order > 0) gust_of(block, lane) = {};
+    if (program_.gust.present) gust_of(block, lane) = {};
     joining().meet_one(block, lane, gap);
     lanes_of(block).show_only(lane);
     begin_at(block, lane);
@@ -204,8 +204,7 @@ class ChainStepper : private ChainLives<N> {
   std::int64_t multiply_adds() const { return 0; }
 
   std::size_t lane_values() const {
-    return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels) +
-           9 * static_cast<std::size_t>(program_.gust.order);
+    return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels) + (program_.gust.present ? 9 : 0);
   }
 
   /// Calls visit(value, low, high) for each state variable of one lane, with a step of 1 for whole numbers.
@@ -233,13 +232,13 @@ class ChainStepper : private ChainLives<N> {
     for (Real& x : life.touched) visit(x, -kLongest, kLongest);
     put(block, lane, life);
     stirred_[static_cast<std::size_t>(block)] = 1;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
+    if (program_.gust.present) {
       GustLane<Real>& gust = gust_of(block, lane);
-      gust.press[k] = scaled(gust.press[k], Real(4.0f));  // the whole of it is saved
-      for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
+      gust.press = scaled(gust.press, Real(4.0f));  // the whole of it is saved
+      for (auto* vector : {&gust.change, &gust.wind, &gust.press}) {
         for (Real& x : *vector) visit(x, -kMaxSlip, kMaxSlip);
       }
-      gust.press[k] = scaled(gust.press[k], Real(0.25f));
+      gust.press = scaled(gust.press, Real(0.25f));
     }
     for (Real* sample : {newest_of(block), previous_of(block)}) {
       for (int k = 0; k < program_.channels; ++k) {
@@ -341,7 +340,7 @@ class ChainStepper : private ChainLives<N> {
     copy_sample(newest(block), sample_size(), previous_of(block));
     std::fill_n(moment.clamped, kLanes, 0U);
     const int lanes = moment.lanes();
-    if (program_.gust.order > 0) drift(block, lanes);
+    if (program_.gust.present) drift(block, lanes);
     for (int lane = 0; steered_ && lane < lanes; ++lane) carry(block, lane);
     course.use(lanes);
     lanes_of(block).go(course);
@@ -453,12 +452,12 @@ class ChainStepper : private ChainLives<N> {
     const Real* at = regressors(block) + lane;
     const Vector3<Real> wind{at[0], at[kLanes], at[2 * kLanes]};
     GustLane<Real>& gust = gust_of(block, lane);
-    if (!gust_lasts(program_.gust, gust, wind)) {
+    if (!gust_lasts(gust, wind)) {
       gust = {};
       return false;
     }
     Vector3<Real> press{};
-    if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), taken(wind, gust.change[0]));
+    if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), taken(wind, gust.change));
     const auto change = blow(program_.gust, gust, wind, press);
     const auto way = scaled(change, Real(program_.step_seconds));
     for (int k = 0; k < 3; ++k) {

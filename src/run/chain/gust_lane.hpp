@@ -14,12 +14,12 @@ inline constexpr float kMinGust = 1e-4f;
 /// Bound of velocity changes, metres per second.
 inline constexpr float kMaxGust = 1e3f;
 
+/// Velocity change, wind and press of the last step.
 template <class Real>
 struct GustLane {
-  // Histories, newest first.
-  std::array<Vector3<Real>, kMaxGustOrder> change{};
-  std::array<Vector3<Real>, kMaxGustOrder> wind{};
-  std::array<Vector3<Real>, kMaxGustOrder> press{};  ///< a quarter of the normal wind
+  Vector3<Real> change{};
+  Vector3<Real> wind{};
+  Vector3<Real> press{};  ///< a quarter of the normal wind
 };
 
 template <class Real>
@@ -43,39 +43,21 @@ inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real
 template <class Real>
 inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, const Vector3<Real>& wind,
                           const Vector3<Real>& press) {
-  for (int k = program.order - 1; k > 0; --k) {
-    lane.wind[static_cast<std::size_t>(k)] = lane.wind[static_cast<std::size_t>(k - 1)];
-    lane.press[static_cast<std::size_t>(k)] = lane.press[static_cast<std::size_t>(k - 1)];
-  }
-  lane.wind[0] = wind;
-  lane.press[0] = press;
-  Vector3<Real> change;
+  lane.wind = wind;
+  lane.press = press;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& lags = axis < 2 ? program.ground : program.vertical;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(program.order); ++k) {
-      const Real kept = Real(lags[k][0]) * lane.change[k][axis];
-      change[axis] = k == 0 ? kept : change[axis] + kept;
-      change[axis] = change[axis] + Real(lags[k][1]) * lane.wind[k][axis];
-      change[axis] = change[axis] + Real(lags[k][2]) * lane.press[k][axis];
-    }
+    const auto& of = axis < 2 ? program.ground : program.vertical;
+    const Real sum = Real(of[0]) * lane.change[axis] + Real(of[1]) * wind[axis] + Real(of[2]) * press[axis];
     const Real most(kMaxGust), least(-kMaxGust);
-    change[axis] = change[axis] > most ? most : change[axis] < least ? least : change[axis];
+    lane.change[axis] = sum > most ? most : sum < least ? least : sum;
   }
-  for (int k = program.order - 1; k > 0; --k) {
-    lane.change[static_cast<std::size_t>(k)] = lane.change[static_cast<std::size_t>(k - 1)];
-  }
-  lane.change[0] = change;
-  return change;
+  return lane.change;
 }
 
 /// Returns whether there is wind, or a remaining response.
 template <class Real>
-inline bool gust_lasts(const GustProgram& program, const GustLane<Real>& lane, const Vector3<Real>& wind) {
-  if (stirs(wind)) return true;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(program.order); ++k) {
-    if (stirs(lane.change[k]) || stirs(lane.wind[k])) return true;
-  }
-  return false;
+inline bool gust_lasts(const GustLane<Real>& lane, const Vector3<Real>& wind) {
+  return stirs(wind) || stirs(lane.change) || stirs(lane.wind);
 }
 
 }  // namespace wisp

@@ -90,18 +90,15 @@ class PlainArx {
 // e(t) of an instance of stream 0 in a bank of seed 1.
 std::vector<double> noise_of(const Model& model, std::uint64_t step) {
   const auto& arx = std::get<ArxModel>(model.dynamics);
-  const int ny = arx.orders.outputs(), rank = arx.noise.rank;
+  const int ny = arx.orders.outputs();
   std::vector<double> shocks;
-  for (std::uint32_t group = 0; shocks.size() < static_cast<std::size_t>(ny + rank); ++group) {
+  for (std::uint32_t group = 0; shocks.size() < static_cast<std::size_t>(ny); ++group) {
     for (const std::uint32_t word : random_words({.seed = 1, .stream = 0, .step = step, .group = group})) {
       for (const float deviate : normal_pair(word)) shocks.push_back(deviate);
     }
   }
   std::vector<double> noise(ny);
-  for (int i = 0; i < ny; ++i) {
-    noise[i] = arx.noise.sd[i] * shocks[i];
-    for (int r = 0; r < rank; ++r) noise[i] += arx.noise.mixing[i * rank + r] * shocks[ny + r];
-  }
+  for (int i = 0; i < ny; ++i) noise[i] = arx.noise.sd[i] * shocks[i];
   return noise;
 }
 
@@ -139,7 +136,7 @@ double rounding_bound(const Model& model, const PlainArx& plain, double largest_
   const auto& arx = std::get<ArxModel>(model.dynamics);
   double worst = 0;
   for (int i = 0; i < arx.orders.outputs(); ++i) {
-    const int terms = arx.orders.row_size(i) + 2 + arx.noise.rank;
+    const int terms = arx.orders.row_size(i) + 2;
     worst = std::max(worst, (terms + 3) * kUnit * (plain.sum_of_sizes(i) + largest_noise));
   }
   return error_growth(model) * worst + 3 * kUnit * largest_output;
@@ -174,9 +171,7 @@ void expect_agreement(const Model& model) {
 
 TEST(ArxReference, AFlameAgreesWithDoublePrecision) { expect_agreement(flame_model()); }
 
-TEST(ArxReference, SoDoesOneWithPowersOfWindAndSharedNoise) {
-  expect_agreement(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 3}));
-}
+TEST(ArxReference, SoDoesOneWithPowersOfWind) { expect_agreement(flame_model({.wind = InputShape::kEvenOdd})); }
 
 TEST(ArxReference, SoDoesAModelWithDelaysConstantsAndMixedOrders) { expect_agreement(sample_model()); }
 

@@ -200,7 +200,7 @@ TEST(ResampledResiduals, AnInstanceLivesTheSameLifeInABankOfAnySizeAndAfterARest
 }
 
 TEST(ResampledResiduals, CostAProductAndASumAnOutputAndNowAndThenAJump) {
-  const Cost gaussian = *count_operations(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 4}));
+  const Cost gaussian = *count_operations(flame_model({.wind = InputShape::kEvenOdd}));
   const Cost resampled = *count_operations(flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 600}));
   EXPECT_LT(resampled.noise_operations, 16 * 2 + 130);
   EXPECT_LT(resampled.random_operations, 50);  // in a wind that was never recorded it searches in every step

@@ -48,8 +48,6 @@ Model filter_of_chance(unsigned seed) {
   arx.output_mean = {-0.01};
   arx.input_mean.assign(regressors, 0.1 * below(2));
   arx.noise.sd = {below(4) == 0 ? 0 : 0.05};
-  arx.noise.rank = below(2);
-  for (int r = 0; r < arx.noise.rank; ++r) arx.noise.mixing.push_back(0.02);
   model.dynamics = arx;
   return model;
 }

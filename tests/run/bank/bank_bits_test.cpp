@@ -12,7 +12,7 @@
 namespace wisp::bank_bits_test {
 namespace {
 
-const Model kFlame = flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 2});
+const Model kFlame = flame_model({.wind = InputShape::kEvenOdd});
 
 Bank bank_of(int capacity, std::uint64_t seed = 11) {
   auto bank = Bank::create(kFlame, {.capacity = capacity, .seed = seed});

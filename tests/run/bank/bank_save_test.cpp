@@ -33,7 +33,7 @@ std::vector<float> outputs_of(const Bank& bank) {
 
 // A bank in the middle of its life: gaps, different winds and ages, a scaled noise, time between two steps.
 Bank lived_in_bank() {
-  Bank bank = bank_of(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1}), 20, 7);
+  Bank bank = bank_of(flame_model({.wind = InputShape::kEvenOdd}), 20, 7);
   std::vector<InstanceId> ids;
   for (int k = 0; k < 12; ++k) {
     ids.push_back(bank.spawn());
@@ -59,7 +59,7 @@ void mend_hash(std::vector<std::byte>& bytes) {
 
 // Slots that nobody lives in are saved too: what they hold must not depend on what is not.
 TEST(SavedBank, ItsTwinSavesTheSameBytesWhereSlotsAreEmpty) {
-  const Model model = flame_model({.points = 4, .wind = InputShape::kEvenOdd, .noise_rank = 1});
+  const Model model = flame_model({.points = 4, .wind = InputShape::kEvenOdd});
   Bank bank = bank_of(model, 4), twin = bank_of(model, 4, 99);
   for (int k = 0; k < 4; ++k) bank.spawn();
   for (int k = 0; k < 20; ++k) bank.step();
@@ -74,7 +74,7 @@ TEST(SavedBank, ItsTwinSavesTheSameBytesWhereSlotsAreEmpty) {
 
 TEST(SavedBank, GoesOnWithTheSameBits) {
   Bank bank = lived_in_bank();
-  Bank other = bank_of(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1}), 20, 99);
+  Bank other = bank_of(flame_model({.wind = InputShape::kEvenOdd}), 20, 99);
   for (int k = 0; k < 17; ++k) other.spawn();
   other.step();
   ASSERT_TRUE(other.restore(saved(bank)));
@@ -93,7 +93,7 @@ TEST(SavedBank, GoesOnWithTheSameBits) {
 TEST(SavedBank, ShowsWhatWasShownAfterARawStepToo) {
   Bank bank = lived_in_bank();
   bank.step();
-  Bank other = bank_of(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1}), 20);
+  Bank other = bank_of(flame_model({.wind = InputShape::kEvenOdd}), 20);
   ASSERT_TRUE(other.restore(saved(bank)));
   EXPECT_EQ(outputs_of(other), outputs_of(bank));
 }
@@ -112,7 +112,7 @@ TEST(SavedBank, IdsStayWhatTheyWere) {
 
 TEST(SavedBank, TheSameStateGivesTheSameBytes) {
   const Bank bank = lived_in_bank();
-  Bank other = bank_of(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1}), 20);
+  Bank other = bank_of(flame_model({.wind = InputShape::kEvenOdd}), 20);
   ASSERT_TRUE(other.restore(saved(bank)));
   EXPECT_EQ(saved(other), saved(bank));
 }
@@ -142,11 +142,11 @@ TEST(SavedBank, AnotherModelOrCapacityIsRefused) {
   const std::vector<std::byte> bytes = saved(lived_in_bank());
   Bank sample = bank_of(sample_model(), 20);
   EXPECT_THAT(error_of(sample, bytes), HasSubstr("of another model"));
-  Model slightly = flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1});
+  Model slightly = flame_model({.wind = InputShape::kEvenOdd});
   std::get<ArxModel>(slightly.dynamics).theta[5][2] += 1e-6;
   Bank similar = bank_of(slightly, 20);
   EXPECT_THAT(error_of(similar, bytes), HasSubstr("of another model"));
-  Bank larger = bank_of(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1}), 21);
+  Bank larger = bank_of(flame_model({.wind = InputShape::kEvenOdd}), 21);
   EXPECT_THAT(error_of(larger, bytes), HasSubstr("capacity 20, the bank to restore has 21"));
 }
 

@@ -27,8 +27,8 @@ Bank bank_of(const Model& model) {
 }
 
 std::vector<Model> models() {
-  return {flame_model({.wind = InputShape::kEvenOdd}), flame_model({.noise_rank = 2}), default_flame_model(),
-          windy_chain(), sample_switched()};
+  return {flame_model({.wind = InputShape::kEvenOdd}), flame_model(), default_flame_model(), windy_chain(),
+          sample_switched()};
 }
 
 // Other winds for every instance and step, some of which blow flames out.

@@ -227,26 +227,6 @@ TEST(Bank, NoiseScaleIsHeldToItsRange) {
   EXPECT_EQ(bank.noise(), 0.0f);
 }
 
-TEST(Bank, SharedShocksMoveOutputsTogether) {
-  Model model = flame_model({.noise_rank = 1});
-  auto& noise = std::get<ArxModel>(model.dynamics).noise;
-  noise.sd.assign(16, 0.0);
-  noise.mixing.assign(16, 0.01);
-  Bank quiet = bank_of(model, {});
-  quiet.set_noise(0);
-  const InstanceId still = quiet.spawn();
-  quiet.step();
-  const std::vector<float> rest = outputs_of(quiet, still);
-  for (int capacity : {1, 8, 40}) {  // alone, a block, and some of them at once
-    Bank bank = bank_of(model, {.capacity = capacity});
-    for (int k = 0; k < capacity; ++k) bank.spawn();
-    bank.step();
-    const std::vector<float> first = outputs_of(bank, bank.at(capacity - 1));
-    for (int i = 1; i < 16; ++i) EXPECT_NEAR(first[i] - rest[i], first[0] - rest[0], 1e-6) << i;
-    EXPECT_NE(first[0], rest[0]);
-  }
-}
-
 // Time.
 
 TEST(Bank, AdvanceMakesTheStepsThatFallIntoTheTime) {

@@ -58,8 +58,8 @@ std::vector<float> lives(Bank& bank, int frames) {
 }
 
 TEST(Crew, GivesTheBitsOfOneThread) {
-  for (const Model& model : {flame_model({.wind = InputShape::kEvenOdd}), flame_model({.noise_rank = 2}),
-                             default_flame_model(), windy_chain(), sample_switched()}) {
+  for (const Model& model : {flame_model({.wind = InputShape::kEvenOdd}), flame_model(), default_flame_model(),
+                             windy_chain(), sample_switched()}) {
     Bank alone = full_bank(model);
     const auto expected = lives(alone, 20);
     for (int parts : {2, 3, 100}) {

@@ -22,7 +22,7 @@ using std::chrono::nanoseconds;
 
 // A flame at 100 steps a second that a wind of 2 blows out in 20 steps, of 4 in 20 / 3, and that recovers in 40.
 Model mortal_flame(double haste = 2) {
-  Model model = flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1});
+  Model model = flame_model({.wind = InputShape::kEvenOdd});
   model.rate_hz = 100;
   model.extinction = Extinction{.input = 0, .level = 2, .seconds = 0.2, .haste = haste, .recovery = 0.4};
   // It is gone in ten steps, and catches in forty; each in one of two ways, which differ by a hundredth.
@@ -561,7 +561,7 @@ TEST(Extinction, AllStatesAreReadAtOnce) {
 
 TEST(Extinction, ItsCostIsCountedAndSmall) {
   const auto cost = count_operations(mortal_flame());
-  const auto without = count_operations(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1}));
+  const auto without = count_operations(flame_model({.wind = InputShape::kEvenOdd}));
   EXPECT_EQ(without->extinction_operations, 0);
   EXPECT_EQ(cost->extinction_operations, 1 + 3);
   EXPECT_EQ(cost->worst_operations - cost->operations_per_frame, 2 + 3 + 16);  // while what is shown shrinks or grows

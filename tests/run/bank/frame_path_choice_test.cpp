@@ -62,8 +62,8 @@ std::vector<float> lives(const Model& model, const char* width) {
 }
 
 TEST(FramePathChoice, GivesTheSameBitsAtEveryWidth) {
-  const Model models[] = {flame_model({.wind = InputShape::kEvenOdd}), flame_model({.noise_rank = 2}),
-                          default_flame_model(), windy_chain(), sample_switched()};
+  const Model models[] = {flame_model({.wind = InputShape::kEvenOdd}), flame_model(), default_flame_model(),
+                          windy_chain(), sample_switched()};
   for (const Model& model : models) {
     const auto narrow = lives(model, "baseline");
     for (const FramePath* path : frame_paths()) {

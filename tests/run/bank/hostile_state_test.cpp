@@ -34,7 +34,7 @@ std::vector<Kind> kinds() {
   return {{"ResampledMirrored", [] { return default_flame_model(); }},
           {"Resampled", [] { return flame_model({.resampled_rows = 60}); }},
           {"Still", [] { return still_flame_model(100); }},
-          {"Gaussian", [] { return flame_model({.points = 4, .noise_rank = 2}); }},
+          {"Gaussian", [] { return flame_model({.points = 4}); }},
           {"Markov", [] { return sample_switched(); }},
           {"Positions", [] { return sample_chain(ChainMotion::kPosition); }},
           {"Landing", [] { return sample_chain(); }},

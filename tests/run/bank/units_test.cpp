@@ -60,7 +60,7 @@ Model in_units(Model model, Units units) {
   if (model.extinction) model.extinction->level *= units.input;
   if (auto* arx = std::get_if<ArxModel>(&model.dynamics)) {
     for (int i = 0; i < arx->orders.outputs(); ++i) scale_b(arx->theta[i], arx->orders, i, units.output, inputs);
-    for (auto* numbers : {&arx->constant, &arx->output_mean, &arx->noise.sd, &arx->noise.mixing}) {
+    for (auto* numbers : {&arx->constant, &arx->output_mean, &arx->noise.sd}) {
       scale(*numbers, units.output);
     }
     for (std::size_t k = 0; k < inputs.size(); ++k) arx->input_mean[k] *= inputs[k];
@@ -110,7 +110,7 @@ TEST(Units, NoUnitChangesWhatIsPlayed) {
   mortal.extinction->level = 0.5;
   Model powers = in_half_a_wind(coupled_flame_model());
   powers.extinction.reset();
-  for (const Model& model : {in_half_a_wind(flame_model({.wind = InputShape::kEvenOdd, .noise_rank = 1})),
+  for (const Model& model : {in_half_a_wind(flame_model({.wind = InputShape::kEvenOdd})),
                              in_half_a_wind(flame_model({.wind = InputShape::kEvenOdd, .resampled_rows = 600})), mortal,
                              powers, sample_switched()}) {
     const std::vector<float> expected = played(model, {1, 1});

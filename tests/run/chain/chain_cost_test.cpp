@@ -140,10 +140,10 @@ TEST(ChainCost, ShortSegmentsTakeNoMore) {
   }
 }
 
-// As gusts are learned: of order 1, with a press.
+// As gusts are learned: with a press.
 Model gusty_chain() {
   Model model = windy_chain();
-  std::get<ChainModel>(model.dynamics).gust = GustResponse{{{0.75}, {0.25}, {0.125}}, {{0.5}, {0.125}, {0.25}}};
+  std::get<ChainModel>(model.dynamics).gust = GustResponse{{0.75, 0.25, 0.125}, {0.5, 0.125, 0.25}};
   return model;
 }
 

@@ -14,16 +14,8 @@ namespace {
 
 constexpr int kMaxSteps = 100000;
 
-Result<void> check_steps(int steps) {
-  if (steps == kFreeRun || (steps >= 1 && steps <= kMaxSteps)) return {};
-  return Error{"a prediction of " + std::to_string(steps) + " steps was requested, expected 1 to 100000"};
-}
-
 Result<void> check_figures(const ArxModel& model, const FigureOptions& options) {
-  if (options.steps.empty()) return Error{"no number of steps was requested"};
-  for (int steps : options.steps) {
-    if (auto ok = check_steps(steps); !ok) return ok;
-  }
+  if (auto ok = check_steps(options.steps); !ok) return ok;
   if (options.first_sample && *options.first_sample < model.orders.history()) {
     return Error{"the first sample is " + std::to_string(*options.first_sample) + ", but the model's history is " +
                  std::to_string(model.orders.history()) + " samples"};
@@ -115,7 +107,7 @@ std::vector<std::vector<double>> predict_steps(const ArxModel& model, const Sign
 
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options) {
-  if (auto ok = check_steps(options.steps); !ok) return ok.error();
+  if (auto ok = check_steps({&options.steps, 1}); !ok) return ok.error();
   const auto signals = signals_of_model(model, {&recording, 1}, channels);
   if (!signals) return signals.error();
   if (options.steps != kFreeRun) return predict_steps(model, *signals, options.steps);
@@ -154,26 +146,22 @@ Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const S
   return out;
 }
 
-std::vector<std::vector<double>> prediction_sd(const ArxModel& model, std::span<const double> noise_covariance,
-                                               int steps) {
-  const int ny = model.orders.outputs();
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(ny, ny);
-  if (noise_covariance.empty()) {
-    for (int i = 0; i < ny; ++i) covariance(i, i) = model.noise.sd[i] * model.noise.sd[i];
-    if (model.noise.rank > 0) {
-      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> mixing(
-          model.noise.mixing.data(), ny, model.noise.rank);
-      covariance += mixing * mixing.transpose();
-    }
-  } else {
-    for (int i = 0; i < ny; ++i) {
-      for (int j = 0; j < ny; ++j) covariance(i, j) = noise_covariance[static_cast<std::size_t>(i) * ny + j];
-    }
+Result<void> check_steps(std::span<const int> all) {
+  if (all.empty()) return Error{"no number of steps was requested"};
+  for (int steps : all) {
+    if (steps == kFreeRun || (steps >= 1 && steps <= kMaxSteps)) continue;
+    return Error{"predictions were requested " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
   }
+  return {};
+}
+
+std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps) {
+  const int ny = model.orders.outputs();
+  const Eigen::Map<const Eigen::VectorXd> noise(model.noise.sd.data(), ny);
   std::vector<std::vector<double>> sd(ny);
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(ny);
   for (const Eigen::MatrixXd& weights : noise_response(model, steps)) {
-    variance += (weights * covariance * weights.transpose()).diagonal();
+    variance += (weights * noise.asDiagonal()).rowwise().squaredNorm();
     for (int i = 0; i < ny; ++i) sd[i].push_back(std::sqrt(variance[i]));
   }
   return sd;
@@ -199,10 +187,9 @@ Eigen::Index drop_missing(Eigen::Index rows, Eigen::MatrixXd& measured, Eigen::M
 void Tally::add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors) {
   rows_ += static_cast<std::size_t>(errors.rows());
   for (std::size_t i = 0; i < square_.size(); ++i) {
-    square_[i] += errors.col(static_cast<Eigen::Index>(i)).squaredNorm();
-  }
-  for (std::size_t g = 0; g < norm_.size(); ++g) {
-    norm_[g] += errors.middleCols(static_cast<Eigen::Index>(g) * group_, group_).rowwise().norm().sum();
+    const auto column = errors.col(static_cast<Eigen::Index>(i));
+    square_[i] += column.squaredNorm();
+    size_[i] += column.cwiseAbs().sum();
   }
 }
 
@@ -221,7 +208,7 @@ PredictionFigures Tally::figures(int steps) const {
     const double variance = y_square_[i] / n - (y_[i] / n) * (y_[i] / n);
     out.fit_percent.push_back(variance > 0 ? 100 * (1 - std::sqrt(out.mean_square[i] / variance)) : 0);
   }
-  for (double sum : norm_) out.j.push_back(sum / n);
+  for (double sum : size_) out.j.push_back(sum / n);
   return out;
 }
 

@@ -78,18 +78,17 @@ Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model,
 
 /// Standard deviations of k-step prediction errors for k = 1 … steps, from the model's own noise: [output][k − 1]. A
 /// prediction ±1.96 sd is its 95 % interval (for kFreeRun take enough steps that they settle).
-/// `noise_covariance` is ny × ny, row-major (ArxSummary has it); empty: the model's own residual noise.
 ///
 /// Precondition: steps >= 1.
-std::vector<std::vector<double>> prediction_sd(const ArxModel& model, std::span<const double> noise_covariance,
-                                               int steps);
+std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps);
+
+/// Errors: no number of steps, or one that is neither 1 to 100000 nor kFreeRun.
+Result<void> check_steps(std::span<const int> all);
 
 /// Sums of errors over the rows for one number of steps.
 class Tally {
  public:
-  /// `group`: number of consecutive outputs whose error is treated as one vector.
-  explicit Tally(int outputs, int group = 1)
-      : group_(group), square_(outputs), y_(outputs), y_square_(outputs), norm_(outputs / group) {}
+  explicit Tally(int outputs) : square_(outputs), y_(outputs), y_square_(outputs), size_(outputs) {}
 
   std::size_t rows() const { return rows_; }
 
@@ -107,12 +106,11 @@ class Tally {
   PredictionFigures figures(int steps) const;
 
  private:
-  int group_;
   std::size_t rows_ = 0;
   std::vector<double> square_;
   std::vector<double> y_;
   std::vector<double> y_square_;
-  std::vector<double> norm_;
+  std::vector<double> size_;
 };
 
 /// Errors of free simulation over all recordings, from row `first_sample` of every episode on.

@@ -69,9 +69,9 @@ std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response
     Triple through = gust.wind[row];
     for (std::size_t axis = 0; axis < 3; ++axis) through[axis] -= before[axis];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Axis& lags = axis < 2 ? response.ground : response.vertical;
-      change[row][axis] = lags.change[0] * before[axis] + lags.wind[0] * gust.wind[row][axis] +
-                          lags.press[0] * dot(gust.normal[row][axis], through);
+      const Axis& of = axis < 2 ? response.ground : response.vertical;
+      change[row][axis] =
+          of.change * before[axis] + of.wind * gust.wind[row][axis] + of.press * dot(gust.normal[row][axis], through);
     }
   }
   return change;
@@ -88,9 +88,9 @@ struct Unknowns {
     GustResponse out;
     auto next = theta.begin();
     for (Axis* axis : {&out.ground, &out.vertical}) {
-      axis->change = {*next++};
-      axis->press = {*next++};
-      axis->wind = {carried ? 1 - axis->change[0] : *next++};
+      axis->change = *next++;
+      axis->press = *next++;
+      axis->wind = carried ? 1 - axis->change : *next++;
     }
     return out;
   }

@@ -183,18 +183,16 @@ TEST(PredictionSd, OfOrderOneIsTheGeometricSum) {
   model.theta = {{-0.8}};
   model.constant = model.output_mean = {0};
   model.noise.sd = {2};
-  const auto sd = prediction_sd(model, {}, 30);
+  const auto sd = prediction_sd(model, 30);
   for (int k = 1; k <= 30; ++k) {
     EXPECT_NEAR(sd[0][k - 1], 2 * std::sqrt((1 - std::pow(0.64, k)) / (1 - 0.64)), 1e-12) << k;
   }
-  const std::vector<double> covariance{9};
-  EXPECT_NEAR(prediction_sd(model, covariance, 1)[0][0], 3, 1e-15);
 }
 
 TEST(PredictionSd, IntervalsHoldAsOftenAsTheySay) {
   const ArxModel model = made_system();
   const Recording recording = record_system(model, 40000, 9);
-  const auto sd = prediction_sd(model, {}, 10);
+  const auto sd = prediction_sd(model, 10);
   for (int k : {1, 3, 10}) {
     const auto predicted = predict(model, recording, kChannels, {.steps = k});
     for (int i : {0, 1}) {

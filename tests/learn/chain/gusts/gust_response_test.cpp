@@ -63,8 +63,8 @@ TEST(GustResponse, AnAutoregressionIsFoundAgain) {
   const auto fit = learned(pairs);
   ASSERT_TRUE(fit) << fit.error().message;
   // Velocities are differences over two rows to either side, which rounds the gust's edges.
-  EXPECT_NEAR(fit->response.ground.change[0], 0.85, 0.02);
-  EXPECT_NEAR(fit->response.ground.wind[0] / (1 - fit->response.ground.change[0]), 0.8, 0.03);
+  EXPECT_NEAR(fit->response.ground.change, 0.85, 0.02);
+  EXPECT_NEAR(fit->response.ground.wind / (1 - fit->response.ground.change), 0.8, 0.03);
   EXPECT_EQ(fit->inputs.size(), 3U);
 }
 
@@ -93,8 +93,8 @@ TEST(GustResponse, WhatTheWindDoesNotMoveHasNoResponse) {
   const MadePairs pairs = made_pairs(0, 0);
   const auto fit = learned(pairs);
   ASSERT_TRUE(fit);
-  EXPECT_NEAR(fit->response.ground.wind[0], 0, 1e-6);
-  EXPECT_NEAR(fit->response.ground.press[0], 0, 1e-6);
+  EXPECT_NEAR(fit->response.ground.wind, 0, 1e-6);
+  EXPECT_NEAR(fit->response.ground.press, 0, 1e-6);
 }
 
 TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
@@ -130,7 +130,7 @@ TEST(GustPlay, ABankThatIsBlownAtGoesWhereTheWindTookWhatWasRecorded) {
 TEST(GustPlay, AResponseThatBlowsTheOtherWayIsSeen) {
   const MadePairs pairs = made_pairs(0.85, 0.12);
   Model model = blown_model(pairs);
-  for (double& gain : std::get<ChainModel>(model.dynamics).gust->ground.wind) gain = -gain;
+  std::get<ChainModel>(model.dynamics).gust->ground.wind *= -1;
   const auto play = played(model, pairs);
   ASSERT_TRUE(play);
   EXPECT_LT(play->figures.fit_percent, 0);
@@ -140,7 +140,7 @@ TEST(GustPlay, AResponseThatBlowsTheOtherWayIsSeen) {
 TEST(GustPlay, WhatKeepsGoingDiverges) {
   const MadePairs pairs = made_pairs(0.85, 0.12);
   Model model = blown_model(pairs);
-  std::get<ChainModel>(model.dynamics).gust->ground.change = {0.9995};
+  std::get<ChainModel>(model.dynamics).gust->ground.change = 0.9995;
   const auto play = played(model, pairs);
   ASSERT_TRUE(play);
   EXPECT_TRUE(play->figures.diverges);
