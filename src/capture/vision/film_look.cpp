@@ -47,11 +47,11 @@ double step_between(const std::vector<double>& a, const std::vector<double>& b) 
 }
 
 void FilmLook::sample(const Picture& picture) {
-  const int step = std::max(1, (std::max(picture.width, picture.height) + kMaxPoints - 1) / kMaxPoints);
-  const auto points = [step](int pixels) { return static_cast<std::size_t>((pixels + step - 1) / step); };
+  step_ = std::max(1, (std::max(picture.width, picture.height) + kMaxPoints - 1) / kMaxPoints);
+  const auto points = [this](int pixels) { return static_cast<std::size_t>((pixels + step_ - 1) / step_); };
   columns_ = points(picture.width);
   now_.resize(columns_ * points(picture.height));
-  sample_channel(picture, PixelChannel::kLuma, picture.frame(), step, now_.data());
+  sample_channel(picture, PixelChannel::kLuma, picture.frame(), step_, now_.data());
 }
 
 void FilmLook::look(const Picture& picture) {
@@ -99,11 +99,13 @@ void FilmLook::remember(const Picture& picture) {
                  [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
 }
 
-bool FilmLook::another(const Picture& picture) {
+bool FilmLook::another(const Picture& picture, const Region& within) {
   if (brightest_.empty()) return false;
   sample(picture);
   double light = 0, fresh = 0;
   for (std::size_t k = 0; k < now_.size(); ++k) {
+    const int x = static_cast<int>(k % columns_) * step_, y = static_cast<int>(k / columns_) * step_;
+    if (x < within.x || x >= within.right() || y < within.y || y >= within.bottom()) continue;
     light += std::max(0, now_[k] - kDark);
     fresh += std::max(0, now_[k] - std::max<int>(brightest_[k], kDark));
   }

@@ -29,8 +29,8 @@ class FilmLook {
   /// Whether no such picture was taken in.
   bool empty() const { return brightest_.empty(); }
 
-  /// Whether most of the light in a picture is where pictures of the object had none.
-  bool another(const Picture& picture);
+  /// Whether most of the light in a part of a picture is where pictures of the object had none.
+  bool another(const Picture& picture, const Region& within);
 
  private:
   void sample(const Picture& picture);
@@ -38,6 +38,7 @@ class FilmLook {
   std::vector<std::uint8_t> now_;        // luma of a coarse grid
   std::vector<std::uint8_t> brightest_;  // … of pictures of the object, maximum so far
   std::size_t columns_ = 0;
+  int step_ = 1;                                // pixels between its points
   std::vector<double> blocks_, across_, down_;  // means of the last picture's blocks, columns and rows
   std::vector<double> changes_;                 // dissimilarity of each picture to the one before: 1 − correlation
   double brightest_point_ = 0;

@@ -295,8 +295,10 @@ void OutlineCapture::Stage::look(const Picture& picture) {
     finding.residual = static_cast<float>(estimate.residual);
     findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
   } else {
-    // Something as bright elsewhere counts only before the scene is known: later it may be a lamp, or a lit snuffer.
-    finding.elsewhere = film_.empty() ? seeker_->elsewhere() : film_.another(picture);
+    // Once the scene is known, something as bright elsewhere counts where no light was: it may be a lamp of the scene.
+    finding.elsewhere = film_.empty() ? seeker_->elsewhere()
+                                      : film_.another(picture, picture.frame()) ||
+                                            (seeker_->elsewhere() && film_.another(picture, seeker_->found().box));
     tracker_->forget();
     findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }

@@ -19,7 +19,7 @@ constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below which a frame is a duplicate
 constexpr double kDuplicateMost = 0.5;    // … and at most this many grey levels, as new frames have new noise
 constexpr std::size_t kNeighbours = 4;    // on each side
-constexpr std::size_t kGlint = 6;         // maximum length in frames
+constexpr double kGlintSeconds = 0.2;     // maximum length
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
@@ -92,7 +92,7 @@ std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness, 
 }
 
 // Removes brief appearances between longer absences: they are glints, not the object.
-void leave_out_glints(std::vector<Fate>& fate) {
+void leave_out_glints(std::vector<Fate>& fate, double rate_hz) {
   struct Span {
     bool nothing = false;
     std::size_t begin = 0;
@@ -107,7 +107,7 @@ void leave_out_glints(std::vector<Fate>& fate) {
   }
   for (std::size_t k = 1; k + 1 < stretches.size(); ++k) {
     const Span& now = stretches[k];
-    if (now.nothing || now.size() > kGlint) continue;
+    if (now.nothing || static_cast<double>(now.size()) > kGlintSeconds * rate_hz) continue;
     if (std::min(stretches[k - 1].size(), stretches[k + 1].size()) <= now.size()) continue;
     for (std::size_t row = now.begin; row < now.end; ++row) fate[row] = Fate::kNothing;
   }
@@ -248,7 +248,7 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   report.facts.repeated = static_cast<double>(report.duplicates) / static_cast<double>(fate.size());
   report.facts.lost = static_cast<double>(times(Fate::kLost)) / static_cast<double>(fate.size());
   extend_fades(fate);
-  leave_out_glints(fate);
+  leave_out_glints(fate, report.rate_hz);
   std::vector<double> controls = findings.controls;
   fill_gaps(fate, stands, controls, 2 * static_cast<std::size_t>(points));
   count(fate, findings, report);

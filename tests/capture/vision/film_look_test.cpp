@@ -9,6 +9,8 @@ namespace {
 
 using support::Plane;
 
+constexpr Region kAll{0, 0, 320, 180};
+
 // A dim wall with a bright thing at x.
 Plane scene(int x, int value = 230, std::uint8_t wall = 40) {
   Plane plane(320, 180, wall);
@@ -18,21 +20,29 @@ Plane scene(int x, int value = 230, std::uint8_t wall = 40) {
 
 TEST(FilmLook, NothingIsAnotherSceneBeforeOneIsKnown) {
   FilmLook light;
-  EXPECT_FALSE(light.another(grey_picture(scene(60).view())));
+  EXPECT_FALSE(light.another(grey_picture(scene(60).view()), kAll));
 }
 
 TEST(FilmLook, ASceneWhoseFlameWentOutIsTheSame) {
   FilmLook light;
   light.remember(grey_picture(scene(60).view()));
-  EXPECT_FALSE(light.another(grey_picture(scene(60, 0, 32).view())));
-  EXPECT_FALSE(light.another(grey_picture(scene(60, 0, 0).view())));
+  EXPECT_FALSE(light.another(grey_picture(scene(60, 0, 32).view()), kAll));
+  EXPECT_FALSE(light.another(grey_picture(scene(60, 0, 0).view()), kAll));
 }
 
 TEST(FilmLook, LightWhereNoneWasIsAnotherScene) {
   FilmLook light;
   light.remember(grey_picture(scene(60, 230, 20).view()));
-  EXPECT_TRUE(light.another(grey_picture(scene(200, 230, 20).view())));
-  EXPECT_TRUE(light.another(grey_picture(scene(60, 0, 120).view())));
+  EXPECT_TRUE(light.another(grey_picture(scene(200, 230, 20).view()), kAll));
+  EXPECT_TRUE(light.another(grey_picture(scene(60, 0, 120).view()), kAll));
+}
+
+TEST(FilmLook, ByDayWhatBurnsElsewhereIsNewInItsOwnPlace) {
+  FilmLook light;
+  light.remember(grey_picture(scene(60, 230, 120).view()));
+  EXPECT_FALSE(light.another(grey_picture(scene(200, 230, 120).view()), kAll));
+  EXPECT_TRUE(light.another(grey_picture(scene(200, 230, 120).view()), {200, 60, 30, 80}));
+  EXPECT_FALSE(light.another(grey_picture(scene(60, 230, 120).view()), {60, 60, 30, 80}));
 }
 
 TEST(FilmLook, ASparkInTheDarkIsNoScene) {
@@ -40,13 +50,13 @@ TEST(FilmLook, ASparkInTheDarkIsNoScene) {
   light.remember(grey_picture(scene(60, 230, 10).view()));
   Plane spark(320, 180, 10);
   spark.fill({200, 60, 3, 3}, 255);
-  EXPECT_FALSE(light.another(grey_picture(spark.view())));
+  EXPECT_FALSE(light.another(grey_picture(spark.view()), kAll));
 }
 
 TEST(FilmLook, WhereTheFlameWasInAnyPictureIsNotNew) {
   FilmLook light;
   for (const int x : {60, 100, 140}) light.remember(grey_picture(scene(x, 230, 20).view()));
-  EXPECT_FALSE(light.another(grey_picture(scene(100, 230, 20).view())));
+  EXPECT_FALSE(light.another(grey_picture(scene(100, 230, 20).view()), kAll));
 }
 
 TEST(FilmLook, AtACutPicturesAreUnlikeAndWhereAFlameIsLitTheyAreNot) {

@@ -44,6 +44,57 @@ TEST(OutlineCapture, AThirdOfASecondInTheDarkIsTheEndOfAFlame) {
   EXPECT_EQ(capture(70, dark_from(60), options)->report.out_at, std::nullopt);
 }
 
+TEST(OutlineCapture, AFlameThatFlaresAgainForHalfASecondIsOutAfterThat) {
+  for (const int rate : {12, 30, 60}) {
+    OutlineCaptureOptions options = options_for();
+    options.rate_hz = rate;
+    const auto captured = capture(
+        60 + 3 * rate,
+        [=](int k) {
+          const bool burns = k < 60 || (k >= 60 + rate && k < 60 + rate + rate / 2);
+          return burns ? noisy_flame(k) : Plane(160, 180, 8);
+        },
+        options);
+    ASSERT_TRUE(captured);
+    EXPECT_EQ(captured->report.out_at, static_cast<std::size_t>(60 + rate + rate / 2)) << rate;
+  }
+}
+
+TEST(OutlineCapture, OfTwoFlamesEachHasItsOwnEnd) {
+  const auto picture = [](int k) {
+    Plane plane(320, 180, 8);
+    Flame large = support::swaying(k), small = support::swaying(k + 7);
+    small.base_x = 240;
+    small.height *= 0.8;
+    if (k < 60) support::paint(plane, 230, 3.0, [&](double x, double y) { return large.depth(x, y); });
+    if (k < 90) support::paint(plane, 230, 3.0, [&](double x, double y) { return small.depth(x, y); });
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  };
+  for (const int which : {1, 2}) {
+    OutlineCaptureOptions options = options_for();
+    options.flame = which;
+    const auto captured = capture(130, picture, options);
+    ASSERT_TRUE(captured) << captured.error().message;
+    EXPECT_EQ(captured->report.out_at, which == 1 ? 60u : 90u);
+    EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  }
+}
+
+TEST(OutlineCapture, WhatBurnsOnElsewhereIsNotOut) {
+  const auto captured = capture(120, [](int k) {
+    Plane plane(320, 180, 90);  // by day: most of the light is not the fire's
+    Flame flame = support::swaying(k);
+    if (k >= 54) flame.base_x = 200 + 0.5 * k;  // paper that it has lit
+    if (k < 50 || k >= 54) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_THAT(captured->report.reason, testing::Not(HasSubstr("is out from")));
+  EXPECT_THAT(captured->report.reason, HasSubstr("give frames 1 to 50 alone"));
+}
+
 TEST(OutlineCapture, AFilmThatFadesToBlackIsNotAFlameThatGoesOut) {
   const auto captured = capture(120, [](int k) {
     Plane plane = support::flame_picture(support::swaying(k));
