@@ -105,6 +105,7 @@ class OutlineCapture::Stage {
   std::size_t fed_ = 0;
   std::vector<std::optional<OwnedPicture>> held_;  // empty: a lost frame
   std::size_t held_bytes_ = 0;
+  bool burns_ = true;    // the survey's object looks lit and moves
   bool waited_ = false;  // whether it waited for a flame absent at first
   struct Waited {
     Region place;
@@ -199,7 +200,8 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   const bool flame = options_.flame > 0 && !options_.dark;
   // A flame lit halfway through the held frames appears in too few of them, so the next ones are awaited.
   const bool throughout = survey && (!waited_ || 3 * survey->seen.size() >= 2 * seen.size());
-  if (flame && !at_end && !(throughout && burns(*survey))) {
+  burns_ = !flame || (throughout && burns(*survey));
+  if (!burns_ && !at_end) {
     wait_on(survey);
     return {};
   }
@@ -332,6 +334,7 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   CaptureReport& report = out.report;
   report.flames = survey_->flames;
   report.facts.film = film_.facts();
+  report.facts.burns = burns_;
   report.facts.light = survey_->light;
   report.facts.clipped = survey_->clipped;
   report.facts.contrast = survey_->contrast;

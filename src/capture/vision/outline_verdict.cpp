@@ -154,7 +154,7 @@ std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact:
   const WeighedFact& found = *std::max_element(facts.begin(), facts.end(), heavier);
   const auto row =
       std::find_if(kFacts.begin(), kFacts.end(), [&](const FactRow& one) { return one.name == found.name; });
-  const bool none = weight == &WeighedFact::against_flame && row->sentence != kShape;
+  const bool none = weight == &WeighedFact::against_flame && (row->sentence != kShape || !r.facts.burns);
   return (none ? "there is no flame in the film: " : "") +
          sentence_of(static_cast<std::size_t>(row - kFacts.begin()), r);
 }

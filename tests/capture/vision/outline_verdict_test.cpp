@@ -67,6 +67,18 @@ TEST(OutlineVerdict, WhatHasRunTogetherWithTheWaxThatItLightsIsNoFlame) {
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 
+TEST(OutlineVerdict, WhatNeverLookedLitIsNoFlameInGlare) {
+  CaptureReport report = judged(kFlame, 60);
+  report.facts.wander = 6;
+  judge_outline(report);
+  EXPECT_LT(report.likely_flame, 0.5);
+  EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
+  EXPECT_THAT(report.reason, testing::Not(HasSubstr("there is no flame")));
+  report.facts.burns = false;
+  judge_outline(report);
+  EXPECT_THAT(report.reason, HasSubstr("there is no flame in the film: its shape is not a flame's"));
+}
+
 TEST(OutlineVerdict, WhatIsAsWideAsHighIsNoFlame) {
   Outline outline = kFlame;
   for (CurvePoint& p : outline) p.x *= 2.6;

@@ -71,6 +71,7 @@ struct OutlineFacts {
   double taper = 0;                ///< median reduction of the width from the middle to near the tip
   double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
   double width = 0;                ///< median width across the axis, over height
+  bool burns = true;               ///< the first frames show a lit object that moves; else the film's last ones decided
   double light = 0;                ///< luma over the largest possible one
   double contrast = 255;           ///< brightness of the object minus that of its surroundings, levels of 255
   double clipped = 0;              ///< share of the object that is saturated in every channel
