@@ -19,11 +19,6 @@ constexpr float kForeignDb = 3;  ///< live: loudness over the floor from which a
 constexpr float kBlowingLikeness = 0.5F;
 
 template <class T>
-bool is_heard(const Observation<T>& seen, T floor_db) {
-  return floor_db + T(kHeardDb) < seen.loudness_db;
-}
-
-template <class T>
 bool sounds_like_blowing(const Observation<T>& seen) {
   return T(kBlowingLikeness) < seen.likeness;
 }

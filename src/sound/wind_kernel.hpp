@@ -122,7 +122,8 @@ class Kernel {
     Observation<T> seen;
     if (samples_ > 0) {
       const T share = per_channel_ / T(static_cast<float>(samples_));
-      seen.rms = root(audible_power(power_ * share));
+      using std::sqrt;
+      seen.rms = sqrt(audible_power(power_ * share));
       seen.clipped = T(static_cast<float>(clipped_)) * share;
     }
     if (analysed_ > 0) {
@@ -166,11 +167,6 @@ class Kernel {
 
   // Flushes powers below −240 dB to 0, as some machines flush denormal numbers and some do not.
   static T audible_power(T power) { return power < T(1e-24F) ? T(0.0F) : power; }
-
-  static T root(T x) {
-    using std::sqrt;
-    return sqrt(x);
-  }
 
   bool take(Channel& channel, T x) {
     group_power_ = group_power_ + x * x;

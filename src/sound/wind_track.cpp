@@ -135,7 +135,7 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   for (std::size_t k = 0; k < seen.size(); ++k) {
     WindFrame frame = wind::verdict(seen[k], around, d.power_exponent);
     frame.index = static_cast<std::int64_t>(k);
-    const bool foreign = wind::is_heard(seen[k], around.floor_db) && !wind::sounds_like_blowing(seen[k]);
+    const bool foreign = around.floor_db + wind::kHeardDb < seen[k].loudness_db && !wind::sounds_like_blowing(seen[k]);
     const float power = wind::power_between(spectra.frame(k), means);
     const float between = power > 0 ? wind::exp2_of(wind::log2_of(std::max(power, 1e-12F)) * d.power_exponent) : 0.0F;
     frame.wind = wind_of(wind::heard_speed(frame.speed, seen[k], around.floor_db), foreign, between);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "capture/vision/film_look.hpp"
 #include "capture/vision/outline_verdict_weights.hpp"
@@ -102,11 +101,7 @@ std::array<double, kFacts.size()> values_of(R r) {
           static_cast<double>(r.tracked)};
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0f", value);
-  return text;
-}
+std::string number(double value) { return std::to_string(std::lround(value)); }
 
 std::string percent(double share) { return number(100 * share) + " %"; }
 
