@@ -116,7 +116,7 @@ struct Cure {
   std::string advice;
 };
 
-Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Result<Captured>& refused,
+Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
   constexpr std::int64_t kEnoughFrames = 120;  // minimum for a rotated film; a glow is hardly as certain as a flame
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
@@ -145,8 +145,8 @@ Cure cure_of(const std::filesystem::path& path, ClipCapture options, const Resul
   for (const int turn : {2, 1, 3}) {
     if (usable(other, turn)) return {kTurned[turn], ""};
   }
-  options.flame = 0;
-  return {"", usable(options) ? "; something that moves can be followed, flame or not: --flame 0" : ""};
+  other.flame = 0;
+  return {"", usable(other) ? "; something that moves can be followed, flame or not: --flame 0" : ""};
 }
 
 }  // namespace
