@@ -116,10 +116,12 @@ const char* word_of(Origin origin) {
   return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
 }
 
-void add_events(const std::string& id, const SizeEvents& own, const SizeEvents& played, ReportSection& section) {
+void add_events(const std::string& id, const FlameEvents& own, const FlameEvents& played, ReportSection& section) {
   add(section, id + ".borrowed", own.empty());
   add(section, id + ".sizes", list(played.sizes));
   add(section, id + ".ends", list(played.ends));
+  add(section, id + ".scale", list(played.scale));
+  add(section, id + ".shapes", list(played.shapes));
 }
 
 void add_extinction(const std::string& id, const ExtinctionTraining& made, ReportSection& section) {

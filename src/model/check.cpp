@@ -193,7 +193,9 @@ Result<void> check(const Model& model) {
     return ok;
   if (auto ok = std::visit([&](const auto& view) { return check_view(model, view); }, model.view); !ok) return ok;
   if (model.extinction) {
-    if (auto ok = check(*model.extinction, model.inputs.size()); !ok) return ok;
+    const auto* outline = std::get_if<OutlineView>(&model.view);
+    const std::size_t components = outline ? outline->shape.count() - outline->shape.across : 0;
+    if (auto ok = check(*model.extinction, model.inputs.size(), components); !ok) return ok;
   }
   return check_training(model);
 }

@@ -20,28 +20,19 @@ struct Range {
 constexpr double kBorrowedHz = 60;
 constexpr std::uint8_t kDying[] = {191, 128, 64, 237, 178, 119, 59, 242, 161, 121, 81, 40, 230, 173, 115, 58};
 constexpr std::uint32_t kDyingEnds[] = {3, 7, 12, 16};
-constexpr std::uint8_t kCatching[] = {
-    167, 222, 255, 255, 197, 197, 207, 220, 228, 231, 234, 237, 240, 244, 246, 243, 241, 242, 246, 249, 250,
-    250, 249, 251, 251, 253, 253, 253, 254, 254, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255,
-    167, 219, 255, 255, 199, 197, 207, 219, 227, 231, 235, 237, 239, 243, 246, 243, 241, 241, 245, 249, 250,
-    249, 249, 249, 251, 252, 253, 253, 253, 254, 254, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255,
-    165, 220, 254, 255, 199, 197, 207, 219, 228, 231, 235, 237, 240, 243, 246, 244, 241, 241, 244, 249, 249,
-    249, 249, 250, 251, 253, 253, 252, 253, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
-constexpr std::uint32_t kCatchingEnds[] = {42, 84, 126};
+constexpr std::uint8_t kCatching[] = {167, 222, 255, 255, 197, 197, 207, 220, 228, 231, 234, 237, 240, 244,
+                                      246, 243, 241, 242, 246, 249, 250, 250, 249, 251, 251, 253, 253, 253,
+                                      254, 254, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
+constexpr std::uint32_t kCatchingEnds[] = {42};
 
-// Returns the events at another rate, with interpolated sizes.
-SizeEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::uint32_t> ends, double rate_hz) {
-  SizeEvents out;
-  std::size_t begin = 0;
+// Returns the events at another rate, each step the recorded one before it.
+FlameEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::uint32_t> ends, double rate_hz) {
+  FlameEvents out;
+  std::uint32_t begin = 0;
   for (const std::uint32_t end : ends) {
-    const auto rows = static_cast<double>(end - begin);
-    const auto steps = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(rows * rate_hz / kBorrowedHz)), 1,
-                                               SizeEvents::kMaxSizes / SizeEvents::kMaxEvents);
-    for (std::size_t k = 0; k < steps; ++k) {
-      const double at = std::min(rows - 1, static_cast<double>(k) * kBorrowedHz / rate_hz), share = at - std::floor(at);
-      const std::size_t row = begin + static_cast<std::size_t>(at);
-      out.sizes.push_back(static_cast<std::uint8_t>(
-          std::lround((1 - share) * sizes[row] + share * sizes[std::min<std::size_t>(row + 1, end - 1)])));
+    const double rows = end - begin, steps = std::clamp(std::round(rows * rate_hz / kBorrowedHz), 1.0, 1024.0);
+    for (int k = 0; k < static_cast<int>(steps); ++k) {
+      out.sizes.push_back(sizes[begin + static_cast<std::size_t>(k / steps * rows)]);
     }
     out.ends.push_back(static_cast<std::uint32_t>(out.sizes.size()));
     begin = end;
@@ -49,28 +40,34 @@ SizeEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::ui
   return out;
 }
 
-Result<void> check(const SizeEvents& events, const std::string& what) {
+bool is_scale(double scale) { return scale >= 0 && std::isfinite(scale); }
+
+Result<void> check(const FlameEvents& events, std::size_t components, const std::string& what) {
   const bool counted =
-      events.ends.size() <= SizeEvents::kMaxEvents && events.sizes.size() <= SizeEvents::kMaxSizes &&
+      events.ends.size() <= FlameEvents::kMaxEvents && events.sizes.size() <= FlameEvents::kMaxSizes &&
       (events.empty() ? 0 : events.ends.back()) == events.sizes.size() && (events.empty() || events.ends.front() > 0) &&
       std::adjacent_find(events.ends.begin(), events.ends.end(), std::greater_equal<>()) == events.ends.end();
-  if (counted) return {};
+  const bool shaped = (events.scale.empty() || events.scale.size() == components) &&
+                      events.shapes.size() == events.sizes.size() * events.scale.size() &&
+                      std::all_of(events.scale.begin(), events.scale.end(), is_scale);
+  if (counted && shaped) return {};
   return Error{"the extinction rule's events of " + what + " are " + std::to_string(events.ends.size()) + " with " +
-               std::to_string(events.sizes.size()) +
-               " sizes, expected at most 64, one after the other, each with some"};
+               std::to_string(events.sizes.size()) + " sizes and " + std::to_string(events.shapes.size()) +
+               " numbers of shapes, expected at most 64, one after the other, each with some, and no shape or " +
+               std::to_string(components) + " numbers a size"};
 }
 
 }  // namespace
 
-SizeEvents dying_of(const Extinction& rule, double rate_hz) {
+FlameEvents dying_of(const Extinction& rule, double rate_hz) {
   return rule.dying.empty() ? borrowed(kDying, kDyingEnds, rate_hz) : rule.dying;
 }
 
-SizeEvents catching_of(const Extinction& rule, double rate_hz) {
+FlameEvents catching_of(const Extinction& rule, double rate_hz) {
   return rule.catching.empty() ? borrowed(kCatching, kCatchingEnds, rate_hz) : rule.catching;
 }
 
-Result<void> check(const Extinction& rule, std::size_t inputs) {
+Result<void> check(const Extinction& rule, std::size_t inputs, std::size_t components) {
   if (rule.input >= inputs) {
     return Error{"the extinction rule listens to input " + std::to_string(rule.input) + ", the model has " +
                  std::to_string(inputs)};
@@ -81,8 +78,8 @@ Result<void> check(const Extinction& rule, std::size_t inputs) {
     return Error{std::string("the extinction rule's ") + range.name + " is " + std::to_string(range.value) +
                  ", expected " + std::to_string(range.lowest) + " to " + std::to_string(range.highest)};
   }
-  if (auto ok = check(rule.dying, "dying"); !ok) return ok;
-  return check(rule.catching, "catching");
+  if (auto ok = check(rule.dying, 0, "dying"); !ok) return ok;
+  return check(rule.catching, components, "catching");
 }
 
 }  // namespace wisp

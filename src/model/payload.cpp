@@ -138,9 +138,11 @@ fb::Offset<file::Training> write_training(Builder& builder, const Training& made
                               made.multiply_adds_per_frame, made.operations_per_frame, preparation, made.own_levels);
 }
 
-fb::Offset<file::SizeEvents> write_events(Builder& builder, const SizeEvents& events) {
+fb::Offset<file::FlameEvents> write_events(Builder& builder, const FlameEvents& events) {
   if (events.empty()) return 0;
-  return file::CreateSizeEventsDirect(builder, &events.sizes, &events.ends);
+  return file::CreateFlameEventsDirect(builder, &events.sizes, &events.ends,
+                                       events.scale.empty() ? nullptr : &events.scale,
+                                       events.scale.empty() ? nullptr : &events.shapes);
 }
 
 fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optional<Extinction>& rule) {
@@ -427,9 +429,9 @@ Result<void> read_view(const file::Model& stored, Model& model) {
   return {};
 }
 
-SizeEvents read_events(const file::SizeEvents* stored) {
+FlameEvents read_events(const file::FlameEvents* stored) {
   if (!stored) return {};
-  return {{stored->sizes()->begin(), stored->sizes()->end()}, {stored->ends()->begin(), stored->ends()->end()}};
+  return {integers(stored->sizes()), integers(stored->ends()), numbers(stored->scale()), integers(stored->shapes())};
 }
 
 std::optional<Extinction> read_extinction(const file::Model& stored) {

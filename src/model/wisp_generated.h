@@ -78,8 +78,8 @@ struct PreparationBuilder;
 struct Training;
 struct TrainingBuilder;
 
-struct SizeEvents;
-struct SizeEventsBuilder;
+struct FlameEvents;
+struct FlameEventsBuilder;
 
 struct Extinction;
 struct ExtinctionBuilder;
@@ -2772,12 +2772,14 @@ inline flatbuffers::Offset<Training> CreateTrainingDirect(
       own_levels);
 }
 
-struct SizeEvents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
-  typedef SizeEventsBuilder Builder;
+struct FlameEvents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
+  typedef FlameEventsBuilder Builder;
   struct Traits;
   enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
     VT_SIZES = 4,
-    VT_ENDS = 6
+    VT_ENDS = 6,
+    VT_SCALE = 8,
+    VT_SHAPES = 10
   };
   const flatbuffers::Vector<uint8_t> *sizes() const {
     return GetPointer<const flatbuffers::Vector<uint8_t> *>(VT_SIZES);
@@ -2785,64 +2787,90 @@ struct SizeEvents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<uint32_t> *ends() const {
     return GetPointer<const flatbuffers::Vector<uint32_t> *>(VT_ENDS);
   }
+  const flatbuffers::Vector<double> *scale() const {
+    return GetPointer<const flatbuffers::Vector<double> *>(VT_SCALE);
+  }
+  const flatbuffers::Vector<int8_t> *shapes() const {
+    return GetPointer<const flatbuffers::Vector<int8_t> *>(VT_SHAPES);
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffsetRequired(verifier, VT_SIZES) &&
            verifier.VerifyVector(sizes()) &&
            VerifyOffsetRequired(verifier, VT_ENDS) &&
            verifier.VerifyVector(ends()) &&
+           VerifyOffset(verifier, VT_SCALE) &&
+           verifier.VerifyVector(scale()) &&
+           VerifyOffset(verifier, VT_SHAPES) &&
+           verifier.VerifyVector(shapes()) &&
            verifier.EndTable();
   }
 };
 
-struct SizeEventsBuilder {
-  typedef SizeEvents Table;
+struct FlameEventsBuilder {
+  typedef FlameEvents Table;
   flatbuffers::FlatBufferBuilder &fbb_;
   flatbuffers::uoffset_t start_;
   void add_sizes(flatbuffers::Offset<flatbuffers::Vector<uint8_t>> sizes) {
-    fbb_.AddOffset(SizeEvents::VT_SIZES, sizes);
+    fbb_.AddOffset(FlameEvents::VT_SIZES, sizes);
   }
   void add_ends(flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends) {
-    fbb_.AddOffset(SizeEvents::VT_ENDS, ends);
+    fbb_.AddOffset(FlameEvents::VT_ENDS, ends);
   }
-  explicit SizeEventsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
+  void add_scale(flatbuffers::Offset<flatbuffers::Vector<double>> scale) {
+    fbb_.AddOffset(FlameEvents::VT_SCALE, scale);
+  }
+  void add_shapes(flatbuffers::Offset<flatbuffers::Vector<int8_t>> shapes) {
+    fbb_.AddOffset(FlameEvents::VT_SHAPES, shapes);
+  }
+  explicit FlameEventsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
   }
-  flatbuffers::Offset<SizeEvents> Finish() {
+  flatbuffers::Offset<FlameEvents> Finish() {
     const auto end = fbb_.EndTable(start_);
-    auto o = flatbuffers::Offset<SizeEvents>(end);
-    fbb_.Required(o, SizeEvents::VT_SIZES);
-    fbb_.Required(o, SizeEvents::VT_ENDS);
+    auto o = flatbuffers::Offset<FlameEvents>(end);
+    fbb_.Required(o, FlameEvents::VT_SIZES);
+    fbb_.Required(o, FlameEvents::VT_ENDS);
     return o;
   }
 };
 
-inline flatbuffers::Offset<SizeEvents> CreateSizeEvents(
+inline flatbuffers::Offset<FlameEvents> CreateFlameEvents(
     flatbuffers::FlatBufferBuilder &_fbb,
     flatbuffers::Offset<flatbuffers::Vector<uint8_t>> sizes = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends = 0) {
-  SizeEventsBuilder builder_(_fbb);
+    flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends = 0,
+    flatbuffers::Offset<flatbuffers::Vector<double>> scale = 0,
+    flatbuffers::Offset<flatbuffers::Vector<int8_t>> shapes = 0) {
+  FlameEventsBuilder builder_(_fbb);
+  builder_.add_shapes(shapes);
+  builder_.add_scale(scale);
   builder_.add_ends(ends);
   builder_.add_sizes(sizes);
   return builder_.Finish();
 }
 
-struct SizeEvents::Traits {
-  using type = SizeEvents;
-  static auto constexpr Create = CreateSizeEvents;
+struct FlameEvents::Traits {
+  using type = FlameEvents;
+  static auto constexpr Create = CreateFlameEvents;
 };
 
-inline flatbuffers::Offset<SizeEvents> CreateSizeEventsDirect(
+inline flatbuffers::Offset<FlameEvents> CreateFlameEventsDirect(
     flatbuffers::FlatBufferBuilder &_fbb,
     const std::vector<uint8_t> *sizes = nullptr,
-    const std::vector<uint32_t> *ends = nullptr) {
+    const std::vector<uint32_t> *ends = nullptr,
+    const std::vector<double> *scale = nullptr,
+    const std::vector<int8_t> *shapes = nullptr) {
   auto sizes__ = sizes ? _fbb.CreateVector<uint8_t>(*sizes) : 0;
   auto ends__ = ends ? _fbb.CreateVector<uint32_t>(*ends) : 0;
-  return wisp::file::CreateSizeEvents(
+  auto scale__ = scale ? _fbb.CreateVector<double>(*scale) : 0;
+  auto shapes__ = shapes ? _fbb.CreateVector<int8_t>(*shapes) : 0;
+  return wisp::file::CreateFlameEvents(
       _fbb,
       sizes__,
-      ends__);
+      ends__,
+      scale__,
+      shapes__);
 }
 
 struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
@@ -2872,11 +2900,11 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   double recovery() const {
     return GetField<double>(VT_RECOVERY, 0.0);
   }
-  const wisp::file::SizeEvents *dying() const {
-    return GetPointer<const wisp::file::SizeEvents *>(VT_DYING);
+  const wisp::file::FlameEvents *dying() const {
+    return GetPointer<const wisp::file::FlameEvents *>(VT_DYING);
   }
-  const wisp::file::SizeEvents *catching() const {
-    return GetPointer<const wisp::file::SizeEvents *>(VT_CATCHING);
+  const wisp::file::FlameEvents *catching() const {
+    return GetPointer<const wisp::file::FlameEvents *>(VT_CATCHING);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -2912,10 +2940,10 @@ struct ExtinctionBuilder {
   void add_recovery(double recovery) {
     fbb_.AddElement<double>(Extinction::VT_RECOVERY, recovery, 0.0);
   }
-  void add_dying(flatbuffers::Offset<wisp::file::SizeEvents> dying) {
+  void add_dying(flatbuffers::Offset<wisp::file::FlameEvents> dying) {
     fbb_.AddOffset(Extinction::VT_DYING, dying);
   }
-  void add_catching(flatbuffers::Offset<wisp::file::SizeEvents> catching) {
+  void add_catching(flatbuffers::Offset<wisp::file::FlameEvents> catching) {
     fbb_.AddOffset(Extinction::VT_CATCHING, catching);
   }
   explicit ExtinctionBuilder(flatbuffers::FlatBufferBuilder &_fbb)
@@ -2936,8 +2964,8 @@ inline flatbuffers::Offset<Extinction> CreateExtinction(
     double seconds = 0.0,
     double haste = 0.0,
     double recovery = 0.0,
-    flatbuffers::Offset<wisp::file::SizeEvents> dying = 0,
-    flatbuffers::Offset<wisp::file::SizeEvents> catching = 0) {
+    flatbuffers::Offset<wisp::file::FlameEvents> dying = 0,
+    flatbuffers::Offset<wisp::file::FlameEvents> catching = 0) {
   ExtinctionBuilder builder_(_fbb);
   builder_.add_recovery(recovery);
   builder_.add_haste(haste);

@@ -49,7 +49,7 @@ std::vector<ExtinctionEvidence> evidence_of(const std::vector<Clip>& clips, doub
 }
 
 // The mean size of a step of events that last as long; past an event's end it is `after`.
-double mean_size(const SizeEvents& events, std::size_t step, double after) {
+double mean_size(const FlameEvents& events, std::size_t step, double after) {
   double sum = 0;
   std::size_t begin = 0;
   for (const std::uint32_t end : events.ends) {
@@ -60,7 +60,7 @@ double mean_size(const SizeEvents& events, std::size_t step, double after) {
 }
 
 // The largest difference of mean sizes in a second.
-double means_apart(const SizeEvents& a, const SizeEvents& b, double rate_hz, double after) {
+double means_apart(const FlameEvents& a, const FlameEvents& b, double rate_hz, double after) {
   double most = 0;
   for (std::size_t step = 0; static_cast<double>(step) < rate_hz; ++step) {
     most = std::max(most, std::abs(mean_size(a, step, after) - mean_size(b, step, after)));

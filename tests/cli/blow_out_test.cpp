@@ -54,14 +54,14 @@ TEST_F(BlowOutProgram, TheRuleIsLearnedWhereTheRecordingHasIt) {
   EXPECT_EQ(wisp("info " + at("m.wisp") + " --json").json()["extinction"]["level"], found["level"]);
   EXPECT_THAT(wisp("info " + at("m.wisp")).out, HasSubstr("Extinction"));
   const json modes = wisp("info " + at("m.wisp") + " --json").json()["extinction"]["modes"];
-  ASSERT_EQ(modes.size(), 4U);
-  EXPECT_EQ(modes[0]["name"], "burning");
-  for (int mode : {1, 3}) {
+  ASSERT_EQ(modes.size(), 2U);
+  EXPECT_EQ(modes[0]["name"], "dying");
+  for (int mode : {0, 1}) {
     EXPECT_EQ(modes[mode]["source"], "recorded");
     EXPECT_GT(modes[mode]["events"].get<int>(), 3);
   }
-  EXPECT_LE(modes[1]["seconds"].get<double>(), 0.1);  // it vanishes from one row to the next; dim rows follow
-  EXPECT_NEAR(modes[3]["seconds"].get<double>(), 1, 0.02);
+  EXPECT_LE(modes[0]["seconds"].get<double>(), 0.1);  // it vanishes from one row to the next; dim rows follow
+  EXPECT_NEAR(modes[1]["seconds"].get<double>(), 0.75, 0.02);
   EXPECT_THAT(wisp("info " + at("m.wisp")).out, HasSubstr("puts it out in"));
 
   const Said validated = wisp("validate " + at("m.wisp") + " " + at("unseen.csv") + " --json");
@@ -92,8 +92,8 @@ TEST_F(BlowOutProgram, WithoutADeathThereIsADefaultAndItCanBeTurnedOff) {
   const Said learned = wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp") + " --json");
   ASSERT_EQ(learned.status, 0) << learned.err;
   EXPECT_EQ(learned.json()["extinction"]["source"], "default");
-  EXPECT_EQ(learned.json()["extinction"]["modes"][3]["source"], "borrowed from a simulated candle");
-  EXPECT_NEAR(learned.json()["extinction"]["modes"][3]["seconds"].get<double>(), 0.7, 0.01);
+  EXPECT_EQ(learned.json()["extinction"]["modes"][1]["source"], "borrowed from a simulated candle");
+  EXPECT_NEAR(learned.json()["extinction"]["modes"][1]["seconds"].get<double>(), 0.7, 0.01);
   EXPECT_GE(learned.json()["extinction"]["level"].get<double>(), 2);
   for (const std::string command : {"learn flame --blow-out off ", "learn outline "}) {
     const Said off = wisp(command + at("rec.csv") + " -o " + at("off.wisp") + " --json");

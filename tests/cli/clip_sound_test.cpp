@@ -225,14 +225,5 @@ TEST_F(ClipSound, WhatAClipIsTooShortToTellIsSaid) {
   EXPECT_THAT(said.out, Not(HasSubstr("nan")));
 }
 
-TEST_F(ClipSound, AModelIsFollowedPointByPoint) {
-  write_clip("clip.mp4", {});
-  learned("clip.mp4", "");
-  const Said validated = wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --json");
-  ASSERT_EQ(validated.status, 0) << validated.err;
-  EXPECT_EQ(validated.json()["points"].size(), 8u);
-  EXPECT_TRUE(validated.json()["points"][3]["fit_percent"].contains("inf"));
-}
-
 }  // namespace
 }  // namespace wisp::clip_sound_test

@@ -208,9 +208,10 @@ Model model_of(const Json& json) {
   model.extinction = Extinction{.level = rule["level"], .seconds = rule["seconds"], .haste = rule["haste"]};
   while (model.inputs.at(model.extinction->input).name != rule["input"]) ++model.extinction->input;
   put(rule["recovery"], model.extinction->recovery);
-  for (const auto& [name, events] : std::initializer_list<std::pair<const char*, SizeEvents*>>{
+  for (const auto& [name, events] : std::initializer_list<std::pair<const char*, FlameEvents*>>{
            {"dying", &model.extinction->dying}, {"catching", &model.extinction->catching}}) {
-    if (rule[name]["borrowed"] == false) *events = {rule[name]["sizes"], rule[name]["ends"]};
+    if (rule[name]["borrowed"] == false)
+      *events = {rule[name]["sizes"], rule[name]["ends"], rule[name]["scale"], rule[name]["shapes"]};
   }
   return model;
 }
@@ -339,6 +340,8 @@ TEST_F(InfoPlayed, ChainsOfPosesAndTheirGusts) {
 TEST_F(InfoPlayed, AFlameGoesOut) {
   for (const char* wind : {"1.9", "3"})
     expect_same_bits(WISP_SOURCE_DIR "/tests/model/golden/v1-extinction.wisp", "on", wind);
+  for (const char* wind : {"2.5", "-2.5"})
+    expect_same_bits(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp", "on", wind);
 }
 
 TEST_F(InfoPlayed, WhatIsNotPlayedIsRefusedInASentence) {

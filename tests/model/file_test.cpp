@@ -341,6 +341,7 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
          m.extinction->dying.ends = {2, 2, 3};
        }},
       {"catching", [](Model& m) { m.extinction->catching.sizes.pop_back(); }},
+      {"numbers of shapes", [](Model& m) { m.extinction->catching.shapes = {1}; }},
   };
   for (const auto& [word, harm] : broken) {
     Model model = mortal_model();

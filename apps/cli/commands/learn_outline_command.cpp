@@ -27,7 +27,7 @@ Result<ExtinctionRecipe> extinction_recipe(const Arguments& arguments) {
   if (!comma || end == second || *end != 0) {
     return Error{"--blow-out: found \"" + text + "\", expected auto, off, or LEVEL,SECONDS such as 1.5,0.3"};
   }
-  const auto fits = check(Extinction{.level = recipe.level, .seconds = recipe.seconds}, 1);
+  const auto fits = check(Extinction{.level = recipe.level, .seconds = recipe.seconds}, 1, 0);
   if (!fits) return Error{"--blow-out: " + fits.error().message};
   return recipe;
 }

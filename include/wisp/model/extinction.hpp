@@ -18,17 +18,20 @@
 
 namespace wisp {
 
-/// Apparent size of a flame during recorded events, step by step: a stored 255 is the full size.
-struct SizeEvents {
+/// Recorded events, step by step: the apparent size of the flame and, for re-ignition, its shape. The outline seen was
+/// that of the shape, times the size.
+struct FlameEvents {
   static constexpr std::size_t kMaxEvents = 64;    ///< largest number of events
   static constexpr std::size_t kMaxSizes = 65536;  ///< largest number of sizes in all events
 
-  std::vector<std::uint8_t> sizes;
-  std::vector<std::uint32_t> ends;  ///< one past the last size of each event, ascending
+  std::vector<std::uint8_t> sizes;    ///< a stored 255 is the full size
+  std::vector<std::uint32_t> ends{};  ///< one past the last size of each event, ascending
+  std::vector<double> scale{};        ///< per component of the view's shape: a stored 1, >= 0; empty: sizes alone
+  std::vector<std::int8_t> shapes{};  ///< sizes × components
 
   bool empty() const { return ends.empty(); }
 
-  friend bool operator==(const SizeEvents&, const SizeEvents&) = default;
+  friend bool operator==(const FlameEvents&, const FlameEvents&) = default;
 };
 
 /// A rule of extinction.
@@ -44,18 +47,19 @@ struct Extinction {
                      ///< twice the level a third of the time
   double recovery = 0.3;  ///< seconds below the level in which a nearly extinguished flame recovers, 1e-3 … 3600: the
                           ///< wick stays hot that long
-  SizeEvents dying{};     ///< recorded sizes from extinction on; empty: those of a simulated candle
-  SizeEvents catching{};  ///< recorded sizes from lighting on; empty: those of a simulated candle
+  FlameEvents dying{};    ///< recorded sizes from extinction on; empty: those of a simulated candle
+  FlameEvents catching{};  ///< recorded sizes and shapes from lighting on; empty: sizes of a simulated candle
 
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
 
 /// Returns the events to play at a rate: the rule's own, or if it has none those of a simulated candle.
-SizeEvents dying_of(const Extinction& rule, double rate_hz);
-SizeEvents catching_of(const Extinction& rule, double rate_hz);
+FlameEvents dying_of(const Extinction& rule, double rate_hz);
+FlameEvents catching_of(const Extinction& rule, double rate_hz);
 
-/// Checks that every number is finite and in its range, and that the rule's input is one of `inputs`. Errors say which,
-/// what was found and what was expected.
-Result<void> check(const Extinction& rule, std::size_t inputs);
+/// Checks that every number is finite and in its range, that the rule's input is one of `inputs`, and that recorded
+/// shapes, which decay has none of, have one number for each of the `components` of the outline's shape in the plane.
+/// Errors say which, what was found and what was expected.
+Result<void> check(const Extinction& rule, std::size_t inputs, std::size_t components);
 
 }  // namespace wisp

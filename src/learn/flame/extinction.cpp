@@ -327,13 +327,12 @@ Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evide
   });
   ExtinctionFit fit;
   fit.rule = rule_of(best);
-  fit.level_range = fit.seconds_range = {std::numeric_limits<double>::infinity(), 0};
+  fit.level_range = {std::numeric_limits<double>::infinity(), 0};
   const double as_well = best.cost + kAsWell + kAsWellEach * static_cast<double>(lives.deaths() + lives.gusts());
   for (const Trial& trial : trials) {
     if (trial.cost > as_well) continue;
     fit.level_range = {std::min(fit.level_range[0], trial.shape.level),
                        std::max(fit.level_range[1], trial.shape.level)};
-    fit.seconds_range = {std::min(fit.seconds_range[0], trial.seconds), std::max(fit.seconds_range[1], trial.seconds)};
   }
   fit.agreement = agreement(fit.rule, evidence);
   if (2 * fit.agreement.died <= fit.agreement.deaths) {

@@ -48,10 +48,9 @@ ExtinctionAgreement agreement(const Extinction& rule, std::span<const Extinction
 
 /// A learned rule and its uncertainty.
 struct ExtinctionFit {
-  Extinction rule;                        ///< level in the model's units
-  std::array<double, 2> level_range{};    ///< range over all equally good rules
-  std::array<double, 2> seconds_range{};  ///< range over all equally good rules
-  ExtinctionAgreement agreement;          ///< with the training recordings
+  Extinction rule;                      ///< level in the model's units
+  std::array<double, 2> level_range{};  ///< range over all equally good rules
+  ExtinctionAgreement agreement;        ///< with the training recordings
 };
 
 /// Learns a rule from recordings with at least one extinction.

@@ -19,45 +19,23 @@ std::string sentence_of(const Extinction& rule) {
          (rule.haste > 0 ? ", of twice that in " + number_text(twice, 2) + " s" : "");
 }
 
-// Report cells of a mode whose size replays recorded events: source, seconds, events.
-std::vector<ReportValue> event_cells(const SizeEvents& events, const SizeEvents& played, double rate_hz) {
-  std::vector<double> seconds;
-  for (std::size_t k = 0; k < played.ends.size(); ++k) {
-    seconds.push_back((played.ends[k] - (k > 0 ? played.ends[k - 1] : 0)) / rate_hz);
-  }
-  if (events.empty()) return {"borrowed from a simulated candle", median(seconds), {}};
-  return {"recorded", median(seconds), events.ends.size()};
-}
-
-std::vector<ReportValue> mode_row(const char* name, const char* moves, const std::vector<ReportValue>& event,
-                                  const char* starts, std::string ends) {
-  std::vector<ReportValue> row{name, moves};
-  row.insert(row.end(), event.begin(), event.end());
-  row.insert(row.end(), {starts, std::move(ends)});
-  return row;
-}
-
+// The recorded events that a model replays, or borrows.
 ReportTable modes_of(const Model& model) {
   const Extinction& rule = *model.extinction;
-  const ExtinctionTraining made = model.training.extinction.value_or(ExtinctionTraining{});
   ReportTable table{"extinction.modes",
                     "modes",
-                    {{"name", "mode"},
-                     {"moves", "what moves"},
-                     {"source", "source"},
-                     {"seconds", "takes", "s"},
-                     {"events", "events"},
-                     {"starts", "starts"},
-                     {"ends", "ends"}},
+                    {{"name", "mode"}, {"source", "source"}, {"seconds", "takes", "s"}, {"events", "events"}},
                     {}};
-  table.rows = {mode_row("burning", "the dynamics", {word_of(made.origin), {}, {}}, "in full size", sentence_of(rule)),
-                mode_row("dying", "its size, as in one of the events",
-                         event_cells(rule.dying, dying_of(rule, model.rate_hz), model.rate_hz),
-                         "in the shape of its last step", "with nothing left"),
-                mode_row("out", "nothing", {{}, {}, {}}, "with nothing left", "when it is lit"),
-                mode_row("catching", "the dynamics, and its size as in one of the events",
-                         event_cells(rule.catching, catching_of(rule, model.rate_hz), model.rate_hz),
-                         "from rest and unharmed", "in full size")};
+  const auto add = [&](const char* name, const FlameEvents& own, const FlameEvents& played) {
+    std::vector<double> seconds;
+    for (std::size_t k = 0; k < played.ends.size(); ++k) {
+      seconds.push_back((played.ends[k] - (k > 0 ? played.ends[k - 1] : 0)) / model.rate_hz);
+    }
+    table.rows.push_back({name, own.empty() ? "borrowed from a simulated candle" : "recorded",
+                          median(std::move(seconds)), own.empty() ? ReportValue() : own.ends.size()});
+  };
+  add("dying", rule.dying, dying_of(rule, model.rate_hz));
+  add("catching", rule.catching, catching_of(rule, model.rate_hz));
   return table;
 }
 
@@ -144,13 +122,9 @@ ReportSection extinction_section(const Model& model, const std::optional<Learned
   section.entries.push_back({"extinction.source", word_of(learned->origin), "source of the rule", ""});
   add_agreement(learned->agreement, "extinction.agreement", section);
   section.entries.push_back({"extinction.unexplained", learned->unexplained, "", ""});
-  if (learned->fit) {
-    const auto& level = learned->fit->level_range;
-    const auto& seconds = learned->fit->seconds_range;
-    section.entries.push_back({"extinction.level_range", ReportList{level[0], level[1]}, "levels that do as well", ""});
-    section.entries.push_back(
-        {"extinction.seconds_range", ReportList{seconds[0], seconds[1]}, "durations that do as well", "s"});
-  }
+  if (!learned->fit) return section;
+  const auto& level = learned->fit->level_range;
+  section.entries.push_back({"extinction.level_range", ReportList{level[0], level[1]}, "levels that do as well", ""});
   return section;
 }
 
@@ -165,7 +139,7 @@ ReportSection extinction_section(const std::optional<JudgedExtinction>& judged) 
 Result<ExtinguishedRecordings> ExtinguishedRecordings::find(std::vector<Recording> recordings,
                                                             const ExtinctionRecipe& recipe) {
   if (recipe.source == ExtinctionSource::kGiven) {
-    if (auto ok = check(given_rule(recipe), 1); !ok) return Error{"the rule of extinction: " + ok.error().message};
+    if (auto ok = check(given_rule(recipe), 1, 0); !ok) return Error{"the rule of extinction: " + ok.error().message};
   }
   ExtinguishedRecordings out;
   const auto inputs = channels_with_role(recordings.front(), Role::kInput);
@@ -203,7 +177,8 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
     return std::optional<LearnedExtinction>();
   }
   const double scale = model.training.inputs[index].scale;
-  auto events = recorded_events(evidence(scale, 0));
+  auto* view = std::get_if<OutlineView>(&model.view);
+  auto events = recorded_events(evidence(scale, 0), view ? *view : OutlineView{});
   if (!events) return events.error();
   const auto seen = evidence(scale, events->vanishing_seconds);
   LearnedExtinction out{.input = input_};
@@ -211,6 +186,7 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
   rule.input = index;
   out.agreement = agreement(rule, seen);
   out.unexplained = unexplained(seen);
+  if (!events->catching.scale.empty()) make_room(events->catching, view->shape);
   rule.dying = std::move(events->dying);
   rule.catching = std::move(events->catching);
   model.extinction = std::move(rule);

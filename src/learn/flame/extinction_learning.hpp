@@ -72,8 +72,7 @@ Result<Recording> burning_part(const Model& model, const Recording& recording);
 /// has no rule.
 ReportSection extinction_section(const Model& model);
 
-/// extinction_section() of a freshly learned model, with `source`, `agreement` {…}, `unexplained`, `level_range` and
-/// `seconds_range`.
+/// extinction_section() of a freshly learned model, with `source`, `agreement` {…}, `unexplained`, `level_range`.
 ReportSection extinction_section(const Model& model, const std::optional<LearnedExtinction>& learned);
 
 /// Section `extinction` {deaths, died, gusts, spared, …}; empty where the model has no rule.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/outline/outline_dynamics.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
 
@@ -14,8 +16,7 @@ namespace {
 constexpr double kDyingSeen = 0.3;  // maximum seconds of decay before extinction; earlier changes belong to the gust
 constexpr double kShrinks = 0.97;   // share of the previous size below which decay has begun
 constexpr double kDim = 0.05;       // seconds of glow without an outline
-constexpr double kMaxCatching = 1, kMinCatching = 0.25;  // seconds of re-ignition after the flame is visible
-constexpr double kFading = 0.3;                          // share of re-ignition, at its end, that fades to full size
+constexpr double kMaxCatching = 0.75, kMinCatching = 0.25;  // seconds of re-ignition after the flame is visible
 constexpr std::size_t kMaxEvents = 8;
 
 using Sizes = std::vector<double>;
@@ -27,8 +28,47 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
   return std::sqrt(enclosed_area(points));
 }
 
+// Sizes of consecutive rows and, where they are kept, the components of their shapes.
+struct Event {
+  Sizes sizes;
+  std::vector<double> shapes{};  // sizes × components
+};
+
+// Projects a recording's outlines on the components of a model's shape; does nothing if the shape is empty.
+class Shapes {
+ public:
+  Shapes(const ExtinctionEvidence& evidence, const OutlineView& view) : shape_(view.shape) {
+    if (shape_.empty()) return;
+    const Recording& recording = *evidence.recording;
+    layout_ = *outline_layout(recording);
+    const OutlineInput wind{.name = evidence.input, .scale = evidence.scale};
+    const Recording burning = without_blow_outs(recording, evidence.blow_outs);
+    units_ =
+        to_model_units(layout_.knots == view.knots ? recording : with_knots(recording, layout_, view.knots).recording,
+                       layout_, resting_height_pixels(burning, layout_, {&wind, 1}));
+  }
+
+  // Appends the components of a row of that size, or if it has no outline those of the row before.
+  void add(std::size_t row, double size, std::vector<double>& to) const {
+    if (shape_.empty()) return;
+    std::vector<double> outline = whole_row(units_, layout_, row);
+    for (double& value : outline) value /= std::min(size, 1.0);
+    std::vector<double> components(shape_.count());
+    if (!outline.empty() && size > 0)
+      components = components_of(shape_, shape_coordinates(outline));
+    else if (!to.empty())
+      components.assign(to.end() - std::ssize(components), to.end());
+    to.insert(to.end(), components.begin(), components.end());
+  }
+
+ private:
+  const ShapeComponents& shape_;
+  Recording units_;
+  OutlineLayout layout_;
+};
+
 // Sizes during visible decay, relative to the size before: rows from `lit` on.
-Sizes seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
+Event seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
   const std::size_t rows = rows_of(kDyingSeen, rate_hz), first = std::max(lit + rows, gone) - rows;
   Sizes before;
   for (std::size_t row = std::max(lit + rows, first) - rows; row < first; ++row) {
@@ -37,8 +77,8 @@ Sizes seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double r
   const double whole = before.empty() ? 1 : median(std::move(before));
   std::size_t begin = gone;
   while (begin > first && sizes[begin - 1] < kShrinks * whole) --begin;
-  Sizes out;
-  for (std::size_t row = begin; row < gone; ++row) out.push_back(sizes[row] / whole);
+  Event out;
+  for (std::size_t row = begin; row < gone; ++row) out.sizes.push_back(sizes[row] / whole);
   return out;
 }
 
@@ -50,30 +90,42 @@ void glow_on(Sizes& dying, double rate_hz) {
   }
 }
 
-Sizes seen_catching(const Sizes& sizes, std::size_t back, std::size_t next, double rate_hz) {
+Event seen_catching(const Sizes& sizes, const Shapes& shapes, std::size_t back, std::size_t next, double rate_hz) {
   const std::size_t end = std::min(next, back + rows_of(kMaxCatching, rate_hz));
   if (end < back + rows_of(kMinCatching, rate_hz)) return {};
-  Sizes out;
-  const auto rows = static_cast<double>(end - back);
+  Event out;
   for (std::size_t row = back; row < end; ++row) {
-    const double size = std::isnan(sizes[row]) ? out.empty() ? 0 : out.back() : sizes[row];
-    const double fading = std::max(0.0, 1 - (1 - static_cast<double>(row - back) / rows) / kFading);
-    out.push_back(size + fading * (1 - size));
+    out.sizes.push_back(!std::isnan(sizes[row]) ? sizes[row] : out.sizes.empty() ? 0 : out.sizes.back());
+    shapes.add(row, sizes[row], out.shapes);
   }
   return out;
 }
 
-SizeEvents stored(const std::vector<Sizes>& events) {
-  SizeEvents out;
+FlameEvents stored(const std::vector<Event>& events, std::size_t components) {
+  FlameEvents out;
+  out.scale.resize(components);
   const std::size_t count = std::min(events.size(), kMaxEvents);
+  const auto kept = [&](std::size_t k) -> const Event& { return events[k * events.size() / count]; };
   for (std::size_t k = 0; k < count; ++k) {
-    for (const double size : events[k * events.size() / count]) {
+    for (std::size_t i = 0; i < kept(k).shapes.size(); ++i) {
+      double& scale = out.scale[i % components];
+      scale = std::max(scale, std::abs(kept(k).shapes[i]) / 127);
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    for (const double size : kept(k).sizes) {
       out.sizes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(size, 0.0, 1.0))));
+    }
+    for (std::size_t i = 0; i < kept(k).shapes.size(); ++i) {
+      const double scale = out.scale[i % components];
+      out.shapes.push_back(static_cast<std::int8_t>(scale > 0 ? std::lround(kept(k).shapes[i] / scale) : 0));
     }
     out.ends.push_back(static_cast<std::uint32_t>(out.sizes.size()));
   }
   return out;
 }
+
+void widen(ValueRange& range, double value) { range = {std::min(range.lowest, value), std::max(range.highest, value)}; }
 
 }  // namespace
 
@@ -92,28 +144,45 @@ Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<co
   return sizes;
 }
 
-Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence) {
-  std::vector<Sizes> dying, catching;
+Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence, const OutlineView& view) {
+  std::vector<Event> dying, catching;
   std::vector<double> vanishing;
   for (const ExtinctionEvidence& each : evidence) {
     const double rate_hz = each.recording->rate_hz;
     const auto sizes = flame_sizes(*each.recording, each.blow_outs);
     if (!sizes) return sizes.error();
+    const Shapes shapes(each, view);
     std::size_t lit = 0;
     for (std::size_t k = 0; k < each.blow_outs.size(); ++k) {
       const BlowOut& one = each.blow_outs[k];
       const std::size_t next = k + 1 < each.blow_outs.size() ? each.blow_outs[k + 1].gone : sizes->size();
       if (one.blown) {
         dying.push_back(seen_dying(*sizes, lit, one.gone, rate_hz));
-        vanishing.push_back(static_cast<double>(dying.back().size()) / rate_hz);
-        glow_on(dying.back(), rate_hz);
-        Sizes caught = seen_catching(*sizes, one.back, next, rate_hz);
-        if (!caught.empty()) catching.push_back(std::move(caught));
+        vanishing.push_back(static_cast<double>(dying.back().sizes.size()) / rate_hz);
+        glow_on(dying.back().sizes, rate_hz);
+        Event caught = seen_catching(*sizes, shapes, one.back, next, rate_hz);
+        if (!caught.sizes.empty()) catching.push_back(std::move(caught));
       }
       lit = one.back;
     }
   }
-  return RecordedEvents{stored(dying), stored(catching), vanishing.empty() ? 0 : median(std::move(vanishing))};
+  return RecordedEvents{stored(dying, 0), stored(catching, catching.empty() ? 0 : view.shape.count()),
+                        vanishing.empty() ? 0 : median(std::move(vanishing))};
+}
+
+void make_room(const FlameEvents& events, ShapeComponents& shape) {
+  ShapeComponents open = shape;
+  open.coordinates.assign(shape.coordinates.size(),
+                          {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()});
+  std::vector<double> components(events.scale.size());
+  for (std::size_t first = 0; first < events.shapes.size(); first += components.size()) {
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      components[k] = events.scale[k] * events.shapes[first + k];
+      widen(shape.components[k], components[k]);
+    }
+    const std::vector<double> coordinates = shape_coordinates(control_points(open, components));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) widen(shape.coordinates[i], coordinates[i]);
+  }
 }
 
 }  // namespace wisp

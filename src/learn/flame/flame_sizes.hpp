@@ -1,5 +1,5 @@
 #pragma once
-// Recorded time courses of a flame's size for playback: decay when it is blown out, and re-ignition.
+// Recorded time courses of a flame's size and shape for playback: decay when it is blown out, and re-ignition.
 
 #include <span>
 #include <vector>
@@ -7,6 +7,7 @@
 #include "learn/flame/extinction.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/extinction.hpp"
+#include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -18,14 +19,17 @@ Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<co
 
 /// Recorded events, at most eight of a kind, equally spaced; empty where none was seen.
 struct RecordedEvents {
-  SizeEvents dying;              ///< from the beginning of decay, relative to the size before; then 0.05 s of glow
+  FlameEvents dying;             ///< from the beginning of decay, relative to the size before; then 0.05 s of glow
                                  ///< without an outline
-  SizeEvents catching;           ///< up to a second; the last 30 % fade into full size
+  FlameEvents catching;          ///< up to 0.75 s
   double vanishing_seconds = 0;  ///< median duration of visible decay
 };
 
-/// Extracts the events around the blow-outs. All recordings must have one rate.
-/// Errors: as flame_sizes().
-Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence);
+/// Extracts the events around the blow-outs. All recordings must have one rate. If the view has a shape, outlines of
+/// re-ignition are stored as its components. Errors: as flame_sizes().
+Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence, const OutlineView& view = {});
+
+/// Extends the ranges of a shape to those of the events: re-ignition is wider than any burning flame.
+void make_room(const FlameEvents& events, ShapeComponents& shape);
 
 }  // namespace wisp

@@ -62,27 +62,13 @@ std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::s
   return values;
 }
 
-// The one-step prediction, where pictures show another.
-const PredictedOutlines* one_step(const OutlineJudgement& found) {
-  for (const PredictedOutlines& predicted : found.predicted) {
-    if (predicted.steps == 1 && &predicted != &shown(found)) return &predicted;
-  }
-  return nullptr;
-}
-
-Result<ReportSection> tip_series(const OutlineJudgement& found, const ValidatedOutline& out,
-                                 const std::vector<double>& seconds) {
+ReportSection tip_series(const ValidatedOutline& out, const std::vector<double>& seconds) {
   ReportSection section{"Tip, sideways"};
   const auto add = [&](const char* id, const std::string& label, const OutlineRows& rows) {
     section.series.push_back({id, label, "seconds", "flame heights", seconds, tips(rows, out.pixels_per_unit, 0)});
   };
   add("tip.captured", "captured", out.captured);
   add("tip.simulated", out.simulated_label, out.simulated);
-  if (const PredictedOutlines* next = one_step(found)) {
-    const auto rows = outline_rows(next->recording);
-    if (!rows) return rows.error();
-    add("tip.predicted", label_of(*next), *rows);
-  }
   return section;
 }
 
@@ -119,12 +105,10 @@ ReportSection flicker_series(const ValidatedOutline& out, double rate_hz, std::s
   return section;
 }
 
-Result<void> add_series(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
+void add_series(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
   const std::vector<double> seconds = seconds_of(recording);
   auto& sections = out.report.sections;
-  auto tip = tip_series(found, out, seconds);
-  if (!tip) return tip.error();
-  sections.push_back(*std::move(tip));
+  sections.push_back(tip_series(out, seconds));
   for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
     sections.push_back(input_series(recording.channels[channel], seconds));
   }
@@ -132,7 +116,6 @@ Result<void> add_series(const Recording& recording, const OutlineJudgement& foun
   for (std::size_t coordinate : {0, 1}) {
     sections.push_back(flicker_series(out, recording.rate_hz, welch_samples, coordinate));
   }
-  return {};
 }
 
 // Reports the input's gain: another microphone measures the same wind at another level, which readers overlook.
@@ -181,7 +164,7 @@ Result<ValidatedOutline> validate_outline(const Model& model, const Recording& r
   out.report.sections = report_sections(*found);
   out.report.sections.push_back(gain_section(*factor));
   out.report.sections.push_back(extinction_section(*extinction));
-  if (auto ok = add_series(*heard, *found, out); !ok) return ok.error();
+  add_series(*heard, *found, out);
   if (const auto* arx = std::get_if<ArxModel>(&model.dynamics); arx && options.responses) {
     arx::add_poles(*arx, out.report);
   }

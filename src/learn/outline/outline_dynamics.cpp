@@ -103,22 +103,6 @@ double least_power(const Components& even, const Components& odd, Eigen::Index c
   return std::max({last, kLeastPower * all.front(), std::numeric_limits<double>::min()});
 }
 
-// Projects shape coordinates on the components; the shape's basis has orthogonal columns.
-std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates) {
-  std::vector<double> out(shape.count(), 0.0), norm(shape.count(), 0.0);
-  const double* basis = shape.basis.data();
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const bool symmetric = i < shape.points();
-    const std::size_t first = symmetric ? 0 : shape.symmetric, end = symmetric ? shape.symmetric : shape.count();
-    for (std::size_t k = first; k < end; ++k, ++basis) {
-      out[k] += *basis * (coordinates[i] - shape.rest[i]);
-      norm[k] += *basis * *basis;
-    }
-  }
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] /= norm[k];
-  return out;
-}
-
 // The recorded range. For a component that changes sign under the mirror image it is extended to be symmetric about the
 // middle.
 ValueRange range_of(const Eigen::VectorXd& values, double middle, bool symmetric) {
@@ -359,6 +343,21 @@ Result<OutlineDynamics> fit_points(std::span<const Recording> recordings, const 
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper) {
   return paper > 0 ? fit_points(recordings, prepared, paper) : fit_shape(recordings, prepared);
+}
+
+std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates) {
+  std::vector<double> out(shape.count(), 0.0), norm(shape.count(), 0.0);
+  const double* basis = shape.basis.data();
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const bool symmetric = i < shape.points();
+    const std::size_t first = symmetric ? 0 : shape.symmetric, end = symmetric ? shape.symmetric : shape.count();
+    for (std::size_t k = first; k < end; ++k, ++basis) {
+      out[k] += *basis * (coordinates[i] - shape.rest[i]);
+      norm[k] += *basis * *basis;
+    }
+  }
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] /= norm[k];
+  return out;
 }
 
 Recording moved_recording(const ShapeComponents& shape, const Recording& recording, const PreparedOutlines& prepared) {

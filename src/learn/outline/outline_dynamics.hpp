@@ -36,6 +36,11 @@ struct OutlineDynamics {
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper);
 
+/// Projects shape coordinates in the plane on the components.
+///
+/// Precondition: the shape's basis has orthogonal columns, as that of fit_dynamics().
+std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates);
+
 /// A prepared recording with shape components c0, c1, … in place of its control points; unchanged where the shape is
 /// empty.
 Recording moved_recording(const ShapeComponents& shape, const Recording& recording, const PreparedOutlines& prepared);

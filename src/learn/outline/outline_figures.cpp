@@ -96,28 +96,9 @@ class Errors {
   std::vector<double> origin_;  // first value per channel; with it a constant channel has spread exactly 0
 };
 
-// Combines the fits of x and y into that of the point: errors and spreads add up. A fit of 0 is also that of a constant
-// channel, whose spread is then replaced by its error, so it has no influence.
-std::vector<double> point_fits(const PredictionFigures& figures) {
-  std::vector<double> fits;
-  for (std::size_t i = 0; i + 1 < figures.fit_percent.size(); i += 2) {
-    double error = 0;
-    double spread = 0;
-    for (std::size_t channel : {i, i + 1}) {
-      const double left = 1 - figures.fit_percent[channel] / 100;
-      if (!(left > 0)) continue;
-      error += figures.mean_square[channel];
-      spread += figures.mean_square[channel] / (left * left);
-    }
-    fits.push_back(spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0);
-  }
-  return fits;
-}
-
 void add_figures(const PredictionFigures& fit, const Shapes& shapes, OutlineFigures& out) {
   out.rows = std::max(out.rows, fit.rows);
-  out.j.push_back(fit.j);
-  out.point_fit_percent.push_back(point_fits(fit));
+  out.j.push_back(mean(fit.j));
   for (std::size_t i = 0; i < out.channels.size(); ++i) out.channels[i].fit_percent.push_back(fit.fit_percent[i]);
   const auto rows = static_cast<double>(std::max<std::size_t>(1, shapes.tip_measured.size()));
   out.tip_fit_percent.push_back(fit_percent(shapes.tip_measured, shapes.tip_predicted));

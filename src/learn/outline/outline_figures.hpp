@@ -27,11 +27,9 @@ struct OutlineFigures {
   std::vector<int> steps;
   std::size_t rows = 0;  ///< number of rows judged
   std::vector<OutlineChannelFigures> channels;
-  std::vector<std::vector<double>> j;                  ///< J_k: mean norm of the error, per control point
-  std::vector<std::vector<double>> point_fit_percent;  ///< x and y together, per control point: above 0, better than
-                                                       ///< predicting the mean
-  std::vector<double> tip_fit_percent;                 ///< fit of the tip's x
-  std::vector<double> overlap;  ///< mean intersection over union of predicted and captured filled outlines
+  std::vector<double> j;                ///< J_k: mean norm of the error of a control point
+  std::vector<double> tip_fit_percent;  ///< fit of the tip's x
+  std::vector<double> overlap;          ///< mean intersection over union of predicted and captured filled outlines
 };
 
 /// Judges dynamics on prepared recordings. Without inputs a free simulation stays at the mean shape: kFreeRun then

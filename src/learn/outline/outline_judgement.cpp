@@ -131,23 +131,6 @@ double self_intersection_rate(const Recording& recording, const OutlineLayout& l
   return recording.rows() == 0 ? 0 : static_cast<double>(crossed) / static_cast<double>(recording.rows());
 }
 
-// Warns of control points that are predicted no better than by their mean.
-void warn_of_lost_points(OutlineJudgement& out) {
-  const auto& steps = out.figures.steps;
-  const auto at = std::find(steps.begin(), steps.end(), kFreeRun) - steps.begin();
-  if (static_cast<std::size_t>(at) == steps.size()) return;
-  const auto& fits = out.figures.point_fit_percent[at];
-  for (std::size_t p = 0; p < fits.size(); ++p) {
-    if (fits[p] > 0) continue;
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "simulated from its inputs alone, control point %zu is followed no better than by its mean (fit %.1f %%)", p,
-        fits[p]);
-    out.warnings.push_back(text);
-  }
-}
-
 // Sets play missing in rows where the recording has no outline; those frames are not compared.
 void hide_unseen(const Recording& recorded, const std::vector<std::string>& outputs, Recording& play) {
   for (const std::string& name : outputs) {
@@ -213,7 +196,6 @@ Result<OutlineJudgement> judge_outline(const Model& model, const Recording& give
   if (!played) return played.error();
   out.played = *std::move(played);
   out.driven = !inputs->empty();
-  if (out.driven) warn_of_lost_points(out);
   if (!options.fidelity) return out;
   if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
   if (auto ok = add_fidelity(*outline, *prepared, driving, options, out); !ok) return ok.error();

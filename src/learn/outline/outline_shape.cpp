@@ -187,16 +187,6 @@ double enclosed_area(std::span<const OutlinePoint> polygon) {
   return std::abs(twice) / 2;
 }
 
-double area_of(std::span<const OutlinePoint> polygon) {
-  Range range;
-  range.take(polygon);
-  if (range.empty()) return 0;
-  const Crossings crossings(polygon, range);
-  double sum = 0;
-  for (int strip = 0; strip < kStrips; ++strip) sum += length_of(crossings.at(strip));
-  return sum * (range.highest - range.lowest) / kStrips;
-}
-
 double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint> b) {
   Range range;
   range.take(a);

@@ -51,10 +51,7 @@ double height_of(std::span<const OutlinePoint> polyline);
 /// Whether the outline, closed along its base, intersects itself. No real flame does.
 bool crosses_itself(std::span<const OutlinePoint> polyline);
 
-/// Area of the closed polygon filled by the even-odd rule.
-double area_of(std::span<const OutlinePoint> polygon);
-
-/// Area enclosed by a polygon without self-intersections; faster than area_of().
+/// Area enclosed by a polygon without self-intersections.
 double enclosed_area(std::span<const OutlinePoint> polygon);
 
 /// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an

@@ -72,9 +72,9 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
   round_points = arena.take<float>(shape.across > 0 ? 2 * visible * kLanes : 0);
   round_lines = arena.take<float>(shape.across > 0 ? static_cast<std::size_t>(4 * polyline.points) * kLanes : 0);
   if (extinction.present) {
-    for (auto* values : {&wind, &harm, &lit, &size, &previous_size, &event, &carried})
+    for (auto* values : {&wind, &harm, &lit, &size, &previous_size, &event, &left, &previous_left})
       *values = arena.take<float>(lanes);
-    last_shape = arena.take<float>(lanes * moved());
+    offset = arena.take<float>(lanes * moved());
     lit_at = arena.take<std::uint64_t>(lanes);
     out_at = arena.take<std::uint64_t>(lanes);
   }
@@ -93,9 +93,9 @@ void Bank::State::start(int slot) {
     harm[slot] = 0.0f;
     lit[slot] = size[slot] = previous_size[slot] = 1.0f;
     event[slot] = kNoEvent;
-    carried[slot] = 0.0f;
+    left[slot] = previous_left[slot] = 0.0f;
     lit_at[slot] = out_at[slot] = kNeverInSteps;
-    for (std::size_t i = 0; i < channels.outputs.size(); ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
+    for (std::size_t i = 0; i < moved(); ++i) offset_of(slot, i) = 0.0f;
   }
   show_block(block);
 }
@@ -111,7 +111,11 @@ void Bank::State::relight(int slot) {
   lit[slot] = 1.0f;
   lit_at[slot] = steps;
   begin_event(slot, extinction.catching, steps);
-  if (size[slot] > 0.0f) carried[slot] = size[slot] - extinction.sizes[static_cast<std::size_t>(event[slot])];
+  left[slot] = previous_left[slot] = size[slot] > 0.0f ? 1.0f : 0.0f;
+  for (std::size_t i = 0; i < moved(); ++i) {
+    float& beside = offset_of(slot, i);
+    beside = extinction.shapes.empty() ? 0.0f : beside - recorded_component(static_cast<std::size_t>(event[slot]), i);
+  }
   show_block(block);
 }
 
@@ -213,7 +217,7 @@ void Bank::State::show() {
 namespace {
 
 constexpr std::array<char, 8> kSaveMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 3, kChainVersion = 5;  // kChainVersion: of banks of chains
+constexpr std::uint32_t kVersion = 4, kChainVersion = 5;  // kChainVersion: of banks of chains
 constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
@@ -223,7 +227,7 @@ std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVers
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
-  const std::size_t life = s.extinction.present ? 7 * 4 + 2 * 8 + 4 * s.moved() : 0;
+  const std::size_t life = s.extinction.present ? 8 * 4 + 2 * 8 + 4 * s.moved() : 0;
   return 3 * 8 + 4 * (s.channels.regressors.size() + values) + life;
 }
 
@@ -268,7 +272,7 @@ struct SlotRecord {
 };
 
 // Visits the saved state of a slot, in order. With extinction: the wind, the damage, whether it is lit, its sizes, its
-// event and position in it, the times of lighting and extinction, and its last shape.
+// event, its offset and the share of that which is left, and the times of lighting and extinction.
 void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   std::uint32_t alive = s.alive[slot];
@@ -293,12 +297,12 @@ void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
   number(s.size[slot], 0, 1);
   number(s.previous_size[slot], 0, 1);
   number(s.event[slot], kNoEvent, static_cast<float>(s.extinction.sizes.size()) - 1, 1);
-  number(s.carried[slot], -1, 1);
+  for (auto* left : {&s.left, &s.previous_left}) number((*left)[slot], 0, 1);
   for (auto* moments : {&s.lit_at, &s.out_at}) record.moment((*moments)[slot], true);
-  float* shape = s.last_shape_of(block) + lane;
-  for (const OutputChannel& channel : s.channels.outputs) {
-    number(*shape, std::min(channel.lowest, 0.0f), std::max(channel.highest, 0.0f));
-    shape += s.kLanes;
+  for (std::size_t i = 0; i < s.moved(); ++i) {
+    const OutputChannel& channel = s.channels.outputs[i];
+    const float width = channel.highest - channel.lowest;
+    number(s.offset_of(slot, i), std::min(channel.lowest, -width), std::max(channel.highest, width));
   }
 }
 

@@ -72,16 +72,19 @@ struct Bank::State {
   void live_block(int block, const float* newest, std::uint64_t moment);
   void go_out(int slot, const float* newest, std::uint64_t moment);
   void begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at);
-  void grow(int slot);
+  void play_event(int slot, const float* newest);
+  float newest_of(int slot, std::size_t i, const float* newest) const;
+  float recorded_component(std::size_t row, std::size_t component) const;
+  float shape_in_event(int slot, std::size_t component, float dynamics, float share) const;
   std::size_t moved() const { return shape.empty() ? visible : shape.components(); }  // variables of the dynamics
-  float* last_shape_of(int block) { return last_shape.data() + block * moved() * kLanes; }
+  float& offset_of(int slot, std::size_t i) { return offset[(slot / kLanes * moved() + i) * kLanes + slot % kLanes]; }
   float* components_of(int block) const { return components.data() + block * shape.components() * kLanes; }
   void show();
   void show_block(int block);
   template <int kBlocks, class Dynamics>
   void show_blocks(const Dynamics& dynamics, int first);
   bool is_whole(int block) const;
-  void show_last(int block);
+  void show_events(int block);
   void show_shape(int block, LevelView from, float* points) const;
   void show_life(int block, std::size_t count, float* values) const;
   void see_round(int block, bool lines_too = true) const;
@@ -133,8 +136,10 @@ struct Bank::State {
   std::span<float> size;
   std::span<float> previous_size;   // size before the last step
   std::span<float> event;           // index of the next step's size in the extinction's sizes, or kNoEvent
-  std::span<float> carried;         // size at extinction, or remaining excess size after relighting
-  std::span<float> last_shape;      // [block][moved][lane]: variables of the dynamics at extinction
+  std::span<float> left;            // share of the offset that is applied, 0 … 1
+  std::span<float> previous_left;   // share before the last step
+  std::span<float> offset;          // [block][moved][lane]: of the shown variables from the event's or the dynamics';
+                                    // of an extinguished instance the shown variables themselves
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
   std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
 

@@ -129,14 +129,17 @@ ExtinctionCount count_extinction(const Model& model) {
   Arena unused;
   const ExtinctionProgram rule = make_extinction_program(model, unused);
   if (!rule.present) return {};
-  CountingReal wind, harm, lit(1.0f), size(1.0f), carried;
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  const std::size_t recorded = outline && !rule.shapes.empty() ? outline->shape.count() : 0;
+  CountingReal wind, harm, lit(1.0f), size(1.0f);
   std::vector<CountingReal> shown(model.outputs.size());
   const OperationCount burning = count([&] {
     blowing<CountingNumbers>(rule, [](int) { return Reals<CountingNumbers>{}; });
     live<CountingNumbers>(rule, {&wind, &harm, &lit});
   });
   const OperationCount shrinking = count([&] {
-    size = size_of_step(rule, true, 0.5f, carried);
+    // What is seen of recorded components; of a model without them, the size that it comes to.
+    for (std::size_t k = 0; k < std::max<std::size_t>(recorded, 1); ++k) size = nearer(size, CountingReal(1.0f), 0.5f);
     const auto now = load<Reals<CountingNumbers>>(&size);
     shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());
   });

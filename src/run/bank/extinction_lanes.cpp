@@ -11,14 +11,32 @@ namespace wisp {
 namespace {
 
 constexpr double kMaxHarm = 0.5;       // largest damage per step: no single sample blows a flame out
-constexpr double kFadeSeconds = 0.08;  // half-life of the excess size at relighting
+constexpr double kStirs = 0.1;         // share of the level above which wind ends the replay of re-ignition
+constexpr double kJoinSeconds = 0.06;  // duration of the cross-over from decay to re-ignition
+constexpr double kLeaveSeconds = 0.2;  // duration of the cross-over from re-ignition to the dynamics
 
-void lay_out(const SizeEvents& events, std::span<std::uint32_t> begins, std::size_t& at, std::span<float> sizes) {
+// Returns the number of steps in a duration, at least one.
+std::size_t steps_in(double seconds, double step) {
+  return static_cast<std::size_t>(std::clamp(std::round(seconds / step), 1.0, 1000.0));
+}
+
+// Lays events out one after the other, each followed by `leaving` steps of cross-over.
+void lay_out(const FlameEvents& events, std::size_t leaving, std::span<std::uint32_t> begins, std::size_t& at,
+             ExtinctionProgram& program) {
+  const std::size_t components = events.scale.size();
   std::uint32_t begin = 0;
   for (std::size_t k = 0; k < events.ends.size(); ++k) {
     begins[k] = static_cast<std::uint32_t>(at);
-    for (; begin < events.ends[k]; ++begin) sizes[at++] = static_cast<float>(events.sizes[begin]) / 255.0f;
-    sizes[at++] = kEventEnds;
+    for (; begin < events.ends[k]; ++begin, ++at) {
+      program.sizes[at] = static_cast<float>(events.sizes[begin]) / 255.0f;
+      for (std::size_t c = 0; c < components; ++c) {
+        program.shapes[at * components + c] =
+            kept(std::clamp(events.scale[c], 0.0, 1e12) * events.shapes[begin * components + c]);
+      }
+    }
+    for (std::size_t step = 1; step <= leaving; ++step) {
+      program.sizes[at++] = kEventEnds * static_cast<float>(step) / static_cast<float>(leaving);
+    }
   }
 }
 
@@ -40,27 +58,35 @@ ExtinctionProgram make_extinction_program(const Model& model, Arena& arena) {
   program.base = kept(harm * (1 - rule.haste));
   program.slope = kept(harm * rule.haste / rule.level);
   program.recovery = kept(step / rule.recovery);
-  program.fade = static_cast<float>(std::exp2(-step / kFadeSeconds));
-  const SizeEvents dying = dying_of(rule, model.rate_hz), catching = catching_of(rule, model.rate_hz);
+  program.stirs = static_cast<float>(kStirs * rule.level);
+  program.join = 1.0f / static_cast<float>(steps_in(kJoinSeconds, step));
+  const FlameEvents dying = dying_of(rule, model.rate_hz), catching = catching_of(rule, model.rate_hz);
+  const std::size_t leaving = steps_in(kLeaveSeconds, step);
   program.dying = arena.take<std::uint32_t>(dying.ends.size());
   program.catching = arena.take<std::uint32_t>(catching.ends.size());
-  program.sizes =
-      arena.take<float>(dying.sizes.size() + catching.sizes.size() + dying.ends.size() + catching.ends.size());
+  const std::size_t steps =
+      1 + dying.sizes.size() + dying.ends.size() + catching.sizes.size() + catching.ends.size() * leaving;
+  program.sizes = arena.take<float>(steps);
+  program.shapes = arena.take<float>(steps * catching.scale.size());
   if (arena.measures()) return program;
   std::size_t at = 0;
-  lay_out(dying, program.dying, at, program.sizes);
-  lay_out(catching, program.catching, at, program.sizes);
+  program.sizes[at++] = kEventEnds;
+  lay_out(dying, 1, program.dying, at, program);
+  lay_out(catching, leaving, program.catching, at, program);
   return program;
 }
 
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before) {
   if (!program.present) return before;
   std::uint64_t hash = hash_number(static_cast<std::uint32_t>(program.input), before);
-  hash = hash_floats({program.level, program.most, program.base, program.slope, program.recovery, program.fade}, hash);
+  hash = hash_floats(
+      {program.level, program.most, program.base, program.slope, program.recovery, program.join, program.stirs}, hash);
   for (const std::span<std::uint32_t> begins : {program.dying, program.catching}) {
     for (const std::uint32_t begin : begins) hash = hash_number(begin, hash);
   }
-  for (const float size : program.sizes) hash = hash_floats({size}, hash);
+  for (const std::span<float> numbers : {program.sizes, program.shapes}) {
+    if (!numbers.empty()) hash = hash_floats(numbers, hash);
+  }
   return hash;
 }
 

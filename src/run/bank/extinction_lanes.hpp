@@ -2,7 +2,7 @@
 // The rule of extinction (wisp/model/extinction.hpp), applied block by block.
 //
 // An instance has a damage, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes
-// three operations, and one to read the wind; during a recorded event, five more and one for each displayed output.
+// three operations, and one to read the wind; during a recorded event, some for each component and displayed output.
 
 #include <cstdint>
 #include <span>
@@ -23,9 +23,12 @@ struct ExtinctionProgram {
   float most = 0;  ///< upper limit of the wind
   float base = 0;  ///< damage of a step at or above the level is base + slope · wind
   float slope = 0;
-  float recovery = 0;                 ///< reduction of the damage per step below the level
-  float fade = 0;                     ///< factor per step of the size at relighting in excess of the recorded one
-  std::span<float> sizes;             ///< sizes of all events, each followed by kEventEnds
+  float recovery = 0;      ///< reduction of the damage per step below the level
+  float stirs = 0;         ///< wind that ends the replay of re-ignition
+  float join = 0;          ///< reduction of the offset's share per step of re-ignition
+  std::span<float> sizes;  ///< kEventEnds, then sizes of all events, each followed by the steps of the cross-over to
+                           ///< the dynamics as negative shares of it, the last of them kEventEnds
+  std::span<float> shapes;            ///< components in the plane for every size; empty: no event has shapes
   std::span<std::uint32_t> dying;     ///< start index of each event
   std::span<std::uint32_t> catching;  ///< start index of each event
 };
@@ -34,7 +37,7 @@ struct ExtinctionProgram {
 inline constexpr float kEventEnds = -1;
 
 /// Value in the place of an event index: no event.
-inline constexpr float kNoEvent = -1;
+inline constexpr float kNoEvent = 0;
 
 /// Lays the program out and, unless the arena measures, fills it.
 ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
@@ -59,14 +62,10 @@ struct LifeLanes {
   Real* lit;
 };
 
-/// Returns the size of one step of an event: the recorded size multiplied by the size at extinction, or combined with
-/// the size at relighting.
+/// Interpolates between two numbers.
 template <class Real>
-inline Real size_of_step(const ExtinctionProgram& rule, bool lit, float recorded, Real& carried) {
-  if (!lit) return Real(recorded) * carried;
-  const Real size = Real(recorded) + carried;
-  carried = carried * Real(rule.fade);
-  return size < Real(0.0f) ? Real(0.0f) : Real(1.0f) < size ? Real(1.0f) : size;
+inline Real nearer(Real from, Real to, float share) {
+  return share == 1.0f ? to : from + Real(share) * (to - from);
 }
 
 /// Makes one step of a block.

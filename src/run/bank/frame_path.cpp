@@ -199,7 +199,7 @@ void Bank::State::live_block(int block, const float* newest, std::uint64_t momen
   for (int lane = 0; lane < kLanes; ++lane) {
     const int slot = block * kLanes + lane;
     if (before[lane] != life.lit[lane]) go_out(slot, newest, moment);
-    if (event[slot] != kNoEvent) grow(slot);
+    if (event[slot] != kNoEvent) play_event(slot, newest);
   }
 }
 
@@ -212,35 +212,71 @@ void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, s
   std::uint32_t drawn[kLanes];
   store(words[0], drawn);
   event[slot] = static_cast<float>(events[drawn[slot % kLanes] % events.size()]);
-  carried[slot] = 0.0f;
 }
 
-// Sets the size of one step of an event.
-void Bank::State::grow(int slot) {
-  const float recorded = extinction.sizes[static_cast<std::size_t>(event[slot])];
+// Returns a component of a recorded shape; components across the picture were not recorded and are 0.
+float Bank::State::recorded_component(std::size_t row, std::size_t component) const {
+  const std::size_t plane = shape.symmetric + shape.antisymmetric;
+  if (component >= plane) return 0.0f;
+  return std::clamp(extinction.shapes[row * plane + component], channels.outputs[component].lowest,
+                    channels.outputs[component].highest);
+}
+
+// Returns a component of the displayed shape, interpolated between the last two steps: that of the event's row or of
+// the dynamics, plus the applied share of the offset. An extinguished instance keeps its last shape.
+float Bank::State::shape_in_event(int slot, std::size_t component, float dynamics, float share) const {
+  const float beside = const_cast<State*>(this)->offset_of(slot, component);
+  if (lit[slot] == 0.0f) return beside;
+  const OutputChannel& channel = channels.outputs[component];
+  const float rest = nearer(previous_left[slot], left[slot], share);
+  const auto row = static_cast<std::size_t>(std::max(event[slot], 1.0f)) - 1;
+  const bool recorded = !(extinction.sizes[row] < 0.0f) && !extinction.shapes.empty();
+  const float now = recorded ? recorded_component(row, component) : dynamics;
+  if (rest > 0.0f) return std::clamp(now + rest * beside, channel.lowest, channel.highest);
+  if (!recorded) return now;
+  return extinction.sizes[row - 1] < 0.0f ? now : nearer(recorded_component(row - 1, component), now, share);
+}
+
+// Returns a variable of the dynamics, in its own unit.
+float Bank::State::newest_of(int slot, std::size_t i, const float* newest) const {
+  float lanes[kLanes];
+  const auto deviation = load<Reals<LiveNumbers>>(newest + i * kLanes);
+  store(Presentation<Reals<LiveNumbers>>(channels.outputs[i]).of(deviation), lanes);
+  return lanes[slot % kLanes];
+}
+
+// Makes one step of an event. After its rows, or in wind, re-ignition crosses over to the dynamics. A dying flame never
+// grows.
+void Bank::State::play_event(int slot, const float* newest) {
   const bool burning = lit[slot] != 0.0f;
-  if (recorded == kEventEnds) {
-    size[slot] = burning ? 1.0f : 0.0f;
-    event[slot] = kNoEvent;
-    carried[slot] = 0.0f;
-  } else {
-    size[slot] = size_of_step(extinction, burning, recorded, carried[slot]);
-    event[slot] += 1.0f;
+  const auto at = [&](float row) { return extinction.sizes[static_cast<std::size_t>(row)]; };
+  const float last = event[slot] - 1.0f;
+  float next = event[slot];
+  while (burning && wind[slot] > extinction.stirs && !(at(next) < 0.0f)) next += 1.0f;
+  const float recorded = at(next);
+  const bool leaves = recorded < 0.0f, shaped = burning && !extinction.shapes.empty();
+  const bool begins = shaped && leaves && !(at(last) < 0.0f);  // to leave
+  for (std::size_t i = 0; i < moved() && begins; ++i) {
+    const float made = newest_of(slot, i, newest);
+    offset_of(slot, i) = shape_in_event(slot, i, made, 1.0f) - made;
   }
+  previous_left[slot] = begins ? 1.0f : left[slot];
+  left[slot] = shaped && leaves ? 1.0f + recorded : std::max(left[slot] - extinction.join, 0.0f);
+  size[slot] = burning ? nearer(size[slot], leaves ? 1.0f : recorded, leaves ? -recorded : 1.0f - left[slot])
+                       : std::min(size[slot], leaves ? 0.0f : recorded);
+  event[slot] = recorded == kEventEnds ? kNoEvent : next + 1.0f;
 }
 
 // An extinguished flame is drawn as its last shape, shrinking: the dynamics have not learned such strong wind.
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
-  const int block = slot / kLanes, lane = slot % kLanes;
   out_at[slot] = moment;
-  begin_event(slot, extinction.dying, moment);
-  carried[slot] = size[slot];
-  using Values = Reals<LiveNumbers>;
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    float values[kLanes];
-    store(Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes)), values);
-    last_shape_of(block)[i * kLanes + lane] = values[lane];
+  lit[slot] = 1.0f;  // as it was in the step before
+  for (std::size_t i = 0; i < moved(); ++i) {
+    const float made = newest_of(slot, i, newest);
+    offset_of(slot, i) = event[slot] == kNoEvent ? made : shape_in_event(slot, i, made, 1.0f);
   }
+  lit[slot] = 0.0f;
+  begin_event(slot, extinction.dying, moment);
 }
 
 void Bank::State::read_block(int block, float* rows_of_all) const {
@@ -297,7 +333,7 @@ void Bank::State::show_blocks(const Dynamics& dynamics, int first) {
   } else {
     dynamics.template show<kBlocks>(first, out);
   }
-  for (int block = first; extinction.present && block < first + kBlocks; ++block) show_last(block);
+  for (int block = first; extinction.present && block < first + kBlocks; ++block) show_events(block);
   for (int block = first; !shape.empty() && block < first + kBlocks; ++block) show_shape(block, view, shown_of(block));
   if (!extinction.present) return;
   for (int block = first; block < first + kBlocks; ++block) show_life(block, visible, shown_of(block));
@@ -310,19 +346,23 @@ void Bank::State::show_shape(int block, LevelView from, float* points) const {
       from);
 }
 
-// Restores the last shape of extinguished instances.
-void Bank::State::show_last(int block) {
+// Replaces the variables of the dynamics for instances in an event and extinguished ones.
+void Bank::State::show_events(int block) {
   if (is_whole(block)) return;
   float* out = shape.empty() ? shown_of(block) : components_of(block);
+  const float share = between ? static_cast<float>(passed) / static_cast<float>(step_time) : 1.0f;
   for (int lane = 0; lane < kLanes; ++lane) {
-    if (lit[block * kLanes + lane] != 0.0f) continue;
-    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) out[k] = last_shape_of(block)[k];
+    const int slot = block * kLanes + lane;
+    if (lit[slot] != 0.0f && event[slot] == kNoEvent) continue;
+    for (std::size_t k = 0; k < moved(); ++k)
+      out[k * kLanes + lane] = shape_in_event(slot, k, out[k * kLanes + lane], share);
   }
 }
 
-// Returns whether every instance of a block burns at full size, so that scaling would change no bit.
+// Returns whether the dynamics alone show every instance of a block, at full size, so that nothing would change a bit.
 bool Bank::State::is_whole(int block) const {
   bool whole = true;
+  for (int lane = 0; lane < kLanes; ++lane) whole &= event[block * kLanes + lane] == kNoEvent;
   for (const auto& values : {lit, size, previous_size}) {
     for (int lane = 0; lane < kLanes; ++lane) whole &= values[block * kLanes + lane] == 1.0f;
   }

@@ -176,13 +176,16 @@ class Presentation {
         scale_(all<Values>(channel.scale)),
         lowest_(all<Values>(channel.lowest)),
         highest_(all<Values>(channel.highest)),
-        scales_(channel.scale != 1) {}
+        scales_(channel.scale != 1),
+        own_(channel.scale == 1 && channel.mean == 0 && channel.low >= channel.lowest &&
+             channel.high <= channel.highest) {}
 
-  Values of(const Values& z) const { return hold(mean_ + (scales_ ? scale_ * z : z), lowest_, highest_); }
+  Values of(const Values& z) const { return own_ ? z : hold(mean_ + (scales_ ? scale_ * z : z), lowest_, highest_); }
 
  private:
   Values mean_, scale_, lowest_, highest_;
   bool scales_;
+  bool own_;  // z is in its own unit and range
 };
 
 /// Loads one part of the values of consecutive blocks, `after` numbers from the beginning of each.

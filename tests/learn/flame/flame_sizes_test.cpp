@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "learn/flame/learn_outline.hpp"
 #include "learn/flame/made_blow_outs.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
@@ -50,7 +52,7 @@ ExtinctionEvidence evidence_of(const Recording& recording) {
   return {&recording, "wind", 1, *find_blow_outs(recording, "wind"), 0};
 }
 
-double size_at(const SizeEvents& events, std::size_t event, std::size_t step) {
+double size_at(const FlameEvents& events, std::size_t event, std::size_t step) {
   return events.sizes[(event > 0 ? events.ends[event - 1] : 0) + step] / 255.0;
 }
 
@@ -79,6 +81,32 @@ TEST(FlameSizes, EventsAreTheRecordedOnes) {
   }
 }
 
+// Rows are kept as components of a model's shape, with which they are the recorded outlines.
+TEST(FlameSizes, ShapesAreTheRecordedOutlines) {
+  const Recording recording = decay_and_re_ignition(0.2, 0.5, 2);
+  ExtinctionEvidence seen = evidence_of(recording);
+  const auto model = learn_outline({&recording, 1}, {});
+  ASSERT_TRUE(model) << model.error().message;
+  OutlineView view = std::get<OutlineView>(model->model.view);
+  const OutlineLayout layout = *outline_layout(recording);
+  seen.scale = model->model.training.inputs[0].scale;
+  const auto found = recorded_events({&seen, 1}, view);
+  ASSERT_EQ(found->catching.shapes.size(), found->catching.sizes.size() * view.shape.count());
+  make_room(found->catching, view.shape);
+  const Recording units = to_model_units(recording, layout, view.pixels_per_unit);
+  for (std::size_t k = 0; k < 40; ++k) {
+    std::vector<double> components;
+    for (std::size_t c = 0; c < view.shape.count(); ++c) {
+      components.push_back(found->catching.scale[c] * found->catching.shapes[k * view.shape.count() + c]);
+    }
+    const std::vector<double> outline = control_points(view.shape, components);
+    const std::vector<double> recorded = whole_row(units, layout, seen.blow_outs[0].back + k);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      EXPECT_NEAR(found->catching.sizes[k] / 255.0 * outline[i], recorded[i], 0.02) << k << ' ' << i;
+    }
+  }
+}
+
 TEST(FlameSizes, WhatVanishesFromOneRowToTheNextIsSeenNoLonger) {
   const Recording recording = made::blow_out_recording({.shortest = 0.2, .seed = 3}).recording;
   const ExtinctionEvidence seen = evidence_of(recording);
@@ -100,14 +128,14 @@ TEST(FlameSizes, ABankPlaysARecordedEvent) {
   EXPECT_EQ(bank.extinction()->state_of(id)->size, 0);
   bank.extinction()->relight(id);
   std::vector<double> played;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 45; ++k) {
     bank.step();
     played.push_back(bank.extinction()->state_of(id)->size);
   }
   std::size_t same = 0;
   for (std::size_t event = 0; event < 8; ++event) {
     double most = 0;
-    for (std::size_t k = 0; k < 60; ++k)
+    for (std::size_t k = 0; k < 45; ++k)
       most = std::max(most, std::abs(played[k] - size_at(events->catching, event, k)));
     same += most < 1e-5;
   }

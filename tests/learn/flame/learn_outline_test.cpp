@@ -46,9 +46,9 @@ T figure(const Report& report, const std::string& id) {
 
 TEST(LearnOutline, TheReportHasEveryPromisedField) {
   const Fit fit = learned({windy()}, {});
-  EXPECT_THAT(fields(fit.report), IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "channels",
-                                                "J", "tip", "overlap", "stable", "gain", "extinction", "alignment",
-                                                "components", "outside_share", "crossed_share"}));
+  EXPECT_THAT(fields(fit.report),
+              IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "J", "tip", "overlap", "stable",
+                            "gain", "extinction", "alignment", "components", "outside_share", "crossed_share"}));
   EXPECT_EQ(figure<std::int64_t>(fit.report, "points"), 6);
   EXPECT_GT(figure<double>(fit.report, "tip.held_out_fit_percent.inf"), 50);
   ASSERT_TRUE(fit.report.verdict);
@@ -154,9 +154,8 @@ TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
   const Recording recording = windy(7);
   const auto found = validate_outline(fit.model, recording, {.responses = true, .play_seconds = 20});
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_THAT(fields(found->report),
-              IsSupersetOf({"gain", "rows", "channels", "points", "alignment", "J", "tip", "overlap", "fidelity",
-                            "held_share", "crossed_share", "extinction"}));
+  EXPECT_THAT(fields(found->report), IsSupersetOf({"gain", "rows", "alignment", "J", "tip", "overlap", "fidelity",
+                                                   "held_share", "crossed_share", "extinction"}));
   EXPECT_GT(figure<double>(found->report, "tip.fit_percent.inf"), 60);
   std::set<std::string> series;
   for (const ReportSection& section : found->report.sections) {
@@ -165,8 +164,7 @@ TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
       EXPECT_EQ(one.x.size(), one.y.size()) << one.id;
     }
   }
-  EXPECT_THAT(series, IsSupersetOf({"tip.captured", "tip.simulated", "tip.predicted", "input.wind",
-                                    "flicker.x.synthesized", "poles"}));
+  EXPECT_THAT(series, IsSupersetOf({"tip.captured", "tip.simulated", "input.wind", "flicker.x.synthesized", "poles"}));
   EXPECT_EQ(found->captured.size(), recording.rows());
   EXPECT_EQ(found->played.size(), recording.rows());
   EXPECT_EQ(found->simulated_label, "simulated from the input alone");

@@ -31,8 +31,7 @@ TEST(OutlineFigures, AModelThatIsRightHasGoodFits) {
   EXPECT_GT(figures.tip_fit_percent[0], figures.tip_fit_percent[1]);
   EXPECT_GT(figures.overlap[0], figures.overlap[2]);
   EXPECT_GT(figures.overlap[0], 0.9);
-  EXPECT_LT(figures.j[0][2], figures.j[2][2]);
-  EXPECT_EQ(figures.j[0].size(), 6u);
+  EXPECT_LT(figures.j[0], figures.j[2]);
 }
 
 TEST(OutlineFigures, AFreeRunWithoutInputIsTheMeanShape) {

@@ -186,7 +186,7 @@ TEST(SavedBank, AnotherVersionIsNamed) {
   std::vector<std::byte> bytes = saved(bank);
   for (const int version : {1, 9}) {
     bytes[8] = static_cast<std::byte>(version);
-    EXPECT_THAT(error_of(bank, bytes), HasSubstr("has version " + std::to_string(version) + ", this build reads 3"));
+    EXPECT_THAT(error_of(bank, bytes), HasSubstr("has version " + std::to_string(version) + ", this build reads 4"));
   }
 }
 

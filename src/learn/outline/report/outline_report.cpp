@@ -34,24 +34,12 @@ void add_by_steps(const std::string& id, const std::vector<int>& steps, const st
   }
 }
 
-// Mean over control points of figures given per number of steps and control point.
-std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
-  std::vector<double> means;
-  for (const auto& values : per_step) means.push_back(mean(values));
-  return means;
-}
-
 // Value for a number of steps; NaN where that was not judged.
 double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
     if (steps[k] == wanted) return values[k];
   }
   return std::numeric_limits<double>::quiet_NaN();
-}
-
-// Adds columns PREFIX.STEPS to a table for programs.
-void add_step_columns(const std::string& prefix, const std::vector<int>& steps, ReportTable& table) {
-  for (int k : steps) table.columns.push_back({prefix + "." + step_id(k), ""});
 }
 
 // Adds `alignment` [{recording, input, motion, offset_seconds, …}], and a sentence for each for people.
@@ -118,28 +106,6 @@ ReportSection structure_section(const OutlineSummary& summary) {
            {"", noise, "noise", ""}}};
 }
 
-ReportTable channels_table(const OutlineFit& fit) {
-  const OutlineSummary& summary = fit.summary;
-  ReportTable table{"channels", "", {{"name", ""}, {"residual_sd", ""}}, {}};
-  add_step_columns("fit_percent", summary.learned.steps, table);
-  if (summary.held_out) {
-    add_step_columns("held_out_fit_percent", summary.held_out->steps, table);
-  } else {
-    table.columns.push_back({"held_out_fit_percent", ""});
-  }
-  for (std::size_t k = 0; k < fit.model.outputs.size(); ++k) {
-    std::vector<ReportValue> row{fit.model.outputs[k].name, summary.residual_sd[k]};
-    for (double value : summary.learned.channels[k].fit_percent) row.push_back(value);
-    if (summary.held_out) {
-      for (double value : summary.held_out->channels[k].fit_percent) row.push_back(value);
-    } else {
-      row.emplace_back();
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 // Section on the accuracy of predictions.
 ReportSection fit_section(const OutlineFit& fit) {
   const OutlineSummary& summary = fit.summary;
@@ -155,11 +121,7 @@ ReportSection fit_section(const OutlineFit& fit) {
   }
   section.entries.push_back({"overlap", at_steps(judged.steps, judged.overlap, kFreeRun), "", ""});
   add_by_steps("overlap_by_steps", judged.steps, judged.overlap, "outline overlap", "", section);
-  add_by_steps("J", judged.steps, mean_per_step(judged.j), "", "", section);
-  for (std::size_t k = 0; k < judged.steps.size(); ++k) {
-    section.entries.push_back({"J_per_point." + step_id(judged.steps[k]), judged.j[k], "", ""});
-  }
-  section.tables.push_back(channels_table(fit));
+  add_by_steps("J", judged.steps, judged.j, "", "", section);
   return section;
 }
 
@@ -186,40 +148,14 @@ ReportSection play_section(const OutlineSummary& summary) {
   return section;
 }
 
-ReportTable channels_table(const OutlineFigures& figures) {
-  ReportTable table{"channels", "", {{"name", ""}}, {}};
-  add_step_columns("fit_percent", figures.steps, table);
-  for (const OutlineChannelFigures& channel : figures.channels) {
-    std::vector<ReportValue> row{channel.name};
-    for (double value : channel.fit_percent) row.push_back(value);
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-ReportTable points_table(const OutlineFigures& figures) {
-  ReportTable table{"points", "", {}, {}};
-  add_step_columns("fit_percent", figures.steps, table);
-  add_step_columns("J", figures.steps, table);
-  for (std::size_t p = 0; !figures.j.empty() && p < figures.j.front().size(); ++p) {
-    std::vector<ReportValue> row;
-    for (const auto& fits : figures.point_fit_percent) row.push_back(fits[p]);
-    for (const auto& errors : figures.j) row.push_back(errors[p]);
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 ReportSection fit_section(const OutlineJudgement& found) {
   const OutlineFigures& figures = found.figures;
   ReportSection section{"Prediction and simulation", {{"rows", figures.rows, "frames judged", ""}}};
   add_alignment(found.alignment, section);
-  add_by_steps("J", figures.steps, mean_per_step(figures.j), "", "", section);
+  add_by_steps("J", figures.steps, figures.j, "", "", section);
   add_by_steps("tip.fit_percent", figures.steps, figures.tip_fit_percent, "tip fit", "%", section);
   section.entries.push_back({"overlap", at_steps(figures.steps, figures.overlap, kFreeRun), "", ""});
   add_by_steps("overlap_by_steps", figures.steps, figures.overlap, "outline overlap", "", section);
-  section.tables.push_back(channels_table(figures));
-  section.tables.push_back(points_table(figures));
   return section;
 }
 
@@ -252,16 +188,6 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
                 section);
     add_bounded("fidelity.tails", figures.tails, "violence of the rarest motion, |ln| of its ratio", "", section);
     section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
-    const char* bounded = "log_spectral_distance";
-    ReportTable channels{"fidelity.channels", "", {{"name", ""}, {"sd_real", ""}, {"sd_synthesized", ""}}, {}};
-    for (const char* bound : {".value", ".floor", ".ceiling"})
-      channels.columns.push_back({std::string(bounded) + bound, ""});
-    for (const ChannelFidelity& one : figures.channels) {
-      const Bounded& distance = one.log_spectral_distance;
-      channels.rows.push_back(
-          {one.name, one.sd_real, one.sd_synthesized, distance.value, distance.floor, distance.ceiling});
-    }
-    section.tables.push_back(std::move(channels));
   }
   section.entries.push_back({"held_share", found.held_share, "share of steps clamped", ""});
   section.entries.push_back({"crossed_share", found.self_intersection_rate, "self-intersection rate", ""});
