@@ -57,7 +57,7 @@ void set_times(Design& d, const WindOptions& options) {
   d.trust_frames = rounded(0.08 * rate);
   d.bridge_delay_frames = rounded(0.05 * rate) + 1;
   d.bridge_keep = static_cast<float>(1 - approach(1 / rate, 0.5));
-  d.wind_step = static_cast<float>(1 / (0.1 * rate));
+  d.wind_step = static_cast<float>(1 / (0.08 * rate));
   d.sustain_frames = static_cast<float>(0.24 * rate);
   d.quiet_run_frames = rounded(0.3 * rate);
   d.quiet_span_frames = static_cast<float>(10 * rate);

@@ -56,7 +56,7 @@ struct Design {
   int trust_frames = 5;          ///< frames after which a foreign sound is recognised (80 ms)
   int bridge_delay_frames = 4;   ///< frames between its beginning and its detection (50 ms)
   float bridge_keep = 0.97F;     ///< decay per frame of the wind under foreign sound (0.5 s)
-  float wind_step = 0.17F;       ///< maximum rise per frame of wind below 1 (1 in 0.1 s)
+  float wind_step = 0.21F;       ///< maximum rise per frame of wind below 1 (1 in 0.08 s)
   float sustain_frames = 14.4F;  ///< sum of strong wind, in frames of wind 1, before it passes (0.24 s)
 
   int quiet_run_frames = 18;      ///< minimum length of quiet that counts (0.3 s)

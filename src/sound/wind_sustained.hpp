@@ -6,7 +6,7 @@
 
 namespace wisp::wind {
 
-/// Wind takes 0.1 s to rise to 1. The excess passes after sufficient evidence: 0.24 s of wind 1, or less time the
+/// Wind takes 0.08 s to rise to 1. The excess passes after sufficient evidence: 0.24 s of wind 1, or less time the
 /// stronger it is (0.15 s of 1.6, 0.08 s of 3.2), until an equally long pause. Softer blowing counts neither as
 /// evidence nor as pause. Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
 template <class T>
