@@ -136,6 +136,7 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
 Model model_of_components(const Model& model, const ShapeComponents& shape) {
   Model out = model;
   out.view = PlainView{};
+  if (out.extinction) out.extinction->catching = {};  // recorded shapes are of an outline
   out.training = {};
   out.outputs.clear();
   for (const ValueRange& range : shape.components) {
