@@ -298,7 +298,7 @@ TEST(Extinction, WhatCatchesIsARecordedShape) {
   EXPECT_EQ(outputs_of(bank), outputs_of(calm));
 }
 
-// The same in wind, which it answers at once.
+// The same in wind, which it answers at once, by an offset that fades: the mushroom does not jump to the dynamics.
 TEST(Extinction, WhatCatchesInWindIsMovedByIt) {
   const RecordedFlame flame;
   Bank bank = bank_of(flame.model), blown = bank_of(flame.model);
@@ -312,7 +312,11 @@ TEST(Extinction, WhatCatchesInWindIsMovedByIt) {
   }
   EXPECT_EQ(outputs_of(bank), outputs_of(blown));
   blow(bank, 0, 16);
-  blow(blown, 0.6f, 16);
+  for (int step = 0; step < 16; ++step) {
+    const std::vector<float> before = outputs_of(blown);
+    blow(blown, 0.6f, 1);
+    EXPECT_LT(apart(outputs_of(blown), {before.begin(), before.end()}), 0.09) << step;  // 0.11 without the offset
+  }
   Bank burning = bank_of(flame.model);
   burning.spawn();
   burning.set_noise(0);
