@@ -25,7 +25,8 @@ const std::vector<std::vector<std::byte>>& files() {
   return all;
 }
 
-// Models of undamaged files, loaded once: checking them is most of an execution, and model_fuzz has that for its subject.
+// Models of undamaged files, loaded once: checking them is most of an execution, and model_fuzz has that for its
+// subject.
 const wisp_model* undamaged(std::size_t kind) {
   static auto& all = *new std::vector<wisp_model*>(files().size(), nullptr);  // reachable at exit: no leak
   if (!all[kind]) wisp_model_load(files()[kind].data(), files()[kind].size(), &all[kind]);

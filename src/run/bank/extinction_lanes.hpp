@@ -23,12 +23,12 @@ struct ExtinctionProgram {
   float most = 0;  ///< upper limit of the wind
   float base = 0;  ///< damage of a step at or above the level is base + slope · wind
   float slope = 0;
-  float recovery = 0;      ///< reduction of the damage per step below the level
-  float stirs = 0;         ///< wind that ends the replay of re-ignition
-  float join = 0;          ///< reduction of the offset's share per step of re-ignition
-  std::span<float> sizes;  ///< kEventEnds, then sizes of all events, each followed by the steps of the cross-over to
-                           ///< the dynamics as negative shares of it, the last of them kEventEnds
-  std::span<float> shapes;            ///< components in the plane for every size; empty: no event has shapes
+  float recovery = 0;       ///< reduction of the damage per step below the level
+  float stirs = 0;          ///< wind that ends the replay of re-ignition
+  float join = 0;           ///< reduction of the offset's share per step of re-ignition
+  std::span<float> sizes;   ///< kEventEnds, then sizes of all events, each followed by the steps of the cross-over to
+                            ///< the dynamics as negative shares of it, the last of them kEventEnds
+  std::span<float> shapes;  ///< components in the plane for every size; empty: no event has shapes
   std::span<std::uint32_t> dying;     ///< start index of each event
   std::span<std::uint32_t> catching;  ///< start index of each event
 };
