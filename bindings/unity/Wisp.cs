@@ -53,7 +53,7 @@ namespace Wisp
             public uint Size, Reserved;
             public IntPtr Name, Unit;
             public double Lowest, Highest;
-            public uint SplitsSign, Reserved2;
+            public uint EvenOdd, Reserved2;
         }
 
         [StructLayout(LayoutKind.Sequential)]

@@ -134,7 +134,7 @@ typedef struct wisp_channel {
   const char* unit;
   double lowest; /* trained or seen range; values are clamped to it extended by half its width */
   double highest;
-  uint32_t splits_sign; /* for inputs: 1 if magnitude and sign make separate regressors */
+  uint32_t even_odd; /* for inputs: 1 if even and odd functions of it are the regressors */
   uint32_t reserved2;
 } wisp_channel;
 

@@ -22,7 +22,7 @@ wisp_status hand_out_channel(const char* function, const Channels& channels, std
   filled.lowest = channel.lowest;
   filled.highest = channel.highest;
   if constexpr (requires { channel.shape; }) {
-    filled.splits_sign = wisp::has_powers(channel.shape) ? 1 : 0;
+    filled.even_odd = wisp::has_powers(channel.shape) ? 1 : 0;
   }
   return hand_out(filled, out);
 }

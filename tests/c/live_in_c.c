@@ -55,7 +55,7 @@ const char* account_of_a_flame(const void* bytes, size_t size) {
   EXPECT(facts.half_width == 0 && facts.half_length == 0);
   wind.size = sizeof wind;
   EXPECT(wisp_model_get_input(model, 0, &wind) == WISP_OK);
-  EXPECT(wind.lowest == -1 && wind.highest == 1 && wind.splits_sign == 1);
+  EXPECT(wind.lowest == -1 && wind.highest == 1 && wind.even_odd == 1);
   arx.size = sizeof arx;
   EXPECT(wisp_model_get_arx(model, &arx) == WISP_OK);
   EXPECT(arx.outputs == 16 && arx.regressors == 6 && arx.resamples == 0 && arx.history == 4);

@@ -23,7 +23,7 @@ export const modelFacts = {
   blowOutInput: 120,
 } as const;
 
-export const channel = { size: 40, name: 8, unit: 12, lowest: 16, highest: 24, splitsSign: 32 } as const;
+export const channel = { size: 40, name: 8, unit: 12, lowest: 16, highest: 24, evenOdd: 32 } as const;
 
 export const provenance = { size: 32, sources: 4, options: 8, figures: 12, usable: 16, program: 24, reason: 28 } as const;
 

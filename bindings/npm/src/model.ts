@@ -13,7 +13,7 @@ export interface Channel {
   lowest: number;
   highest: number;
   /** For inputs: whether the dynamics have separate coefficients for positive and negative values. */
-  splitsSign: boolean;
+  evenOdd: boolean;
 }
 
 /** 'arx': autoregression with exogenous inputs. 'chain': a random sequence of recorded segments of motion. */
@@ -287,7 +287,7 @@ export class Model {
       unit: native.text(data.getUint32(p + at.channel.unit, true)),
       lowest: data.getFloat64(p + at.channel.lowest, true),
       highest: data.getFloat64(p + at.channel.highest, true),
-      splitsSign: data.getUint32(p + at.channel.splitsSign, true) === 1,
+      evenOdd: data.getUint32(p + at.channel.evenOdd, true) === 1,
     }), index);
   }
 

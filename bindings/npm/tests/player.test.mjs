@@ -80,7 +80,7 @@ test('a flame model says what it is', () => {
   assert.equal(model.kind, 'arx');
   assert.equal(model.view, 'outline');
   assert.deepEqual(model.inputs, [
-    { name: 'wind', unit: '', lowest: -1, highest: 1, splitsSign: true },
+    { name: 'wind', unit: '', lowest: -1, highest: 1, evenOdd: true },
   ]);
   assert.equal(model.outputs.length, 16);
   assert.equal(model.outputs[15].name, 'p7.y');

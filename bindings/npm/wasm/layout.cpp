@@ -32,7 +32,7 @@ WISP_FIELD(wisp_channel, name, 8);
 WISP_FIELD(wisp_channel, unit, 12);
 WISP_FIELD(wisp_channel, lowest, 16);
 WISP_FIELD(wisp_channel, highest, 24);
-WISP_FIELD(wisp_channel, splits_sign, 32);
+WISP_FIELD(wisp_channel, even_odd, 32);
 
 WISP_SIZE(wisp_provenance, 32);
 WISP_FIELD(wisp_provenance, sources, 4);

@@ -9,6 +9,7 @@
 #include "learn/outline/outline_dynamics.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
+#include "learn/outline/resampled_residuals.hpp"
 
 namespace wisp {
 namespace {
@@ -101,24 +102,21 @@ Event seen_catching(const Sizes& sizes, const Shapes& shapes, std::size_t back, 
   return out;
 }
 
-FlameEvents stored(const std::vector<Event>& events, std::size_t components) {
+FlameEvents stored_events(const std::vector<Event>& events, std::size_t components) {
   FlameEvents out;
   out.scale.resize(components);
   const std::size_t count = std::min(events.size(), kMaxEvents);
   const auto kept = [&](std::size_t k) -> const Event& { return events[k * events.size() / count]; };
   for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < kept(k).shapes.size(); ++i) {
-      double& scale = out.scale[i % components];
-      scale = std::max(scale, std::abs(kept(k).shapes[i]) / 127);
-    }
+    for (std::size_t i = 0; i < kept(k).shapes.size(); ++i)
+      out.scale[i % components] = std::max(out.scale[i % components], std::abs(kept(k).shapes[i]) / kLargestStored);
   }
   for (std::size_t k = 0; k < count; ++k) {
     for (const double size : kept(k).sizes) {
       out.sizes.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(size, 0.0, 1.0))));
     }
     for (std::size_t i = 0; i < kept(k).shapes.size(); ++i) {
-      const double scale = out.scale[i % components];
-      out.shapes.push_back(static_cast<std::int8_t>(scale > 0 ? std::lround(kept(k).shapes[i] / scale) : 0));
+      out.shapes.push_back(static_cast<std::int8_t>(stored(kept(k).shapes[i], out.scale[i % components])));
     }
     out.ends.push_back(static_cast<std::uint32_t>(out.sizes.size()));
   }
@@ -166,7 +164,7 @@ Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evide
       lit = one.back;
     }
   }
-  return RecordedEvents{stored(dying, 0), stored(catching, catching.empty() ? 0 : view.shape.count()),
+  return RecordedEvents{stored_events(dying, 0), stored_events(catching, catching.empty() ? 0 : view.shape.count()),
                         vanishing.empty() ? 0 : median(std::move(vanishing))};
 }
 

@@ -19,11 +19,11 @@ using ControlSeries = std::vector<std::vector<double>>;
 constexpr int kOrder = 2;
 constexpr int kInputLags = 6;                // lags 0 to 5: further lags, up to 20 frames, brought no lasting gain
 constexpr Eigen::Index kMaxComponents = 14;  // with inputs; without any, all components that move are replayed
-constexpr double kLeastPower = 1e-7;         // share of the largest power: less is rounding, such as the base's height
+constexpr double kMinPower = 1e-7;           // share of the largest power: less is rounding, such as the base's height
 constexpr double kRidge = 1.5;               // in rows of whitened components, the weight that mirrored data would add
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
-constexpr double kLeastMotion = 1e-9;  // in heights: smaller motion is rounding
+constexpr double kMinMotion = 1e-9;  // in heights: smaller motion is rounding
 constexpr Eigen::Index kMinRows = 30;
 constexpr double kFadeSeconds = 0.1;  // without inputs: half-life of deviations from the recorded rows
 constexpr std::size_t kPowers = 3;    // powers of an input's size, then signed (regressor_names())
@@ -100,7 +100,7 @@ double least_power(const Components& even, const Components& odd, Eigen::Index c
   all.insert(all.end(), odd.power.begin(), odd.power.end());
   std::sort(all.begin(), all.end(), std::greater<>());
   const double last = all[static_cast<std::size_t>(std::min<Eigen::Index>(count, std::ssize(all))) - 1];
-  return std::max({last, kLeastPower * all.front(), std::numeric_limits<double>::min()});
+  return std::max({last, kMinPower * all.front(), std::numeric_limits<double>::min()});
 }
 
 // The recorded range. For a component that changes sign under the mirror image it is extended to be symmetric about the
@@ -115,7 +115,7 @@ Result<ShapeComponents> find_shape(std::span<const Recording> recordings, const 
   shape.rest = shape_coordinates(shape_at_rest(recordings, prepared));
   const Matrix moved = deviations(recordings, prepared.layout, shape.rest);
   const auto points = static_cast<Eigen::Index>(shape.points());
-  if (moved.rows() < 2 || moved.cwiseAbs().maxCoeff() < kLeastMotion) {
+  if (moved.rows() < 2 || moved.cwiseAbs().maxCoeff() < kMinMotion) {
     return Error{recordings.front().source + ": its outline never moves; there is nothing to learn"};
   }
   const Components even(moved.leftCols(points)), odd(moved.rightCols(points));

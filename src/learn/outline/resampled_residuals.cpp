@@ -22,7 +22,6 @@ constexpr double kMargin = 0.01;  // in units of wind: below a microphone's reso
 constexpr double kMinSeconds = 1;
 constexpr std::size_t kCurveSamples = 60;  // points per outline in the check for self-intersection
 constexpr double kLargestWind = 32767;
-constexpr double kLargestResidual = 127;
 constexpr std::size_t kMaxBytes = 256 * 1024;  // maximum size of rows; each stretch of a longer recording is cut
 
 // Residuals and wind of one row, NaN where missing.
@@ -123,21 +122,15 @@ void keep_at_most(std::vector<RowStretch>& stretches, std::size_t rows) {
   std::erase_if(stretches, [](const RowStretch& stretch) { return stretch.rows.size() < 2; });
 }
 
-double stored(double value, double scale, double largest) {
-  const double units = scale > 0 ? std::round(value / scale) : 0;
-  return std::clamp(units, -largest, largest);
-}
-
 void find_scales(const std::vector<RowStretch>& stretches, ResampledResiduals& out) {
   out.scale.assign(stretches.front().rows.front().residual.size(), 0.0);
-  const auto grow = [](double& scale, double value, double largest) {
-    scale = std::max(scale, std::abs(value) / largest);
-  };
+  const auto hear = [&](double wind) { out.wind_scale = std::max(out.wind_scale, std::abs(wind) / kLargestWind); };
   for (const RowStretch& stretch : stretches) {
-    for (double wind : stretch.before) grow(out.wind_scale, wind, kLargestWind);
+    for (double wind : stretch.before) hear(wind);
     for (const Row& row : stretch.rows) {
-      for (std::size_t i = 0; i < out.scale.size(); ++i) grow(out.scale[i], row.residual[i], kLargestResidual);
-      grow(out.wind_scale, row.wind, kLargestWind);
+      hear(row.wind);
+      for (std::size_t i = 0; i < out.scale.size(); ++i)
+        out.scale[i] = std::max(out.scale[i], std::abs(row.residual[i]) / kLargestStored);
     }
   }
 }
@@ -145,16 +138,13 @@ void find_scales(const std::vector<RowStretch>& stretches, ResampledResiduals& o
 void store_rows(const std::vector<RowStretch>& stretches, ResampledResiduals& out) {
   find_scales(stretches, out);
   const auto hear = [&](double wind) {
-    if (out.toward >= 0) {
-      out.winds.push_back(static_cast<std::int16_t>(stored(wind, out.wind_scale, kLargestWind)));
-    }
+    if (out.toward >= 0) out.winds.push_back(static_cast<std::int16_t>(stored(wind, out.wind_scale, kLargestWind)));
   };
   for (const RowStretch& stretch : stretches) {
     for (double wind : stretch.before) hear(wind);
     for (const Row& row : stretch.rows) {
-      for (std::size_t i = 0; i < out.scale.size(); ++i) {
-        out.rows.push_back(static_cast<std::int8_t>(stored(row.residual[i], out.scale[i], kLargestResidual)));
-      }
+      for (std::size_t i = 0; i < out.scale.size(); ++i)
+        out.rows.push_back(static_cast<std::int8_t>(stored(row.residual[i], out.scale[i])));
       hear(row.wind);
     }
     out.ends.push_back(static_cast<std::uint32_t>(out.row_count() + stretch.rows.size()));
@@ -180,6 +170,11 @@ std::vector<int> mirror_image(const ShapeComponents& shape) {
 }
 
 }  // namespace
+
+double stored(double value, double scale, double largest) {
+  const double units = scale > 0 ? std::round(value / scale) : 0;
+  return std::clamp(units, -largest, largest);
+}
 
 Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
                                                const PreparedOutlines& prepared) {

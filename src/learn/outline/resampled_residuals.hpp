@@ -15,6 +15,11 @@
 
 namespace wisp {
 
+inline constexpr double kLargestStored = 127;  ///< largest 8-bit number of a stored row
+
+/// Nearest whole number of scales, within ±`largest`; 0 where the scale is 0.
+double stored(double value, double scale, double largest = kLargestStored);
+
 /// One-step residuals of the prepared recordings under dynamics with a shape, 8 bits per component, prepared for
 /// resampling; an input from the other side plays mirror images. Empty where less than a second remains.
 /// Errors: as predict().

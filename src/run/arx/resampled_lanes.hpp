@@ -138,7 +138,7 @@ class ResampledLanes {
  private:
   // State layout: twice the row, plus one for its mirror image; steps since the jump; and both for the last row of
   // every earlier block, newest first.
-  static constexpr float kMostSum = 1e15f;  // bound on any input past in units of its range
+  static constexpr float kMaxSum = 1e15f;  // bound on any input past in units of its range
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;
   static constexpr int kAge = 1;
@@ -332,7 +332,7 @@ class ResampledLanes {
       x = x + load<Reals<N>>(past(block, lag));
       z = z + load<Reals<N>>(past(block, lag) + kLanes);
     }
-    const LevelVector<N> sum(x, z, kMostSum);
+    const LevelVector<N> sum(x, z, kMaxSum);
     const auto if_none = [](const auto& length, const auto& none, const auto& yes, const auto& no) {
       return length > none ? no : yes;
     };

@@ -77,7 +77,9 @@ struct Bank::State {
   float recorded_component(std::size_t row, std::size_t component) const;
   float shape_in_event(int slot, std::size_t component, float dynamics, float share) const;
   std::size_t moved() const { return shape.empty() ? visible : shape.components(); }  // variables of the dynamics
-  float& offset_of(int slot, std::size_t i) { return offset[(slot / kLanes * moved() + i) * kLanes + slot % kLanes]; }
+  float& offset_of(int slot, std::size_t i) const {
+    return offset[(slot / kLanes * moved() + i) * kLanes + slot % kLanes];
+  }
   float* components_of(int block) const { return components.data() + block * shape.components() * kLanes; }
   void show();
   void show_block(int block);

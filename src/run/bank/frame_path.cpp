@@ -225,7 +225,7 @@ float Bank::State::recorded_component(std::size_t row, std::size_t component) co
 // Returns a component of the displayed shape, interpolated between the last two steps: that of the event's row or of
 // the dynamics, plus the applied share of the offset. An extinguished instance keeps its last shape.
 float Bank::State::shape_in_event(int slot, std::size_t component, float dynamics, float share) const {
-  const float beside = const_cast<State*>(this)->offset_of(slot, component);
+  const float beside = offset_of(slot, component);
   if (lit[slot] == 0.0f) return beside;
   const OutputChannel& channel = channels.outputs[component];
   const float rest = nearer(previous_left[slot], left[slot], share);
@@ -255,7 +255,7 @@ void Bank::State::play_event(int slot, const float* newest) {
   while (burning && wind[slot] > extinction.stirs && !(at(next) < 0.0f)) next += 1.0f;
   const float recorded = at(next);
   const bool leaves = recorded < 0.0f, shaped = burning && !extinction.shapes.empty();
-  const bool begins = shaped && leaves && !(at(last) < 0.0f);  // to leave
+  const bool begins = shaped && leaves && !(at(last) < 0.0f);  // first step of the cross-over
   for (std::size_t i = 0; i < moved() && begins; ++i) {
     const float made = newest_of(slot, i, newest);
     offset_of(slot, i) = shape_in_event(slot, i, made, 1.0f) - made;

@@ -53,7 +53,7 @@ struct Alteration {
   const char* reason;                                  ///< what the verdict says, or "" where it stays usable
   double turned[6] = {1, 0, 0, 0, 1, 0};               ///< x' and y' from x, y and 1
   double frames = 1;                                   ///< frames for one of before
-  std::optional<PixelChannel> channel = std::nullopt;  ///< asked for
+  std::optional<PixelChannel> channel = std::nullopt;  ///< channel that capture is told to use
 };
 
 constexpr const char* kCoded = "-c:v libx264 -crf 16 -pix_fmt yuv420p";

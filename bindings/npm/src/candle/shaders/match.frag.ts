@@ -23,7 +23,7 @@ void main() {
   // The head ignites: briefly white, with sparks around it.
   float far = length(vAt - vec2(0.0, 0.03));
   float rays = 0.5 + 0.9 * noise(vec2(atan(vAt.y, vAt.x) * 5.0, 9.0 * uFlare));
-  vec3 flare = vec3(1.0, 0.62, 0.30) * uFlare * (9.0 * exp(-far * far / 0.010) + 1.2 * rays * exp(-far * 9.0));
+  vec3 flare = vec3(1.0, 0.62, 0.30) * uFlare * smoothstep(0.47, 0.2, far) * (9.0 * exp(-far * far / 0.010) + 1.2 * rays * exp(-far * 9.0));
   colour = vec4(lit * alpha + flare, alpha);
 }
 `;
