@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/judge/prediction.hpp"
-#include "learn/arx/rows/arx_design.hpp"
-#include "learn/arx/search/order_search.hpp"
+#include "learn/choose/order_search.hpp"
+#include "learn/judge/judged_fit.hpp"
+#include "learn/judge/prediction.hpp"
+#include "learn/rows/arx_design.hpp"
 
 namespace wisp {
 namespace {

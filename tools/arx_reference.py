@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes tests/learn/arx/fit/arx_made.json: reference estimates of ARX models on made data.
+"""Writes tests/learn/fit/arx_made.json: reference estimates of ARX models on made data.
 
-    tools/arx_reference.py > tests/learn/arx/fit/arx_made.json
+    tools/arx_reference.py > tests/learn/fit/arx_made.json
 
-The data are made of whole numbers and a recursion, so that tests/learn/arx/fit/made_sets.hpp makes the same. What is
+The data are made of whole numbers and a recursion, so that tests/learn/fit/made_sets.hpp makes the same. What is
 estimated from them is written down here a second time, by other means than Wisp's: an explicit regressor and numpy's
 lstsq (singular values) for the coefficients, the inverse of its triangle for their errors, predictions by running the
 equation forward from measured samples (Wisp sums shocks through the impulse response), poles as roots, scipy's lfilter

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/report/report_values.hpp"
+#include "learn/report/report_values.hpp"
 #include "learn/same_rate.hpp"
 #include "wisp/learn/prepare.hpp"
 #include "wisp/learn/validate.hpp"

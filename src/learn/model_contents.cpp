@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "learn/arx/report/report_values.hpp"
+#include "learn/report/report_values.hpp"
 #include "wisp/learn/model_report.hpp"
 
 namespace wisp {

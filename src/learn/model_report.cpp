@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "learn/arx/report/fit_report.hpp"
-#include "learn/arx/report/report_values.hpp"
 #include "learn/complete.hpp"
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/markov/learn_markov.hpp"
+#include "learn/report/fit_report.hpp"
+#include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/prepare.hpp"
 #include "wisp/run/cost.hpp"

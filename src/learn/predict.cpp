@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/markov/markov_rows.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_inputs.hpp"

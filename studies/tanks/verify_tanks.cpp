@@ -15,8 +15,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/judge/prediction.hpp"
+#include "learn/judge/judged_fit.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/markov/markov_fit.hpp"
 #include "learn/markov/markov_rows.hpp"
 #include "learn/shared_files.hpp"

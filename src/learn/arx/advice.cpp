@@ -12,10 +12,10 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/integrators.hpp"
-#include "learn/arx/judge/held_out.hpp"
-#include "learn/arx/report/report_values.hpp"
-#include "learn/arx/search/order_search.hpp"
+#include "learn/choose/order_search.hpp"
+#include "learn/judge/held_out.hpp"
 #include "learn/numeric/chi_squared.hpp"
+#include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -4,16 +4,16 @@
 #include <fstream>
 
 #include "base/hash.hpp"
-#include "learn/arx/fit/arx_errors.hpp"
-#include "learn/arx/fit/arx_estimate.hpp"
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/fit/arx_report.hpp"
-#include "learn/arx/judge/arx_verdict.hpp"
-#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/part_state.hpp"
-#include "learn/arx/report/report_values.hpp"
+#include "learn/fit/arx_errors.hpp"
+#include "learn/fit/arx_estimate.hpp"
+#include "learn/fit/arx_fit.hpp"
+#include "learn/fit/arx_report.hpp"
+#include "learn/judge/arx_verdict.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/report/report_values.hpp"
 #include "wisp/learn/parts.hpp"
 
 namespace wisp {

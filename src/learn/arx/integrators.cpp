@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/rows/arx_design.hpp"
+#include "learn/judge/judged_fit.hpp"
+#include "learn/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/fit/arx_fit.hpp"
 
 namespace wisp::arx {
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/plain_model.hpp"
+#include "learn/fit/arx_fit.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/hash.hpp"
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_design.hpp"
+#include "learn/fit/arx_fit.hpp"
+#include "learn/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_design.hpp"
-#include "learn/arx/rows/arx_rows.hpp"
+#include "learn/fit/arx_fit.hpp"
+#include "learn/rows/arx_design.hpp"
+#include "learn/rows/arx_rows.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp::arx {

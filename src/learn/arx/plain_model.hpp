@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/arx_design.hpp"
+#include "learn/rows/arx_design.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/model.hpp"

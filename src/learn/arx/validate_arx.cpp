@@ -4,13 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "learn/arx/judge/prediction.hpp"
-#include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/learn_arx.hpp"
-#include "learn/arx/report/fit_report.hpp"
-#include "learn/arx/report/report_values.hpp"
-#include "learn/arx/report/response_report.hpp"
+#include "learn/judge/prediction.hpp"
+#include "learn/judge/residual_tests.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/report/fit_report.hpp"
+#include "learn/report/report_values.hpp"
+#include "learn/report/response_report.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -6,8 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "learn/arx/judge/held_out.hpp"
-#include "learn/arx/rows/arx_design.hpp"
+#include "learn/judge/held_out.hpp"
+#include "learn/judge/judged_fit.hpp"
+#include "learn/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/fit/arx_fit.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/report/response_report.hpp"
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/report/outline_report.hpp"
+#include "learn/report/response_report.hpp"
 
 namespace wisp {
 namespace {

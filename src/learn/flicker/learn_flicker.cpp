@@ -13,10 +13,10 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
-#include "learn/arx/report/report_values.hpp"
 #include "learn/markov/markov_rows.hpp"
 #include "learn/numeric/clustering.hpp"
 #include "learn/numeric/spectrum.hpp"
+#include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/bank.hpp"
 

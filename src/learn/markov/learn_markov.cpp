@@ -4,10 +4,10 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
-#include "learn/arx/report/fit_report.hpp"
-#include "learn/arx/report/report_values.hpp"
 #include "learn/markov/markov_fit.hpp"
 #include "learn/markov/markov_rows.hpp"
+#include "learn/report/fit_report.hpp"
+#include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

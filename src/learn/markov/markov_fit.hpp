@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/arx_rows.hpp"
+#include "learn/rows/arx_rows.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"

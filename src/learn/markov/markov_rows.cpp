@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/judge/prediction.hpp"
+#include "learn/fit/arx_fit.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/decompositions.hpp"
 

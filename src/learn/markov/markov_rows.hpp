@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "learn/arx/judge/prediction.hpp"
-#include "learn/arx/rows/arx_design.hpp"
-#include "learn/arx/rows/arx_rows.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/markov/markov_rows.hpp"
+#include "learn/rows/arx_design.hpp"
+#include "learn/rows/arx_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/rows/arx_design.hpp"
+#include "learn/judge/judged_fit.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/decompositions.hpp"
+#include "learn/rows/arx_design.hpp"
 
 namespace wisp {
 namespace {

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "learn/arx/judge/prediction.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/statistics.hpp"
-#include "learn/arx/judge/prediction.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/outline/outline_shape.hpp"
 
 namespace wisp {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/rows/arx_design.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_units.hpp"
+#include "learn/rows/arx_design.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

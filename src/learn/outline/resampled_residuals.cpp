@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/arx/judge/prediction.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_shape.hpp"
 

@@ -13,9 +13,9 @@
 #include <random>
 #include <thread>
 
-#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/made_system.hpp"
+#include "learn/judge/judged_fit.hpp"
 
 namespace wisp::arx_parts_test {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "learn/arx/made_system.hpp"
+#include "learn/judge/judged_fit.hpp"
 
 namespace wisp::learn_arx_test {
 namespace {

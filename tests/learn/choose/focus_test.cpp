@@ -6,8 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/made_system.hpp"
+#include "learn/judge/judged_fit.hpp"
+#include "learn/judge/prediction.hpp"
 
 namespace wisp::focus_test {
 namespace {

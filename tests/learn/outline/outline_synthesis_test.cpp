@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/statistics.hpp"
-#include "learn/arx/rows/arx_design.hpp"
+#include "learn/rows/arx_design.hpp"
 
 namespace wisp::outline_synthesis_test {
 namespace {

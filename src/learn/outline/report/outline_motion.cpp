@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "base/statistics.hpp"
-#include "learn/arx/report/report_values.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
+#include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/advice.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/statistics.hpp"
-#include "learn/arx/judge/prediction.hpp"
-#include "learn/arx/report/fit_report.hpp"
-#include "learn/arx/report/report_values.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/outline/outline_alignment.hpp"
+#include "learn/report/fit_report.hpp"
+#include "learn/report/report_values.hpp"
 #include "wisp/base/report.hpp"
 
 namespace wisp {

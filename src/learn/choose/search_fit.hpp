@@ -1,0 +1,63 @@
+#pragma once
+// Products of lagged channels over the candidates' windows of rows, and the fit of one candidate within a window.
+
+#include <Eigen/Core>
+#include <map>
+#include <vector>
+
+#include "learn/numeric/lag_layout.hpp"
+#include "learn/rows/arx_design.hpp"
+#include "learn/rows/arx_rows.hpp"
+
+namespace wisp {
+
+/// Gram matrix of a layout for every first sample from `earliest` to `latest`. A window that starts a row earlier adds
+/// that row's products; columns with a lag above the first sample are absent from that row, and undefined in that
+/// window.
+class SearchWindows {
+ public:
+  /// Preconditions: `signals` and `layout` outlive it; layout.history() <= latest; 0 <= earliest <= latest.
+  SearchWindows(const Signals& signals, const LagLayout& layout, int earliest, int latest);
+
+  std::size_t rows(int first_sample) const { return rows_[index(first_sample)]; }
+  const Eigen::MatrixXd& gram(int first_sample) const { return gram_[index(first_sample)]; }
+
+  /// Triangle of the same window, RᵀR = gram but for rounding. Computed on first use.
+  const Eigen::MatrixXd& triangle(int first_sample);
+
+ private:
+  std::size_t index(int first_sample) const { return static_cast<std::size_t>(first_sample - earliest_); }
+  Eigen::MatrixXd earlier_rows(int first_sample) const;
+
+  const Signals& signals_;
+  const LagLayout& layout_;
+  int earliest_;
+  int latest_;
+  RowPlan plan_;
+  std::vector<std::size_t> rows_;
+  std::vector<Eigen::MatrixXd> gram_;
+  std::map<int, Eigen::MatrixXd> triangle_;
+};
+
+/// Rows of a candidate: regressors and targets, as columns of the search's layout.
+struct CandidateRows {
+  std::vector<int> columns;
+  std::vector<int> outputs;
+};
+
+struct CandidateFit {
+  /// One column per output over all columns of the layout: −θ at the regressors, 1 at the target. A row of data times
+  /// it is the residual.
+  Eigen::MatrixXd annihilator;
+  Eigen::MatrixXd residual_gram;  ///< ny × ny: Σ r_i r_j over the window
+  bool determined = true;
+};
+
+/// Fits a candidate within the window that starts at `first_sample`.
+CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
+                           const std::vector<CandidateRows>& rows);
+
+/// Σ r_i r_j of a fit over a window of different data.
+Eigen::MatrixXd residual_gram_over(SearchWindows& windows, int first_sample, const Eigen::MatrixXd& annihilator);
+
+}  // namespace wisp

@@ -1,0 +1,89 @@
+#pragma once
+// Least squares for a whole design: choice of the factorisation, and the estimate.
+//
+// The Gram matrix of lagged channels is by far the cheapest to form (lag_gram.hpp). Its rounding errors enter the
+// coefficients multiplied by the squared condition number. One step of refinement with residuals from the data restores
+// the accuracy of QR for the coefficients, but not for the inverse (standard errors). So the Gram matrix is used up to
+// the measured condition number kMaxConditionForGram and Householder QR above it.
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "learn/rows/arx_design.hpp"
+#include "learn/rows/arx_rows.hpp"
+
+namespace wisp {
+
+/// A regressor that depends linearly on regressors before it.
+struct DependentColumn {
+  int column = 0;       ///< index among the rows' regressors
+  std::vector<int> of;  ///< positions of the regressors that it depends on; empty: the column is zero
+};
+
+/// The least-squares solution for output rows that share the regressors X, in scaled units.
+struct SharedSolution {
+  Eigen::MatrixXd theta;    ///< one column per output row, without A's sign; 0 for dependent regressors
+  Eigen::MatrixXd inverse;  ///< (XᵀX + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
+  std::vector<DependentColumn> dependent;
+  double condition = 1;         ///< condition number of X in the data's units, without dependent columns
+  double scaled_condition = 1;  ///< condition number of X with columns scaled to norm 1
+};
+
+/// The problem to solve: for every target, minimise |target − Xθ|² + |Fθ|².
+struct SharedProblem {
+  std::vector<int> columns;  ///< X, as columns of the whole regression
+  std::vector<int> targets;  ///< targets, as columns of the whole regression
+  Eigen::VectorXd unit;      ///< data's unit / scaled unit, per column of X
+  Eigen::MatrixXd prior;     ///< F, square; empty: no prior
+};
+
+/// Solves with RᵀR = Gram, R the triangle of the whole regression.
+SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
+
+/// Solves with the Gram matrix of the whole regression. Returns nothing where the scaled condition number is above
+/// `max_condition` or the matrix is not positive definite.
+std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
+                                              double max_condition);
+
+/// Gives nine accurate digits in standard errors: condition² · 2.2e-16 = 1e-9.
+inline constexpr double kMaxConditionForGram = 2e3;
+
+/// Coefficients of every group of rows: regressors × rows, in scaled units, without A's sign.
+using GroupThetas = std::vector<Eigen::MatrixXd>;
+
+struct ArxEstimate {
+  std::vector<SharedSolution> groups;  ///< one solution per group of the design, in scaled units
+  std::vector<double> effective;       ///< effective number of coefficients per group; without a kernel their number
+  Eigen::MatrixXd residual_gram;       ///< ny × ny: Σ r_i r_j
+  Eigen::VectorXd target_square;       ///< Σ (y − ȳ)² per output
+  std::string method;                  ///< name of the factorisation, and why it was chosen
+
+  Eigen::MatrixXd gram;  ///< products of all columns of the layout; empty unless `joint` was requested
+
+  /// Computes Σ r_i r_j for given coefficients other than the estimate.
+  std::function<Eigen::MatrixXd(const GroupThetas&)> residual_gram_at;
+
+  GroupThetas thetas() const;
+};
+
+/// Options of estimate_from_data.
+struct EstimateOptions {
+  bool joint = false;                   ///< also compute products of regressors across groups of rows
+  ArxKernel kernel = ArxKernel::kNone;  ///< prior; with one, every group has one output
+  std::vector<int> kernel_outputs{};    ///< outputs with the prior; empty: all
+};
+
+/// Estimates from the data. The estimate keeps references to the arguments.
+///
+/// Precondition: plan.rows > 0.
+ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
+                               const EstimateOptions& options);
+
+/// Estimates from the triangle of all columns of the design's layout; `scale` per channel as in Signals.
+ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::vector<double>& scale,
+                                   const ArxDesign& design, const EstimateOptions& options);
+
+}  // namespace wisp

@@ -1,0 +1,167 @@
+#include "learn/judge/arx_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "record/number_text.hpp"
+
+namespace wisp::arx {
+namespace {
+
+// A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
+constexpr double kTimesBound = 2.5;
+
+// Percent of fit below which the simulation is reported to diverge, without a figure.
+constexpr double kDiverges = -1000;
+
+std::string fit_text(double percent) {
+  return percent > kDiverges ? number_text(percent, 3) + " %" : std::string("nothing: it diverges");
+}
+
+std::string too_few_rows(const ArxSummary& summary) {
+  const auto& numbers = summary.effective;
+  const int most = numbers.empty() ? 0 : int(std::ceil(*std::max_element(numbers.begin(), numbers.end()) - 1e-9));
+  const auto rows = static_cast<double>(summary.samples_used);
+  if (most == 0 || rows >= kMinRowsACoefficient * most) return "";
+  return std::to_string(summary.samples_used) + " rows are too few for " + std::to_string(most) +
+         " coefficients an output: fewer than " + number_text(kMinRowsACoefficient, 3) +
+         " a coefficient; record more, or lower the orders";
+}
+
+std::string repaired_far(const ArxSummary& summary) {
+  if (!summary.stable.changed || summary.stable.moved <= kMaxMoved) return "";
+  return "to make the estimate stable a coefficient was moved by " + number_text(summary.stable.moved, 3) +
+         " standard errors: the model is not what the data say; try other orders, or fewer coupled outputs";
+}
+
+std::string acts_at_once(const VerdictEvidence& evidence) {
+  if (!evidence.least_squares) return "";
+  for (int i = 0; i < evidence.orders.outputs(); ++i) {
+    for (int k = 0; k < evidence.orders.inputs(); ++k) {
+      if (evidence.orders.nk(i, k) == 0 || evidence.orders.nb(i, k) == 0) continue;
+      const Independence& pair = evidence.least_squares->independence[std::size_t(i)][std::size_t(k)];
+      const double own = std::abs(pair.correlation[pair.correlation.size() / 2]);
+      if (own < kSameSample || own < kTimesBound * pair.bound) continue;
+      return "input '" + evidence.channels.inputs[std::size_t(k)] + "' acts on '" +
+             evidence.channels.outputs[std::size_t(i)] +
+             "' in the same sample (the residual's correlation with it is " + number_text(own, 2) + "): try --nk 0";
+    }
+  }
+  return "";
+}
+
+// Whether a remark explains a poor simulation: not where the model already accounts for the remark.
+bool explains(const Remark& remark, const VerdictEvidence& evidence) {
+  if (remark.kind >= RemarkKind::kClock) return false;
+  const auto place = [&](const std::vector<std::string>& names) {
+    return int(std::find(names.begin(), names.end(), remark.channel) - names.begin());
+  };
+  if (remark.kind == RemarkKind::kIntegrates) {
+    const auto i = std::size_t(place(evidence.channels.outputs));
+    return i >= evidence.integrators.size() || evidence.integrators[i] == 0;
+  }
+  if (remark.kind == RemarkKind::kDelay) {
+    const int k = place(evidence.channels.inputs);
+    for (int i = 0; i < evidence.orders.outputs(); ++i) {
+      if (evidence.orders.nk(i, k) + evidence.orders.nb(i, k) > remark.size) return false;
+    }
+  }
+  return true;
+}
+
+// The cause of a poor simulation that the recordings show, and its remedy.
+std::string cause_in(const VerdictEvidence& evidence) {
+  if (evidence.remarks) {
+    for (const Remark& one : evidence.remarks()) {
+      if (explains(one, evidence)) return ": " + one.cause + "; " + one.cure;
+    }
+  }
+  return "; the recording shows no cause (wisp info): try --focus auto, which tries many lags, or other inputs";
+}
+
+std::string simulates_badly(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  const bool held_out = !evidence.held_out.empty();
+  const std::vector<double>& fits = held_out ? evidence.held_out : summary.free_run_fit_percent;
+  std::string failing;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (fits[i] >= kMinSimulationFit) continue;
+    failing += (failing.empty() ? "" : ", ") + ("'" + evidence.channels.outputs[i] + "' " + fit_text(fits[i]));
+  }
+  if (failing.empty()) return "";
+  return "free simulation " + std::string(held_out ? "of held-out rows " : "from the input ") + "fits " + failing +
+         ", and at least " + number_text(kMinSimulationFit, 3) + " % is needed" + cause_in(evidence);
+}
+
+// The stored model is played in single precision; where coefficients cancel it loses accuracy against double.
+std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  for (std::size_t i = 0; i < summary.played_fit_percent.size(); ++i) {
+    const double lost = summary.free_run_fit_percent[i] - summary.played_fit_percent[i];
+    if (summary.free_run_fit_percent[i] < kMinSimulationFit || lost <= kMaxLostInPlay) continue;
+    return "played in single precision, as the model is stored, '" + evidence.channels.outputs[i] + "' fits " +
+           fit_text(summary.played_fit_percent[i]) + " and not " + fit_text(summary.free_run_fit_percent[i]) +
+           ": large coefficients cancel" + cause_in(evidence);
+  }
+  return "";
+}
+
+// Inputs that carry the same information share their coefficients arbitrarily, however well the model fits.
+std::string is_redundant(const VerdictEvidence& evidence) {
+  return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
+}
+
+std::string has_no_skill(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  if (!summary.free_run_fit_percent.empty() || evidence.orders.inputs() > 0) return "";
+  for (std::size_t i = 0; i < summary.fit_percent.size(); ++i) {
+    const double left = 1 - summary.fit_percent[i] / 100;
+    const double against_mean = 100 * (1 - left * left);
+    double skill = against_mean;
+    if (i < evidence.persistence.size() && evidence.persistence[i] > 0) {
+      skill = std::min(skill, 100 * (1 - summary.loss[i] / evidence.persistence[i]));
+    }
+    if (skill >= kMinSkill) continue;
+    return "output '" + evidence.channels.outputs[i] + "' is predicted no better than by its " +
+           (skill < against_mean ? "last sample" : "mean") + ": its squared error is less by " +
+           number_text(std::max(skill, 0.0), 2) + " %, and at least " + number_text(kMinSkill, 2) + " % is needed";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<double> persistence_errors(std::span<const Recording> recordings, const ChannelChoice& channels) {
+  std::vector<double> out;
+  for (const std::string& name : channels.outputs) {
+    double sum = 0, rows = 0;
+    for (const Recording& recording : recordings) {
+      const auto& samples = recording.channels[*find_channel(recording, name)].samples;
+      for (const Episode& episode : episodes(recording)) {
+        for (std::size_t t = episode.begin + 1; t < episode.end; ++t) {
+          const double change = samples[t] - samples[t - 1];
+          if (!std::isnan(change)) sum += change * change, ++rows;
+        }
+      }
+    }
+    out.push_back(rows > 0 ? sum / rows : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
+  if (!summary.usable.verdict) return;
+  for (std::string reason :
+       {is_redundant(evidence), too_few_rows(summary), repaired_far(summary), plays_otherwise(evidence, summary),
+        acts_at_once(evidence), simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
+    if (reason.empty()) continue;
+    summary.usable = {false, std::move(reason)};
+    return;
+  }
+  if (summary.free_run_fit_percent.empty()) return;
+  const bool held_out = !evidence.held_out.empty();
+  const auto& fits = held_out ? evidence.held_out : summary.free_run_fit_percent;
+  summary.usable.reason += std::string(", and free simulation ") + (held_out ? "of held-out rows " : "") + "fits " +
+                           number_text(*std::min_element(fits.begin(), fits.end()), 3) +
+                           (fits.size() > 1 ? " % or more" : " %");
+}
+
+}  // namespace wisp::arx

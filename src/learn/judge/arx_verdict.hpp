@@ -1,0 +1,54 @@
+#pragma once
+// Verdict whether a stable, determined ARX model is usable: how well it predicts or simulates, from how many rows, and
+// which property of the recordings is the cause where it fails.
+
+#include <functional>
+#include <span>
+
+#include "learn/fit/arx_fit.hpp"
+#include "learn/judge/residual_tests.hpp"
+#include "learn/rows/arx_design.hpp"
+#include "wisp/learn/advice.hpp"
+
+namespace wisp::arx {
+
+/// Percent: minimum free-run fit of an output over held-out rows for a model with inputs to be usable.
+inline constexpr double kMinSimulationFit = 40;
+
+/// Percent: minimum reduction of the squared error, against the better of last sample and mean as predictor, for a
+/// model without inputs to be usable.
+inline constexpr double kMinSkill = 5;
+
+/// Minimum number of rows per coefficient of an output.
+inline constexpr double kMinRowsACoefficient = 10;
+
+/// Maximum change of a coefficient by stabilisation, in standard errors.
+inline constexpr double kMaxMoved = 10;
+
+/// Minimum correlation of a residual with the input of its own sample that shows an input acting without delay.
+inline constexpr double kSameSample = 0.25;
+
+/// Percent: maximum loss of fit of the stored single-precision model against the estimate.
+inline constexpr double kMaxLostInPlay = 1;
+
+/// Mean squared difference of adjacent samples of every output; NaN where there are none.
+std::vector<double> persistence_errors(std::span<const Recording> recordings, const ChannelChoice& channels);
+
+/// Evidence for a verdict besides the fit's summary.
+struct VerdictEvidence {
+  const ChannelChoice& channels;
+  const ArxOrders& orders;
+  std::vector<double> persistence{};               ///< mean squared change per output; empty where unknown
+  const ResidualTests* least_squares{};            ///< tests of least-squares residuals; null: none
+  std::vector<double> held_out{};                  ///< held_out_fits(); empty: the fits of the training rows are judged
+  std::vector<int> integrators{};                  ///< as in ArxOptions::integrators
+  std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
+  std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
+};
+
+/// Marks a summary that is usable so far as not usable, with the reason, where one of the limits above is exceeded. For
+/// a model that simulates badly, the first remark that explains it is named with its remedy. A model that remains
+/// usable gets the figure of its quality.
+void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);
+
+}  // namespace wisp::arx

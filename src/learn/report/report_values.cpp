@@ -1,0 +1,74 @@
+#include "learn/report/report_values.hpp"
+
+#include "wisp/learn/arx_recipe.hpp"
+
+namespace wisp::arx {
+
+void add(ReportSection& section, std::string id, ReportValue value, std::string label, std::string unit,
+         std::string meaning) {
+  section.entries.push_back(
+      {std::move(id), std::move(value), std::move(label), std::move(unit), std::nullopt, std::move(meaning)});
+}
+
+void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning) {
+  add(section, "", std::move(value), std::move(label), "", std::move(meaning));
+}
+
+ReportList list_of(const OrderMatrix& orders) {
+  ReportList rows;
+  for (int i = 0; i < orders.rows(); ++i) {
+    ReportList row;
+    for (int j = 0; j < orders.columns(); ++j) row.push_back(orders(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+ReportList matrix_of(std::span<const double> values, std::size_t rows) {
+  ReportList all;
+  const std::size_t columns = rows > 0 ? values.size() / rows : 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    const auto row = values.subspan(r * columns, columns);
+    all.push_back(ReportList(row.begin(), row.end()));
+  }
+  return all;
+}
+
+ReportValue list_or_none(const std::vector<double>& values) {
+  return values.empty() ? ReportValue() : ReportValue(values);
+}
+
+CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector<double>>& rows) {
+  CoefficientLists out;
+  for (int i = 0; i < orders.outputs(); ++i) {
+    auto next = rows[static_cast<std::size_t>(i)].begin();
+    const auto take = [&next](int count) {
+      ReportList lags(next, next + count);
+      next += count;
+      return lags;
+    };
+    ReportList a, b;
+    for (int j = 0; j < orders.outputs(); ++j) a.push_back(take(orders.na(i, j)));
+    for (int k = 0; k < orders.inputs(); ++k) b.push_back(take(orders.nb(i, k)));
+    out.a.push_back(std::move(a));
+    out.b.push_back(std::move(b));
+  }
+  return out;
+}
+
+std::string steps_id(int steps) { return steps == kFreeRun ? "inf" : std::to_string(steps); }
+
+std::string as_id(const std::string& name) {
+  std::string id;
+  for (char c : name) {
+    if (c == '.' || c == '[' || c == '\\') id += '\\';
+    id += c;
+  }
+  return id;
+}
+
+std::string element(const char* list, std::size_t index, const char* field) {
+  return std::string(list) + "[" + std::to_string(index) + "]." + field;
+}
+
+}  // namespace wisp::arx

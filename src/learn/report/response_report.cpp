@@ -1,0 +1,201 @@
+#include "learn/report/response_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "learn/judge/response.hpp"
+#include "learn/numeric/constants.hpp"
+#include "learn/report/report_values.hpp"
+
+namespace wisp::arx {
+namespace {
+
+constexpr int kFrequencies = 240;
+
+// Samples until the response of the slowest pole has decayed below 1 %.
+int settling_samples(const ArxModel& model) {
+  constexpr int kMin = 20, kMax = 600;
+  const double radius = spectral_radius(model);
+  // Without feedback the response ends with the longest lag.
+  const double settled = radius <= 0 ? 0 : radius < 1 ? std::log(0.01) / std::log(radius) : kMax;
+  return model.orders.history() + static_cast<int>(std::clamp(settled, double{kMin}, double{kMax}));
+}
+
+// Angular frequencies from a thousandth of the highest up to it, equally spaced on a logarithmic axis.
+std::vector<double> angular_frequencies() {
+  std::vector<double> omega;
+  omega.reserve(kFrequencies);
+  for (int k = 0; k < kFrequencies; ++k) {
+    omega.push_back(std::numbers::pi * std::pow(10.0, 3.0 * (k + 1 - kFrequencies) / (kFrequencies - 1)));
+  }
+  return omega;
+}
+
+// A curve and, where there is one, its confidence band.
+struct Curve {
+  std::vector<double> y, low, high;
+
+  void push(double value, double below, double above) {
+    y.push_back(value);
+    low.push_back(below);
+    high.push_back(above);
+  }
+};
+
+Curve step_curve(const StepResponse& step) {
+  Curve curve;
+  for (std::size_t t = 0; t < step.value.size(); ++t) {
+    const double wide = step.sd.empty() ? 0 : kNormal95 * step.sd[t];
+    curve.push(step.value[t], step.value[t] - wide, step.value[t] + wide);
+  }
+  return curve;
+}
+
+// The band of an amplitude is computed in its logarithm, so it stays positive.
+Curve amplitude_curve(const FrequencyResponse& response) {
+  Curve curve;
+  for (std::size_t f = 0; f < response.value.size(); ++f) {
+    const double amplitude = std::abs(response.value[f]);
+    const double sd = response.amplitude_sd.empty() ? 0 : response.amplitude_sd[f];
+    const double ratio = amplitude > 0 ? std::exp(kNormal95 * std::min(sd / amplitude, 2.0)) : 1;
+    curve.push(amplitude, amplitude / ratio, amplitude * ratio);
+  }
+  return curve;
+}
+
+// Unwrapped phase in degrees. A phase with an uncertainty above half a turn gets no band.
+Curve phase_curve(const FrequencyResponse& response) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  Curve curve;
+  double turns = 0;
+  for (std::size_t f = 0; f < response.value.size(); ++f) {
+    double degrees = kDegrees * std::arg(response.value[f]) + turns;
+    if (f > 0) {
+      const double jump = 360 * std::round((curve.y.back() - degrees) / 360);
+      turns += jump;
+      degrees += jump;
+    }
+    const double sd = response.phase_sd.empty() ? 0 : response.phase_sd[f];
+    const double wide = std::min(kNormal95 * kDegrees * sd, 180.0);
+    curve.push(degrees, degrees - wide, degrees + wide);
+  }
+  return curve;
+}
+
+using Places = std::vector<std::complex<double>>;
+
+// Poles and zeros that remain after cancelling pairs; those of outputs that do not feed this one cancel.
+std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) {
+  constexpr double kSame = 1e-6;
+  Places left;
+  for (const auto& zero : zeros) {
+    const auto same =
+        std::find_if(poles.begin(), poles.end(), [&](const auto& pole) { return std::abs(pole - zero) < kSame; });
+    same == poles.end() ? left.push_back(zero) : void(poles.erase(same));
+  }
+  return {std::move(poles), std::move(left)};
+}
+
+void add_places(const std::string& id, const std::string& label, const Places& places, ReportSection& section) {
+  ReportSeries& series = section.series.emplace_back();
+  series = {id, label, "real part", "imaginary part", {}, {}};
+  for (const auto& place : places) {
+    series.x.push_back(place.real());
+    series.y.push_back(place.imag());
+  }
+}
+
+// Adds all series and lists of one input's effect on one output.
+class Pair {
+ public:
+  Pair(const Responding& of, int output, int input)
+      : of_(of),
+        output_(output),
+        input_(input),
+        omega_(angular_frequencies()),
+        step_(step_response(of.model, output, input, settling_samples(of.model), of.covariance)),
+        frequency_(frequency_response(of.model, output, input, omega_, of.covariance)) {}
+
+  std::vector<double> seconds() const {
+    std::vector<double> out;
+    for (std::size_t t = 0; t < step_.value.size(); ++t) out.push_back(static_cast<double>(t) / of_.rate_hz);
+    return out;
+  }
+
+  std::vector<double> hertz() const {
+    std::vector<double> out;
+    for (double w : omega_) out.push_back(w * of_.rate_hz / (2 * std::numbers::pi));
+    return out;
+  }
+
+  void list(ReportSection& section) const {
+    const std::string place = "[" + std::to_string(output_) + "][" + std::to_string(input_) + "].";
+    add(section, "responses.step" + place + "value", step_.value);
+    add(section, "responses.step" + place + "sd", list_or_none(step_.sd));
+    std::vector<double> amplitude, phase;
+    for (const auto& value : frequency_.value) {
+      amplitude.push_back(std::abs(value));
+      phase.push_back(std::arg(value));
+    }
+    add(section, "responses.frequency" + place + "amplitude", amplitude);
+    add(section, "responses.frequency" + place + "amplitude_sd", list_or_none(frequency_.amplitude_sd));
+    add(section, "responses.frequency" + place + "phase", phase);
+    add(section, "responses.frequency" + place + "phase_sd", list_or_none(frequency_.phase_sd));
+  }
+
+  void plot(ReportSection& section) const {
+    const std::string& output = of_.channels.outputs[output_];
+    const std::string label = output + " from " + of_.channels.inputs[input_];
+    const std::string place = "." + std::to_string(output_) + "." + std::to_string(input_);
+    const auto [left_poles, left_zeros] = without_cancelling(poles(of_.model), zeros(of_.model, output_, input_));
+    add_places("poles" + place, label, left_poles, section);
+    add_places("zeros" + place, label, left_zeros, section);
+    plot_curve("step" + place, label, {"time, s", output}, seconds(), step_curve(step_), section);
+    plot_curve("amplitude" + place, label, {"frequency, Hz", "amplitude"}, hertz(), amplitude_curve(frequency_),
+               section);
+    plot_curve("phase" + place, label, {"frequency, Hz", "phase, degrees"}, hertz(), phase_curve(frequency_), section);
+  }
+
+ private:
+  struct Axes {
+    std::string x, y;
+  };
+
+  void plot_curve(const std::string& id, const std::string& label, const Axes& axes, const std::vector<double>& x,
+                  const Curve& curve, ReportSection& section) const {
+    section.series.push_back({id, label, axes.x, axes.y, x, curve.y});
+    if (of_.covariance.empty()) return;
+    section.series.push_back({id + ".low", label, axes.x, axes.y, x, curve.low});
+    section.series.push_back({id + ".high", label, axes.x, axes.y, x, curve.high});
+  }
+
+  const Responding& of_;
+  int output_, input_;
+  std::vector<double> omega_;
+  StepResponse step_;
+  FrequencyResponse frequency_;
+};
+
+}  // namespace
+
+void add_poles(const ArxModel& model, Report& report) { add_places("poles", "poles", poles(model), report.add("")); }
+
+void add_responses(const Responding& responding, bool listed, Report& report) {
+  add_poles(responding.model, report);
+  ReportSection& section = report.sections.back();
+  const ArxOrders& orders = responding.model.orders;
+  for (int i = 0; i < orders.outputs(); ++i) {
+    for (int k = 0; k < orders.inputs(); ++k) {
+      const Pair pair(responding, i, k);
+      if (listed && i == 0 && k == 0) {
+        add(section, "responses.seconds", pair.seconds());
+        add(section, "responses.hz", pair.hertz());
+      }
+      if (listed) pair.list(section);
+      pair.plot(section);
+    }
+  }
+}
+
+}  // namespace wisp::arx

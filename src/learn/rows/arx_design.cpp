@@ -1,0 +1,91 @@
+#include "learn/rows/arx_design.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+
+namespace wisp {
+
+std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset) {
+  std::vector<LaggedChannel> columns;
+  for (int j = 0; j < orders.outputs(); ++j) {
+    for (int lag = 1; lag <= orders.na(output, j); ++lag) columns.push_back({j, lag});
+  }
+  for (int k = 0; k < orders.inputs(); ++k) {
+    for (int lag = 0; lag < orders.nb(output, k); ++lag)
+      columns.push_back({orders.outputs() + k, orders.nk(output, k) + lag});
+  }
+  if (offset == ArxOffset::kEstimate) columns.push_back({kConstantChannel, 0});
+  return columns;
+}
+
+std::size_t ArxDesign::row_size(int output) const {
+  for (const SharedRows& group : groups) {
+    if (std::find(group.outputs.begin(), group.outputs.end(), output) != group.outputs.end()) {
+      return group.columns.size();
+    }
+  }
+  return 0;
+}
+
+ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart) {
+  std::vector<std::vector<LaggedChannel>> rows;
+  std::vector<LaggedChannel> used;
+  for (int i = 0; i < orders.outputs(); ++i) {
+    rows.push_back(row_regressors(orders, i, offset));
+    used.insert(used.end(), rows.back().begin(), rows.back().end());
+  }
+  ArxDesign design{LagLayout(orders.outputs(), orders.inputs(), used), {}};
+  for (int i = 0; i < orders.outputs(); ++i) {
+    std::vector<int> columns;
+    for (const LaggedChannel& column : rows[i]) columns.push_back(design.layout.find(column));
+    const auto same = std::find_if(design.groups.begin(), design.groups.end(),
+                                   [&](const SharedRows& group) { return group.columns == columns; });
+    if (!apart && same != design.groups.end()) {
+      same->outputs.push_back(i);
+    } else {
+      design.groups.push_back({std::move(columns), {i}});
+    }
+  }
+  return design;
+}
+
+ChannelPairs wanted_pairs(const ArxDesign& design) {
+  ChannelPairs wanted = ChannelPairs::Constant(design.layout.channels(), design.layout.channels(), false);
+  for (const SharedRows& group : design.groups) {
+    std::vector<int> channels = group.outputs;
+    for (int column : group.columns) {
+      if (design.layout[column].channel != kConstantChannel) channels.push_back(design.layout[column].channel);
+    }
+    std::sort(channels.begin(), channels.end());
+    channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+    for (int a : channels) {
+      for (int b : channels) wanted(a, b) = true;
+    }
+  }
+  return wanted;
+}
+
+namespace {
+
+bool coupled(const UniformOrders& uniform, int i, int j) {
+  const int apart = std::abs(i / uniform.group - j / uniform.group);
+  return uniform.coupling == Coupling::kFull || apart <= (uniform.coupling == Coupling::kBand ? 1 : 0);
+}
+
+}  // namespace
+
+ArxOrders make_orders(const UniformOrders& uniform) {
+  assert(uniform.outputs >= 1 && uniform.inputs >= 0 && uniform.group >= 1);
+  ArxOrders orders{OrderMatrix(uniform.outputs, uniform.outputs),
+                   OrderMatrix(uniform.outputs, uniform.inputs, uniform.nb),
+                   OrderMatrix(uniform.outputs, uniform.inputs, uniform.nk)};
+  for (int i = 0; i < uniform.outputs; ++i) {
+    for (int j = 0; j < uniform.outputs; ++j) {
+      if (coupled(uniform, i, j)) orders.na(i, j) = uniform.na;
+    }
+  }
+  return orders;
+}
+
+}  // namespace wisp

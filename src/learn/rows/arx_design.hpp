@@ -1,0 +1,54 @@
+#pragma once
+// Orders of a model from a few numbers, and the design of the regression: columns of all rows together, and the columns
+// of each output row.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "learn/numeric/lag_layout.hpp"
+#include "learn/rows/lag_gram.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/model/arx.hpp"
+
+namespace wisp {
+
+/// Equal orders for all entries that the coupling leaves non-zero.
+struct UniformOrders {
+  int outputs = 1;
+  int inputs = 0;
+  int na = 4;  ///< lags of outputs, 0 to 4096; 4 allows two damped resonances per output, as in the paper
+  int nb = 4;  ///< lags of inputs, 0 to 4096
+  int nk = 1;  ///< delay of inputs in samples, 0 to 4096; 1: an input acts on the next sample
+  Coupling coupling = Coupling::kFull;
+  int group = 1;  ///< consecutive outputs coupled with each other, ≥ 1: 2 where outputs are x, y of points
+};
+
+/// Returns na (outputs × outputs), nb and nk (outputs × inputs).
+///
+/// Precondition: the fields are in the ranges beside them.
+ArxOrders make_orders(const UniformOrders& uniform);
+
+/// Output rows with equal regressors, which share a factorisation.
+struct SharedRows {
+  std::vector<int> columns;  ///< positions in the layout, in theta's order; the constant, where estimated, comes last
+  std::vector<int> outputs;
+};
+
+struct ArxDesign {
+  LagLayout layout;
+  std::vector<SharedRows> groups;
+
+  /// Number of coefficients of an output row, including the constant.
+  std::size_t row_size(int output) const;
+};
+
+/// Regressors of one output row in theta's order; the constant, where it is estimated, comes last.
+std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset);
+
+/// Design of the regression. With `apart` every output is its own group, even where regressors are equal.
+ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart = false);
+
+/// Channels whose products the design's rows need.
+ChannelPairs wanted_pairs(const ArxDesign& design);
+
+}  // namespace wisp

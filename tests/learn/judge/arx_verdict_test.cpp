@@ -1,0 +1,121 @@
+#include "learn/judge/arx_verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "learn/arx/learn_arx.hpp"
+
+namespace wisp::arx_verdict_test {
+namespace {
+
+using testing::HasSubstr;
+
+// A recording of white inputs and what `next` makes of the input and the output before.
+template <class Next>
+Recording made(std::size_t rows, unsigned seed, Next next) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  Recording recording;
+  recording.rate_hz = 1;
+  recording.channels = {{"u", "", Role::kInput, {}}, {"y", "", Role::kOutput, {}}};
+  double before = 0, y = 0;
+  for (std::size_t t = 0; t < rows; ++t) {
+    const double u = normal(generator);
+    y = next(y, u, before, normal(generator));
+    recording.channels[0].samples.push_back(u);
+    recording.channels[1].samples.push_back(y);
+    before = u;
+  }
+  return recording;
+}
+
+ReportVerdict verdict(const Recording& recording, const ArxRecipe& recipe) {
+  const auto fit = learn_arx({&recording, 1}, recipe);
+  EXPECT_TRUE(fit) << fit.error().message;
+  return fit ? *fit->report.verdict : ReportVerdict{};
+}
+
+ArxRecipe driven(int order) { return {.inputs = {"u"}, .outputs = {"y"}, .na = order, .nb = order}; }
+
+TEST(ArxVerdict, ASystemThatIsDrivenIsUsableAndSaysHowWellItSimulates) {
+  const auto said =
+      verdict(made(1000, 1, [](double y, double, double u, double e) { return 0.8 * y + u + 0.1 * e; }), driven(1));
+  EXPECT_TRUE(said.usable);
+  EXPECT_THAT(said.reason, HasSubstr("free simulation of held-out rows fits 9"));
+}
+
+TEST(ArxVerdict, WhiteNoiseIsNotUsable) {
+  const Recording noise = made(1000, 2, [](double, double, double, double e) { return e; });
+  const auto with_input = verdict(noise, driven(2));
+  EXPECT_FALSE(with_input.usable);
+  EXPECT_THAT(with_input.reason, HasSubstr("at least 40 % is needed"));
+  const auto alone = verdict(noise, {.outputs = {"y"}, .na = 2, .nb = 0});
+  EXPECT_FALSE(alone.usable);
+  EXPECT_THAT(alone.reason, HasSubstr("no better than by its mean"));
+}
+
+TEST(ArxVerdict, ARandomWalkIsPredictedNoBetterThanByItsLastSample) {
+  const Recording walk = made(1000, 3, [](double y, double, double, double e) { return y + e; });
+  const auto said = verdict(walk, {.outputs = {"y"}, .na = 2, .nb = 0});
+  EXPECT_FALSE(said.usable);
+  EXPECT_THAT(said.reason, HasSubstr("last sample"));
+}
+
+TEST(ArxVerdict, AnOscillationWithoutInputsIsUsable) {
+  double older = 0;
+  const Recording wave = made(1000, 4, [&](double y, double, double, double e) {
+    const double next = 1.8 * y - 0.95 * older + 0.1 * e;
+    older = y;
+    return next;
+  });
+  EXPECT_TRUE(verdict(wave, {.outputs = {"y"}, .na = 2, .nb = 0}).usable);
+}
+
+TEST(ArxVerdict, TenRowsAreTooFew) {
+  const Recording brief = made(10, 5, [](double y, double, double u, double e) { return 0.5 * y + u + 0.01 * e; });
+  const auto said = verdict(brief, driven(1));
+  EXPECT_FALSE(said.usable);
+  EXPECT_THAT(said.reason, HasSubstr("9 rows are too few for 2 coefficients"));
+}
+
+TEST(ArxVerdict, AnInputThatActsAtOnceIsToldOf) {
+  const Recording direct =
+      made(1000, 6, [](double y, double u, double before, double e) { return 0.5 * y + u + 2 * before + 0.1 * e; });
+  const auto said = verdict(direct, driven(2));
+  EXPECT_FALSE(said.usable);
+  EXPECT_THAT(said.reason, HasSubstr("acts on 'y' in the same sample"));
+  EXPECT_THAT(said.reason, HasSubstr("try --nk 0"));
+  ArxRecipe at_once = driven(2);
+  at_once.nk = 0;
+  EXPECT_TRUE(verdict(direct, at_once).usable);
+}
+
+TEST(ArxVerdict, ARepairThatMovesCoefficientsFarIsNotUsable) {
+  ArxSummary summary;
+  summary.usable = {true, "fine"};
+  summary.samples_used = 1000;
+  summary.stable = {.radius = 0.999, .changed = true, .estimated = 2, .loss_factor = 40, .moved = 31};
+  const ChannelChoice channels{{}, {"y"}};
+  const ArxOrders orders{OrderMatrix(1, 1, 2), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  arx::judge_use({channels, orders}, summary);
+  EXPECT_FALSE(summary.usable.verdict);
+  EXPECT_THAT(summary.usable.reason, HasSubstr("moved by 31 standard errors"));
+}
+
+TEST(ArxVerdict, ASimulationThatRunsAwayIsToldInAWord) {
+  ArxSummary summary;
+  summary.usable = {true, "fine"};
+  summary.samples_used = 1000;
+  summary.fit_percent = {99};
+  summary.free_run_fit_percent = {-1e30};
+  const ChannelChoice channels{{"u"}, {"y"}};
+  const ArxOrders orders{OrderMatrix(1, 1, 2), OrderMatrix(1, 1, 1), OrderMatrix(1, 1, 1)};
+  arx::judge_use({channels, orders}, summary);
+  EXPECT_FALSE(summary.usable.verdict);
+  EXPECT_THAT(summary.usable.reason, HasSubstr("it diverges"));
+}
+
+}  // namespace
+}  // namespace wisp::arx_verdict_test
