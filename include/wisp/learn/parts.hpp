@@ -72,10 +72,8 @@ class ArxPart {
   static Result<ArxPart> from_bytes(std::span<const std::byte> bytes);
 
   /// Fits the rows of all parts as learn() does. Of the recipe only name, offset, kernel, radius, keep_unstable and
-  /// responses are used. Free simulation is evaluated if all rows come from CSV files, which are read once more for it;
-  /// residuals are not tested.
-  /// Errors: too few rows, rows of a recording's shares that are in no part, a file that cannot be read again,
-  /// kStopped.
+  /// responses are used. Parts hold no rows: free simulation is not evaluated, and residuals are not tested.
+  /// Errors: too few rows, rows of a recording's shares that are in no part, kStopped.
   Result<Fit> finish(const ArxRecipe& recipe, const Progress& progress = {}) const;
 
  private:

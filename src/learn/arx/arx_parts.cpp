@@ -6,12 +6,10 @@
 #include "base/hash.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/part_state.hpp"
-#include "learn/fit/arx_errors.hpp"
 #include "learn/fit/arx_estimate.hpp"
 #include "learn/fit/arx_fit.hpp"
 #include "learn/fit/arx_report.hpp"
 #include "learn/judge/arx_verdict.hpp"
-#include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/report/report_values.hpp"
 #include "wisp/learn/parts.hpp"
@@ -179,44 +177,12 @@ Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
   return fit;
 }
 
-// Simulates the model over the tables, chunk by chunk from the measured state at each chunk's start, and adds the
-// figures to the fit's summary.
-Result<void> judge_free_run(const std::vector<Table>& tables, const ChannelChoice& channels, const Progress& progress,
-                            ArxFit& fit) {
-  Tally tally(fit.model.orders.outputs());
-  for (const Table& table : tables) {
-    if (auto ok = check_progress(progress, "simulating", 0); !ok) return ok;
-    const auto open = open_table(table);
-    if (!open) return open.error();
-    for (std::size_t left = table.rows;;) {
-      Recording window = open->reader->header();
-      const auto read = open->reader->read(window, std::min(kRowsAtATime, left));
-      if (!read) return read.error();
-      if (*read == 0) break;
-      left -= *read;
-      const auto signals = signals_of_model(fit.model, {&window, 1}, channels);
-      if (!signals) return signals.error();
-      const FreeRunStart start{InitialState::kMeasured, fit.model.orders.history()};
-      free_run(fit.model, *signals, 0, start, [&](std::size_t first, std::size_t rows, const double* values) {
-        tally.add_simulated(*signals, 0, first, rows, values);
-      });
-    }
-  }
-  if (tally.rows() == 0) return {};
-  fit.summary.free_run_fit_percent = tally.figures(kFreeRun).fit_percent;
-  warn_of_free_run(channels.outputs, fit.summary);
-  return {};
-}
-
 }  // namespace
 }  // namespace arx
 
 using arx::PartState;
 
 struct ArxPart::State : PartState {
-  std::vector<arx::Table> tables{};  // tables taken in as a whole
-  bool only_tables = true;           // false once anything but a table was taken in
-
   // Merges the part just read from a recording; on an error nothing of it is merged.
   Result<void> take(const std::string& source, PartState&& part, const arx::SeenRows& read) {
     part.seen = {read};
@@ -251,7 +217,6 @@ Result<void> ArxPart::add(const Recording& recording, const TableShare& share) {
       hash = hash_bytes(std::as_bytes(std::span(recording.channels[*find_channel(recording, name)].samples)), hash);
     }
   }
-  state_->only_tables = false;
   const std::string name = std::filesystem::path(recording.source).filename().string();
   return state_->take(recording.source, std::move(own),
                       {name, hash, share.first, end, share.first + part.begin, share.first + part.end});
@@ -281,18 +246,13 @@ Result<void> ArxPart::add(const std::filesystem::path& path, const CsvOptions& o
   if (!hash) return hash.error();
   const arx::SeenRows seen{path.filename().string(), *hash, share.first, share.first + rows, share.first + part.begin,
                            share.first + part.end};
-  if (auto ok = state_->take(table.name(), std::move(own), seen); !ok) return ok;
-  state_->tables.push_back(table);
-  state_->only_tables &= share.count == 1;
-  return {};
+  return state_->take(table.name(), std::move(own), seen);
 }
 
 Result<void> ArxPart::merge(const ArxPart& other) {
   const State& more = *other.state_;
   if (auto ok = state_->merge(more); !ok) return ok;
   state_->jobs += more.jobs;
-  state_->only_tables &= more.only_tables;
-  state_->tables.insert(state_->tables.end(), more.tables.begin(), more.tables.end());
   return {};
 }
 
@@ -314,7 +274,7 @@ std::vector<std::byte> ArxPart::bytes() const { return state_->bytes(); }
 Result<ArxPart> ArxPart::from_bytes(std::span<const std::byte> bytes) {
   auto state = PartState::from_bytes(bytes);
   if (!state) return state.error();
-  return ArxPart(std::make_unique<State>(State{std::move(*state), {}, false}));
+  return ArxPart(std::make_unique<State>(State{std::move(*state)}));
 }
 
 Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) const {
@@ -326,10 +286,6 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
   if (!fitted) return fitted.error();
   const auto nb = state.orders.nb.values();
   const bool driven = std::any_of(nb.begin(), nb.end(), [](int order) { return order > 0; });
-  const bool simulated = state_->only_tables && driven;
-  if (simulated) {
-    if (auto ok = arx::judge_free_run(state_->tables, state.names, progress, *fitted); !ok) return ok.error();
-  }
   arx::judge_use({state.names, state.orders}, fitted->summary);
   arx::Sources sources{.rate_hz = state.rate_hz, .files = this->sources()};
   for (const arx::PartChannel& channel : state.channels) sources.spans.push_back(channel.span);
@@ -343,9 +299,10 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
     }
     section.tables.push_back(std::move(table));
   }
-  if (!simulated && driven) {
-    arx::add_line(section, "free simulation",
-                  "not judged: parts hold no rows to simulate; validate the model on a recording");
+  if (driven) {
+    arx::add_line(
+        section, "free simulation",
+        "not judged: parts hold no rows to simulate; validate the model on a recording that fits into memory");
   }
   return fit;
 }

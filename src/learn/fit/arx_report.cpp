@@ -293,6 +293,17 @@ std::string percent(double value) { return value > -1000 ? number_text(value, 3)
 // Percent. A one-step fit above kPromise with a free-run fit below kKept hides the model's failure.
 constexpr double kPromise = 80, kKept = 60;
 
+// Warns of outputs with a good one-step fit but a poor free-run fit, where both are known.
+void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary) {
+  for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
+    const double one_step = summary.fit_percent[i], free_run = summary.free_run_fit_percent[i];
+    if (one_step < kPromise || free_run >= kKept) continue;
+    summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
+                               ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") +
+                               percent(free_run) + "; judge this model by simulation, and try other orders or delays");
+  }
+}
+
 }  // namespace
 
 Criteria criteria_of(std::span<const double> covariance, int outputs, double rows, double coefficients) {
@@ -340,16 +351,6 @@ ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate es
   summary.rows_left_out = facts.rows_left_out;
   summary.method = std::move(estimate.method);
   return fit;
-}
-
-void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary) {
-  for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
-    const double one_step = summary.fit_percent[i], free_run = summary.free_run_fit_percent[i];
-    if (one_step < kPromise || free_run >= kKept) continue;
-    summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
-                               ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") +
-                               percent(free_run) + "; judge this model by simulation, and try other orders or delays");
-  }
 }
 
 void judge_fit(const FitFacts& facts, ArxSummary& summary) {

@@ -47,11 +47,6 @@ inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / va
 /// The model, stabilised unless disabled, and its summary; judge_fit sets `usable`.
 ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);
 
-/// Warns of outputs with a good one-step fit but a poor free-run fit. `outputs` are their names.
-///
-/// Precondition: the summary has both fits, or no free_run_fit_percent.
-void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary);
-
 /// Derives warnings and the verdict from the summary's figures.
 void judge_fit(const FitFacts& facts, ArxSummary& summary);
 

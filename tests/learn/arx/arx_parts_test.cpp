@@ -66,7 +66,7 @@ TEST(ArxParts, SharesThroughBytesMakeTheModelOfAllRows) {
   EXPECT_EQ(fit->report.find("fit_percent.inf"), nullptr);  // no rows to simulate
 }
 
-TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRangeAndSimulatesIt) {
+TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRange) {
   const Recording recording = record_system(made_system(), 3000, 1);
   const auto path = std::filesystem::path(testing::TempDir()) / ("parts." + std::to_string(getpid()) + ".csv");
   ASSERT_TRUE(write_csv(path, recording));
@@ -82,10 +82,6 @@ TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRangeAndSimulatesIt) {
   ASSERT_TRUE(fit) << fit.error().message;
   const Fit want = in_memory(slice(recording, 100, 2100));
   expect_same(fit->model, want.model);
-  const auto free_run = [](const Fit& of) {
-    return std::get<double>(std::get<ReportList>(of.report.find("fit_percent.inf")->value)[0]);
-  };
-  EXPECT_NEAR(free_run(*fit), free_run(want), 1e-9);
 }
 
 TEST(ArxParts, ABadRecordingLeavesNoTrace) {
