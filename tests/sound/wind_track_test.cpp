@@ -153,6 +153,15 @@ TEST(WindTrack, KnocksOnTheTableInAStillRoomAreNoWind) {
   }
 }
 
+TEST(WindTrack, ShortPeaksOfAGustCloseTogetherAreWind) {
+  Samples sound = sounds::room(8, 44100, 1e-4);
+  const auto gusty = [](double t) { return std::fmod(t, 0.16) < 0.08 ? 1.0 : 0.05; };
+  sounds::add(sound, sounds::blowing(4, 44100, 0.02, gusty), 2, 44100);
+  const WindTrack track = track_of(sound);
+  const auto blows = [](const WindFrame& frame) { return frame.wind > 0.3F; };
+  EXPECT_GT(std::ranges::count_if(track.frames, blows), 60) << "of 4 s";
+}
+
 TEST(WindTrack, AHardPuffBesideFaintWindIsWind) {
   for (std::uint64_t seed = 20; seed < 28; ++seed) {  // where in the puff its strongest frame lies is chance
     Samples sound = faint_gusts();
