@@ -155,7 +155,7 @@ TEST(WindTrack, KnocksOnTheTableInAStillRoomAreNoWind) {
 
 TEST(WindTrack, ShortPeaksOfAGustCloseTogetherAreWind) {
   Samples sound = sounds::room(8, 44100, 1e-4);
-  const auto gusty = [](double t) { return std::fmod(t, 0.16) < 0.08 ? 1.0 : 0.05; };
+  const auto gusty = [](double t) { return std::fmod(t, 0.14) < 0.05 ? 1.0 : 0.05; };
   sounds::add(sound, sounds::blowing(4, 44100, 0.02, gusty), 2, 44100);
   const WindTrack track = track_of(sound);
   const auto blows = [](const WindFrame& frame) { return frame.wind > 0.3F; };
