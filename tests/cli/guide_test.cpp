@@ -84,7 +84,7 @@ TEST_F(Guide, EverySentenceOfNotUsableHasItsRow) {
   const std::string page = source_text("docs/guide/identify.md");
   const std::string rows = page.substr(page.find("## What to do at each *not usable*"));
   const std::map<std::string, std::vector<std::string>> sentences{
-      {"advice.cpp",
+      {"arx/advice.cpp",
        {"it stands for a missing sample", " outliers", " never changes", "it tells nothing new",
         "is missing, and every row", "has only ", "moves only ", "a controller closes the loop", " acts on ",
         " integrates", " drifts by "}},
@@ -92,13 +92,13 @@ TEST_F(Guide, EverySentenceOfNotUsableHasItsRow) {
        {"rows are too few for ", "to make the estimate stable a coefficient was moved by ", "in the same sample",
         "the recording shows no cause", "played in single precision", "is predicted no better than by its"}},
       {"fit/arx_report.cpp", {"the data cannot tell all coefficients", "the model is unstable"}},
-      {"search/delay_estimate.cpp", {"no delay is supported"}}};
+      {"choose/delay_estimate.cpp", {"no delay is supported"}}};
   const std::string kinds = source_text("include/wisp/learn/advice.hpp");
   const auto causes = kinds.substr(0, kinds.find("kClock"));
   EXPECT_EQ(std::count(causes.begin() + std::ptrdiff_t(causes.find("enum class")), causes.end(), '<'),
-            std::ssize(sentences.at("advice.cpp")));
+            std::ssize(sentences.at("arx/advice.cpp")));
   for (const auto& [file, said] : sentences) {
-    const std::string source = source_text("src/learn/arx/" + file);
+    const std::string source = source_text("src/learn/" + file);
     for (const std::string& sentence : said) {
       EXPECT_THAT(source, HasSubstr(sentence)) << file;
       EXPECT_THAT(rows, HasSubstr(sentence)) << file;
