@@ -26,13 +26,13 @@ constexpr float kBlowingConfidence = 0.5F;  // threshold of probable blowing
 constexpr float kWindHeard = 0.05F;         // in wind units: minimum that is reported as wind
 constexpr double kShortestPuff = 0.1;       // minimum seconds above half of a puff's maximum
 
-// A knock exceeds `wind` for at most `seconds` and reaches at least `peak`: sound far too strong for wind also rings in
-// a room. A weaker knock has no other wind within `alone` seconds of it, while gusts have short peaks close together.
+// A knock exceeds `wind` for at most `seconds`, with no more such wind for as long before and after it, as the short
+// peaks of a gust have, and reaches at least `peak`: sound far too strong for wind also rings in a room.
 struct Knock {
   float wind, peak;
-  double seconds, alone;
+  double seconds;
 };
-constexpr Knock kKnocks[] = {{1.5F, 6, 0.3, 0}, {0.15F, 0, 0.1, 0.15}};
+constexpr Knock kKnocks[] = {{1.5F, 6, 0.3}, {0.15F, 0, 0.1}};
 
 /// Loudness of the softest frames that contain any sound.
 float find_floor(const Seen& seen) {
@@ -155,13 +155,15 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const 
   const auto seconds = [&](Place from, Place to) {
     return seconds_at(to - frames.begin()) - seconds_at(from - frames.begin());
   };
-  for (auto end = frames.begin(); end != frames.end();) {
-    const auto last = end, begin = std::find_if(last, frames.end(), above(knock.wind));
-    end = std::find_if_not(begin, frames.end(), above(knock.wind));
-    if (begin == end || seconds(begin, end) > knock.seconds) continue;
-    const auto next = std::find_if(end, frames.end(), above(knock.wind));
-    if (last != frames.begin() && seconds(last, begin) < knock.alone) continue;
-    if (next != frames.end() && seconds(end, next) < knock.alone) continue;
+  const auto rise = [&](Place from) { return std::find_if(from, frames.end(), above(knock.wind)); };
+  Place last = frames.begin();  // end of the wind before
+  for (Place begin = rise(last), next = begin; begin != frames.end(); begin = next) {
+    const Place end = std::find_if_not(begin, frames.end(), above(knock.wind));
+    next = rise(end);
+    const bool alone = (last == frames.begin() || seconds(last, begin) >= knock.seconds) &&
+                       (next == frames.end() || seconds(end, next) >= knock.seconds);
+    last = end;
+    if (!alone || seconds(begin, end) > knock.seconds) continue;
     const auto peak = std::max_element(begin, end, weaker);
     const auto risen = std::find_if(begin, end, above(peak->wind / 2));
     const auto faded = std::find_if_not(peak, end, above(peak->wind / 2));

@@ -141,7 +141,7 @@ double against(const std::array<double, kVerdictKnots>& knots, const std::array<
 }
 
 // The heaviest fact without which the verdict would be yes; if there is none, the heaviest. For an overexposed object
-// the shape alone is no evidence for or against a flame.
+// the shape is no evidence for or against a flame.
 std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact::*weight, double odds, R r) {
   const auto heavier = [&](const WeighedFact& a, const WeighedFact& b) {
     return std::pair(odds + a.*weight > 0, a.*weight) < std::pair(odds + b.*weight > 0, b.*weight);
@@ -149,8 +149,7 @@ std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact:
   const WeighedFact& found = *std::max_element(facts.begin(), facts.end(), heavier);
   const auto row =
       std::find_if(kFacts.begin(), kFacts.end(), [&](const FactRow& one) { return one.name == found.name; });
-  const bool none =
-      weight == &WeighedFact::against_flame && (row->sentence != kShape || !r.facts.burns || odds + found.*weight <= 0);
+  const bool none = weight == &WeighedFact::against_flame && (row->sentence != kShape || !r.facts.burns);
   return (none ? "there is no flame in the film: " : "") +
          sentence_of(static_cast<std::size_t>(row - kFacts.begin()), r);
 }
@@ -196,7 +195,6 @@ std::vector<WeighedFact> weighed_facts(const CaptureReport& report) {
 
 void judge_outline(CaptureReport& report) {
   report.reason = verdict_sentence(report);
-  if (report.likely_flame <= 0.5) report.out_at.reset();  // no flame, so no end of one
   const OutlineFacts& facts = report.facts;
   if (static_cast<double>(facts.seen_from) > 0.3 * report.rate_hz) {
     report.reason += "; it is seen from frame " + std::to_string(facts.seen_from + 1) + " on";

@@ -79,15 +79,6 @@ TEST(OutlineVerdict, WhatNeverLookedLitIsNoFlameInGlare) {
   EXPECT_THAT(report.reason, HasSubstr("there is no flame in the film: its shape is not a flame's"));
 }
 
-TEST(OutlineVerdict, GlareExcusesNoShapeWhereOtherFactsDenyTheFlameToo) {
-  CaptureReport report = judged(kFlame, 60);
-  report.facts.wander = 6, report.facts.steadiness = 0.1, report.facts.light = 0.3, report.facts.movement = 0;
-  report.out_at = 28;
-  judge_outline(report);
-  EXPECT_THAT(report.reason, HasSubstr("there is no flame"));
-  EXPECT_FALSE(report.out_at);  // what is no flame does not go out
-}
-
 TEST(OutlineVerdict, WhatIsAsWideAsHighIsNoFlame) {
   Outline outline = kFlame;
   for (CurvePoint& p : outline) p.x *= 2.6;
