@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "learn/report/report_values.hpp"
-#include "learn/same_rate.hpp"
 #include "wisp/learn/prepare.hpp"
 #include "wisp/learn/validate.hpp"
 

@@ -2,10 +2,11 @@
 
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/learn_chain.hpp"
-#include "learn/complete.hpp"
 #include "learn/flame/learn_outline.hpp"
 #include "learn/flicker/learn_flicker.hpp"
 #include "learn/markov/learn_markov.hpp"
+#include "learn/report/report_values.hpp"
+#include "wisp/run/cost.hpp"
 
 namespace wisp {
 namespace {
@@ -22,6 +23,18 @@ struct Learning {
   Result<Fit> by(const OutlineRecipe& recipe) const { return learn_outline(recordings, recipe, progress); }
   Result<Fit> by(const ChainRecipe& recipe) const { return learn_chain(recordings, recipe, progress); }
 };
+
+// Records in the model's training the program's version and the cost of a frame, and adds the cost to the report. A
+// model that cannot be played has no cost.
+void complete(Fit& fit) {
+  fit.model.training.program = "wisp " WISP_VERSION;
+  const auto cost = count_operations(fit.model);
+  if (!cost) return;
+  // Runtimes with little memory read the cost from the model instead of counting.
+  fit.model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;
+  fit.model.training.operations_per_frame = cost->operations_per_frame;
+  fit.report.sections.push_back(arx::cost_section(*cost));
+}
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "learn/complete.hpp"
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "learn/report/fit_report.hpp"
@@ -172,7 +171,7 @@ Result<Report> model_report(const Model& model) {
                        plain->orders.inputs() == static_cast<int>(model.inputs.size());
     named ? arx::tell(*plain, model, report) : arx::tell_poles(*plain, model.rate_hz, report);
   }
-  report.sections.push_back(cost_section(*cost));
+  report.sections.push_back(arx::cost_section(*cost));
   report.sections.push_back(extinction_section(model));
   report.sections.push_back(made_section(model.training));
   return report;

@@ -10,7 +10,6 @@
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_judgement.hpp"
-#include "learn/same_rate.hpp"
 #include "wisp/learn/prepare.hpp"
 #include "wisp/learn/validate.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "base/statistics.hpp"
+#include "learn/numeric/constants.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -17,7 +17,6 @@ namespace {
 
 using Samples = std::vector<double>;
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBelow = 0.4;  // cutoff of the low-pass, as a share of the lower rate
 constexpr std::pair<const char*, double Preparation::*> kFrequencies[] = {{"highpass", &Preparation::highpass_hz},
                                                                           {"lowpass", &Preparation::lowpass_hz},
@@ -209,6 +208,13 @@ Result<std::vector<Recording>> prepare_all(std::span<const Recording> recordings
     out.push_back(std::move(*prepared));
   }
   return out;
+}
+
+Result<void> check_rate(const Model& model, const Recording& recording) {
+  constexpr double kSame = 1e-3;  // clocks and rounded periods differ by less
+  if (std::abs(recording.rate_hz - model.rate_hz) <= kSame * model.rate_hz) return {};
+  return Error{recording.source + ": has " + number_text(recording.rate_hz, 6) + " samples a second, the model " +
+               number_text(model.rate_hz, 6) + ": resample the recording, or learn the model at that rate"};
 }
 
 }  // namespace wisp

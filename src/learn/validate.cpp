@@ -7,7 +7,6 @@
 #include "learn/chain/learn_chain.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "learn/report/report_values.hpp"
-#include "learn/same_rate.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/prepare.hpp"
 

@@ -363,8 +363,7 @@ std::vector<Flag> arx_flags() {
        "has their numbers as responses"},
       {"memory", Kind::kInteger, "MIB", "1024",
        "where learning would take more than this, recordings are read a stretch at a time, which takes 40 (not "
-       "with --search, --prepare, --nk auto or --focus simulation); held-out rows, free simulation and residuals are "
-       "not judged then"},
+       "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"},
   };
   for (const auto& more :
        {of_recipe,

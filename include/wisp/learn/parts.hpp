@@ -72,8 +72,9 @@ class ArxPart {
   static Result<ArxPart> from_bytes(std::span<const std::byte> bytes);
 
   /// Fits the rows of all parts as learn() does. Of the recipe only name, offset, kernel, radius, keep_unstable and
-  /// responses are used. Parts hold no rows: free simulation is not evaluated, and residuals are not tested.
-  /// Errors: too few rows, rows of a recording's shares that are in no part, kStopped.
+  /// responses are used. Free simulation is evaluated where all rows come from whole CSV files, which are read again
+  /// for it; residuals are not tested. Errors: too few rows, rows of a recording's shares that are in no part, a file
+  /// that cannot be read again, kStopped.
   Result<Fit> finish(const ArxRecipe& recipe, const Progress& progress = {}) const;
 
  private:

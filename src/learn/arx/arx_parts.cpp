@@ -6,10 +6,12 @@
 #include "base/hash.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/part_state.hpp"
+#include "learn/fit/arx_errors.hpp"
 #include "learn/fit/arx_estimate.hpp"
 #include "learn/fit/arx_fit.hpp"
 #include "learn/fit/arx_report.hpp"
 #include "learn/judge/arx_verdict.hpp"
+#include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/report/report_values.hpp"
 #include "wisp/learn/parts.hpp"
@@ -155,8 +157,36 @@ Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
   return facts;
 }
 
-// The fit of all rows taken in, as fit_arx() computes it, without figures of free simulation.
-Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
+// Adds to `fits` the fit percentages of free simulation over the tables, a stretch at a time from its measured state.
+Result<void> simulate(const std::vector<Table>& tables, const PartState& state, const ArxModel& model,
+                      const Progress& progress, std::vector<double>& fits) {
+  Tally tally(model.orders.outputs());
+  for (const Table& table : tables) {
+    if (auto ok = check_progress(progress, "simulating", 0); !ok) return ok;
+    const auto open = open_table(table);
+    if (!open) return open.error();
+    for (std::size_t left = table.rows; left > 0;) {
+      Recording window = open->reader->header();
+      const auto read = open->reader->read(window, std::min(kRowsAtATime, left));
+      if (!read) return read.error();
+      if (*read == 0) break;
+      left -= *read;
+      const auto signals = signals_of_model(model, {&window, 1}, state.names);
+      if (!signals) return signals.error();
+      const FreeRunStart start{InitialState::kMeasured, model.orders.history()};
+      free_run(model, *signals, 0, start, [&](std::size_t first, std::size_t rows, const double* values) {
+        tally.add_simulated(*signals, 0, first, rows, values);
+      });
+    }
+  }
+  if (tally.rows() > 0) fits = tally.figures(kFreeRun).fit_percent;
+  return {};
+}
+
+// The fit of all rows taken in, as fit_arx() computes it. Free simulation is judged over `tables`, unless there are
+// none.
+Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options, const std::vector<Table>& tables,
+                      const Progress& progress) {
   if (auto ok = check_options(options, state.names); !ok) return ok.error();
   const ArxDesign design = make_design(options.orders, options.offset, options.kernel != ArxKernel::kNone);
   RowPlan plan;
@@ -173,6 +203,7 @@ Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
   shift_columns(state.orders, shift, facts->scale, triangle);
   ArxFit fit = report_fit(*facts, design,
                           estimate_from_triangle(triangle, facts->scale, design, {options.covariance, options.kernel}));
+  if (auto ok = simulate(tables, state, fit.model, progress, fit.summary.free_run_fit_percent); !ok) return ok.error();
   judge_fit(*facts, fit.summary);
   return fit;
 }
@@ -183,6 +214,8 @@ Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options) {
 using arx::PartState;
 
 struct ArxPart::State : PartState {
+  std::vector<arx::Table> tables{};  // those taken in as a whole
+
   // Merges the part just read from a recording; on an error nothing of it is merged.
   Result<void> take(const std::string& source, PartState&& part, const arx::SeenRows& read) {
     part.seen = {read};
@@ -246,13 +279,16 @@ Result<void> ArxPart::add(const std::filesystem::path& path, const CsvOptions& o
   if (!hash) return hash.error();
   const arx::SeenRows seen{path.filename().string(), *hash, share.first, share.first + rows, share.first + part.begin,
                            share.first + part.end};
-  return state_->take(table.name(), std::move(own), seen);
+  if (auto ok = state_->take(table.name(), std::move(own), seen); !ok) return ok;
+  if (share.count == 1) state_->tables.push_back(table);
+  return {};
 }
 
 Result<void> ArxPart::merge(const ArxPart& other) {
   const State& more = *other.state_;
   if (auto ok = state_->merge(more); !ok) return ok;
   state_->jobs += more.jobs;
+  state_->tables.insert(state_->tables.end(), more.tables.begin(), more.tables.end());
   return {};
 }
 
@@ -282,11 +318,17 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
   const auto rows = arx::covered(state.seen);
   if (!rows) return rows.error();
   if (auto ok = arx::check_progress(progress, "fitting", 0); !ok) return ok.error();
-  auto fitted = arx::fit_of(state, arx::fit_options(recipe, state.orders));
-  if (!fitted) return fitted.error();
   const auto nb = state.orders.nb.values();
   const bool driven = std::any_of(nb.begin(), nb.end(), [](int order) { return order > 0; });
+  const bool simulated = driven && state_->tables.size() == state.seen.size();  // every row can be read again
+  auto fitted = arx::fit_of(state, arx::fit_options(recipe, state.orders),
+                            simulated ? state_->tables : std::vector<arx::Table>(), progress);
+  if (!fitted) return fitted.error();
+  Usable& usable = fitted->summary.usable;
   arx::judge_use({state.names, state.orders}, fitted->summary);
+  if (usable.verdict && driven && !simulated) {
+    usable.reason += "; free simulation was not judged, as parts hold no rows: validate the model on a recording";
+  }
   arx::Sources sources{.rate_hz = state.rate_hz, .files = this->sources()};
   for (const arx::PartChannel& channel : state.channels) sources.spans.push_back(channel.span);
   Fit fit = arx::finish(*fitted, recipe, state.names, sources);
@@ -298,11 +340,6 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
       table.rows.push_back({seen.source, arx::rows_text(seen.begin, seen.end)});
     }
     section.tables.push_back(std::move(table));
-  }
-  if (driven) {
-    arx::add_line(
-        section, "free simulation",
-        "not judged: parts hold no rows to simulate; validate the model on a recording that fits into memory");
   }
   return fit;
 }

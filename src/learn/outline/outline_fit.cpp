@@ -7,7 +7,6 @@
 #include "base/statistics.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "learn/outline/outline_verdict.hpp"
 #include "learn/outline/resampled_residuals.hpp"
 #include "record/number_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "learn/outline/outline_verdict.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

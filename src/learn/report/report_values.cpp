@@ -71,4 +71,20 @@ std::string element(const char* list, std::size_t index, const char* field) {
   return std::string(list) + "[" + std::to_string(index) + "]." + field;
 }
 
+ReportSection cost_section(const Cost& cost) {
+  return {"Cost",
+          {{.id = "cost.multiply_adds_per_frame",
+            .value = cost.multiply_adds_per_frame,
+            .label = "multiply-adds a frame",
+            .meaning = "by the paper's count"},
+           {.id = "cost.operations_per_frame",
+            .value = cost.operations_per_frame,
+            .label = "operations a frame",
+            .meaning = "all arithmetic, noise and view included"},
+           {.id = "cost.worst_operations_per_frame",
+            .value = cost.worst_operations,
+            .label = "operations in the worst frame"},
+           {.id = "cost.steered_operations_per_frame", .value = cost.steered_operations}}};
+}
+
 }  // namespace wisp::arx

@@ -7,6 +7,7 @@
 
 #include "wisp/base/report.hpp"
 #include "wisp/model/arx.hpp"
+#include "wisp/run/cost.hpp"
 
 namespace wisp::arx {
 
@@ -39,6 +40,9 @@ std::string as_id(const std::string& name);
 
 /// The id of an element's field: "inputs[2].name".
 std::string element(const char* list, std::size_t index, const char* field);
+
+/// Section `cost` {multiply_adds_per_frame, operations_per_frame, …}.
+ReportSection cost_section(const Cost& cost);
 
 /// Matrix [output][input] of values of a model.
 template <class Value>

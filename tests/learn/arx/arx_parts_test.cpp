@@ -66,7 +66,7 @@ TEST(ArxParts, SharesThroughBytesMakeTheModelOfAllRows) {
   EXPECT_EQ(fit->report.find("fit_percent.inf"), nullptr);  // no rows to simulate
 }
 
-TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRange) {
+TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRangeAndSimulatesIt) {
   const Recording recording = record_system(made_system(), 3000, 1);
   const auto path = std::filesystem::path(testing::TempDir()) / ("parts." + std::to_string(getpid()) + ".csv");
   ASSERT_TRUE(write_csv(path, recording));
@@ -82,6 +82,30 @@ TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRange) {
   ASSERT_TRUE(fit) << fit.error().message;
   const Fit want = in_memory(slice(recording, 100, 2100));
   expect_same(fit->model, want.model);
+  const auto free_run = [](const Fit& of) {
+    return std::get<double>(std::get<ReportList>(of.report.find("fit_percent.inf")->value)[0]);
+  };
+  EXPECT_NEAR(free_run(*fit), free_run(want), 1e-9);
+}
+
+// An output that its input does not move: one step ahead its past tells it, in free simulation nothing does.
+TEST(ArxParts, ATableThatSimulatesBadlyIsNotUsableAndWithoutItsRowsTheVerdictSaysSo) {
+  Recording recording = record_system(made_system(), 4000, 1);
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  auto& y = recording.channels[*find_channel(recording, "y1")].samples;
+  for (std::size_t t = 1; t < y.size(); ++t) y[t] = 0.98 * y[t - 1] + normal(generator);
+  const auto path = std::filesystem::path(testing::TempDir()) / ("bad." + std::to_string(getpid()) + ".csv");
+  ASSERT_TRUE(write_csv(path, recording));
+  ArxPart part = *ArxPart::create(recipe_of_made());
+  ASSERT_TRUE(part.add(path));
+  const auto fit = part.finish(recipe_of_made());
+  const auto sent = ArxPart::from_bytes(part.bytes())->finish(recipe_of_made());
+  std::filesystem::remove(path);
+  ASSERT_TRUE(fit && sent);
+  EXPECT_FALSE(fit->report.verdict->usable);
+  EXPECT_THAT(fit->report.verdict->reason, HasSubstr("free simulation from the input fits 'y1'"));
+  EXPECT_THAT(sent->report.verdict->reason, HasSubstr("free simulation was not judged"));
 }
 
 TEST(ArxParts, ABadRecordingLeavesNoTrace) {

@@ -11,7 +11,6 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "learn/outline/outline_verdict.hpp"
 #include "model/bspline.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
