@@ -125,4 +125,11 @@ Result<Report> validate(const Model& model, std::span<const Recording> recording
   return Error{recordings[1].source + ": is one recording too many, expected a single one for a model of this kind"};
 }
 
+Result<void> check_rate(const Model& model, const Recording& recording) {
+  constexpr double kSame = 1e-3;  // clocks and rounded periods differ by less
+  if (std::abs(recording.rate_hz - model.rate_hz) <= kSame * model.rate_hz) return {};
+  return Error{recording.source + ": has " + number_text(recording.rate_hz, 6) + " samples a second, the model " +
+               number_text(model.rate_hz, 6) + ": resample the recording, or learn the model at that rate"};
+}
+
 }  // namespace wisp

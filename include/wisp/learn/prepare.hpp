@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/model/model.hpp"
+#include "wisp/model/training.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -29,8 +29,5 @@ Result<Recording> prepare(const Recording& recording, const Preparation& prepara
 
 /// Prepares several recordings.
 Result<std::vector<Recording>> prepare_all(std::span<const Recording> recordings, const Preparation& preparation);
-
-/// Checks that a recording has the model's rate, within 0.1 %: at another rate the model is another system.
-Result<void> check_rate(const Model& model, const Recording& recording);
 
 }  // namespace wisp

@@ -110,4 +110,7 @@ struct ValidatedOutline {
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
                                           const ValidationOptions& options = {}, const Progress& progress = {});
 
+/// Checks that a recording has the model's rate, within 0.1 %: at another rate the model is another system.
+Result<void> check_rate(const Model& model, const Recording& recording);
+
 }  // namespace wisp
