@@ -49,8 +49,9 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
   return fit;
 }
 
-// Most films have sound, and in most nobody blows. Where the caller did not name inputs, silent inputs and inputs
-// unrelated to the motion are dropped: over a few seconds of held-out motion any input may seem to help by chance.
+// Most films have sound, and in most nobody blows. Where the caller did not name inputs, silent inputs, inputs unrelated
+// to the motion, and inputs from which held-out motion does not follow are dropped: in a draught a word may be heard as
+// wind, and over a few seconds of held-out motion any input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
@@ -58,9 +59,11 @@ Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const 
     return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
   }
   auto fit = fit_outline(recordings, recipe, progress);
-  if (!open || !fit || !driven_by_nothing(fit->summary)) return fit;
-  auto flicker =
-      fit_flicker(recordings, recipe, "what was heard as wind has nothing in common with the motion", progress);
+  if (!open || !fit) return fit;
+  const bool unrelated = driven_by_nothing(fit->summary);
+  if (!unrelated && !(followed_percent(fit->summary) < kMinFollowedPercent)) return fit;
+  const std::string why = unrelated ? "has nothing in common with the motion" : "does not predict the motion";
+  auto flicker = fit_flicker(recordings, recipe, "what was heard as wind " + why, progress);
   if (!flicker) return fit;
   flicker->summary.alignment = std::move(fit->summary.alignment);
   return flicker;

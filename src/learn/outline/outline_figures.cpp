@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/statistics.hpp"
@@ -132,6 +133,13 @@ Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::spa
     add_figures(errors.figures(k), shapes, out);
   }
   return out;
+}
+
+double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted) {
+  for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
+    if (steps[k] == wanted) return values[k];
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 double fit_percent(std::span<const double> measured, std::span<const double> predicted) {

@@ -74,6 +74,11 @@ struct OutlineFit {
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},
                                const Progress& progress = {});
 
+/// Fit of the tip simulated from the inputs alone, per cent, on held-out rows where there are some; NaN without inputs.
+/// Inputs that reach less than kMinFollowedPercent do not explain the motion.
+double followed_percent(const OutlineSummary& summary);
+constexpr double kMinFollowedPercent = 5;
+
 /// Whether the model may be used, judged by its free play, not by its one-step fit, which rewards stillness. Contains
 /// the first reason against it or a sentence in its favour.
 Usable outline_verdict(const OutlineSummary& summary, std::string* code = nullptr);

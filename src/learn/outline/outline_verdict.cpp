@@ -14,17 +14,10 @@ namespace {
 
 constexpr double kAbstains = std::numeric_limits<double>::quiet_NaN();
 
-double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted) {
-  const auto at = std::find(steps.begin(), steps.end(), wanted) - steps.begin();
-  return values[static_cast<std::size_t>(at)];
-}
-
-// Median fit over channels for a number of steps.
-double typical_fit(const OutlineFigures& figures, int steps) {
+// Median fit over channels for the number of steps of index `k`.
+double typical_fit(const OutlineFigures& figures, std::size_t k) {
   std::vector<double> fits;
-  for (const OutlineChannelFigures& channel : figures.channels) {
-    fits.push_back(at_steps(figures.steps, channel.fit_percent, steps));
-  }
+  for (const OutlineChannelFigures& channel : figures.channels) fits.push_back(channel.fit_percent[k]);
   return median(std::move(fits));
 }
 
@@ -59,9 +52,6 @@ std::optional<bool> common_underside(std::span<const Recording> recordings) {
 std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
   const OutlineTrial& trial = summary.trial;
   const auto rows = static_cast<double>(summary.rows_learned + summary.rows_held_out);
-  const OutlineFigures& judged = judged_of(summary);
-  const bool driven = !summary.inputs.empty();
-  const double followed = driven ? at_steps(judged.steps, judged.tip_fit_percent, kFreeRun) : kAbstains;
   const double spread = median(trial.sd_ratio);
   return {
       {rows, Bound::kAtLeast, 50,
@@ -98,7 +88,7 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        "over two seconds it plays no more like the recording than the recording's frames in random order do ({figure} "
        "of the way from the recording's halves to those, at most {limit}): record longer",
        2, "unlike"},
-      {followed, Bound::kAtLeast, 5,
+      {followed_percent(summary), Bound::kAtLeast, kMinFollowedPercent,
        "simulated from its inputs alone the tip is followed hardly better than by its mean (fit {figure} %, at least "
        "{limit}): learn without inputs, or check their timing",
        1, "deaf"},
@@ -106,6 +96,11 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
 }
 
 }  // namespace
+
+double followed_percent(const OutlineSummary& summary) {
+  if (summary.inputs.empty()) return kAbstains;
+  return at_steps(judged_of(summary).steps, judged_of(summary).tip_fit_percent, kFreeRun);
+}
 
 Usable outline_verdict(const OutlineSummary& summary, std::string* code) {
   if (const auto why = first_missed(criteria_of(summary), code)) return {false, *why};
@@ -115,10 +110,9 @@ Usable outline_verdict(const OutlineSummary& summary, std::string* code) {
                        " % of its outlines are shapes that the recording has not, and " +
                        number_text(100 * trial.crossed, 2) + " % cross themselves";
   if (summary.inputs.empty()) return {true, reason};
-  const OutlineFigures& judged = judged_of(summary);
   return {true, reason + "; from the wind alone it follows the tip of " +
                     (summary.held_out ? "held-out data" : "what it learned") + " with a fit of " +
-                    number_text(at_steps(judged.steps, judged.tip_fit_percent, kFreeRun), 3) + " %"};
+                    number_text(followed_percent(summary), 3) + " %"};
 }
 
 Training outline_training(std::span<const Recording> recordings, const OutlineRecipe& recipe,
@@ -147,7 +141,7 @@ Training outline_training(std::span<const Recording> recordings, const OutlineRe
   out.underside = common_underside(recordings);
   for (std::size_t k = 0; k < judged.steps.size(); ++k) {
     const std::string steps = judged.steps[k] == kFreeRun ? "inf" : std::to_string(judged.steps[k]);
-    out.figures.push_back({"fit." + steps, typical_fit(judged, judged.steps[k])});
+    out.figures.push_back({"fit." + steps, typical_fit(judged, k)});
     out.figures.push_back({"tip_fit." + steps, judged.tip_fit_percent[k]});
     out.figures.push_back({"overlap." + steps, judged.overlap[k]});
   }

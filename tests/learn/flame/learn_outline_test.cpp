@@ -122,6 +122,18 @@ TEST(LearnOutline, AnInputThatMovesNothingIsLeftOutWithAWarning) {
   EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("nothing in common with the motion")));
 }
 
+// Wind moves it in the first part of the recording only: in the held-out last part it leans without wind, as in a
+// draught that no microphone hears.
+TEST(LearnOutline, AnInputThatDoesNotPredictHeldOutMotionIsLeftOutWithAWarning) {
+  Recording recording = windy();
+  auto& wind = recording.channels[*find_channel(recording, "wind")].samples;
+  std::reverse(wind.begin() + static_cast<std::ptrdiff_t>(wind.size() * 6 / 10), wind.end());
+  const Fit fit = learned({recording}, {});
+  EXPECT_TRUE(fit.model.inputs.empty());
+  EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;
+  EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("does not predict the motion: learned without it")));
+}
+
 TEST(LearnOutline, SoundInWhichNobodyBlowsIsLeftOutWithAWarning) {
   Recording recording = with_wind_elsewhere();
   for (double& u : recording.channels[*find_channel(recording, "wind")].samples) u = 0;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,24 +21,13 @@ std::string horizon(int steps) {
   return steps == 1 ? "next frame" : std::to_string(steps) + " frames ahead";
 }
 
-// Id of a number of steps: "1", "5", … and "inf".
-std::string step_id(int steps) { return steps == kFreeRun ? "inf" : std::to_string(steps); }
-
 // Adds an entry ID.STEPS per number of steps. An empty `label`: for programs only; else the horizon is added in words.
 void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
                   const std::string& label, const std::string& unit, ReportSection& section) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
     section.entries.push_back(
-        {id + "." + step_id(steps[k]), values[k], label.empty() ? label : label + ", " + horizon(steps[k]), unit});
+        {id + "." + arx::steps_id(steps[k]), values[k], label.empty() ? label : label + ", " + horizon(steps[k]), unit});
   }
-}
-
-// Value for a number of steps; NaN where that was not judged.
-double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted) {
-  for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
-    if (steps[k] == wanted) return values[k];
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 // Adds `alignment` [{recording, input, motion, offset_seconds, …}], and a sentence for each for people.
