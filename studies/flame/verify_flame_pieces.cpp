@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "learn/flame/learn_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "studies/flame/flame_corpus.hpp"
@@ -38,7 +39,7 @@ std::vector<Piece> flicker_pieces() {
 std::vector<FlamePlayer> learned(const std::vector<Recording>& clips, const std::vector<Piece>& pieces) {
   std::vector<FlamePlayer> out;
   for (const Piece& piece : pieces) {
-    out.push_back(player_of(piece.name, value_or_abort(fit_outline(clips, piece.options)).model));
+    out.push_back(player_of(piece.name, value_or_abort(learn_outline(clips, piece.options)).model));
   }
   return out;
 }
@@ -77,7 +78,7 @@ void judge_flame_pieces(const std::filesystem::path& folder, const PieceQuestion
   print_longest_copy(corpus.gusts());
   if (question.gusts_alone) return;
   // Models have seen what they are to play: calm, or puffs.
-  judge(corpus.gusts_and_calm(), {corpus.unseen_calm()});
+  judge(corpus.calm(), {corpus.unseen_calm()});
   judge(corpus.gusts_and_puffs(), {corpus.unseen_between_blow_outs(), corpus.unseen_blow_outs()});
 }
 

@@ -19,6 +19,9 @@ namespace {
 constexpr double kRate = 44100;
 constexpr double kFrames = 60;
 constexpr double kSeconds = 40;
+// Live, what sounds from the first moment is the room until it pauses, so that nobody has to be still: the rig's first
+// gust.
+constexpr std::size_t kFirstFrames = 300;
 
 struct Clip {
   std::vector<float> sound;
@@ -44,22 +47,26 @@ Clip clip(std::uint64_t seed, double other_sounds) {
   return made;
 }
 
-double correlation(const std::vector<WindFrame>& frames, const std::vector<double>& truth) {
+double correlation(const std::vector<WindFrame>& frames, const std::vector<double>& truth,
+                   float WindFrame::*measure = &WindFrame::wind, std::size_t first = 0) {
   double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   const std::size_t n = std::min(frames.size(), truth.size());
-  for (std::size_t k = 0; k < n; ++k) {
-    const double a = static_cast<double>(frames[k].wind);
+  for (std::size_t k = first; k < n; ++k) {
+    const double a = static_cast<double>(frames[k].*measure);
     const double b = std::abs(truth[k]);
     sa += a, sb += b, saa += a * a, sbb += b * b, sab += a * b;
   }
-  const double count = static_cast<double>(n);
+  const double count = static_cast<double>(n - first);
   return (sab - sa * sb / count) / std::sqrt((saa - sa * sa / count) * (sbb - sb * sb / count));
 }
 
 void clips(const char* what, std::uint64_t first_seed, double other_sounds, double mean_bound, double worst_bound,
            double live_bound, Bounds& bounds) {
-  std::printf("\n== %s: correlation with the true wind\n  seed  recorded  live\n", what);
-  double sum = 0, worst = 1, live_sum = 0;
+  std::printf(
+      "\n== %s: correlation with the true wind\n  seed  recorded  live, after 5 s  its speed alone (the most that live "
+      "can reach)\n",
+      what);
+  double sum = 0, worst = 1, live_sum = 0, most_sum = 0;
   for (std::uint64_t seed = first_seed; seed < first_seed + 6; ++seed) {
     const Clip made = clip(seed, other_sounds);
     const auto track = wind_from_sound(made.sound, {kRate, 1}, {.frame_rate_hz = kFrames});
@@ -68,21 +75,28 @@ void clips(const char* what, std::uint64_t first_seed, double other_sounds, doub
     std::vector<WindFrame> live(made.truth.size() + 1);
     live.resize(level->feed(std::span<const float>(made.sound), live).frames);
     const double recorded = correlation(track->frames, made.truth);
-    const double played = correlation(live, made.truth);
-    std::printf("  %4d  %.3f     %.3f\n", static_cast<int>(seed), recorded, played);
+    const double played = correlation(live, made.truth, &WindFrame::wind, kFirstFrames);
+    const double most = correlation(live, made.truth, &WindFrame::speed, kFirstFrames);
+    std::printf("  %4d  %.3f     %.3f            %.3f\n", static_cast<int>(seed), recorded, played, most);
     sum += recorded / 6;
     live_sum += played / 6;
+    most_sum += most / 6;
     worst = std::min(worst, recorded);
   }
   bounds.at_least(std::string(what) + ", recorded: mean", sum, mean_bound);
   bounds.at_least(std::string(what) + ", recorded: worst", worst, worst_bound);
   bounds.at_least(std::string(what) + ", live: mean", live_sum, live_bound);
+  std::printf("          of at most %.3f\n", most_sum);
 }
 
+// Strong wind is held at 1 until it has lasted, so that a knock or a drum puts no flame out: that costs 0.02, and what
+// is not recognised as blowing as much.
+constexpr double kLiveBound = 0.90;
+
 void rig(Bounds& bounds) {
-  clips("clips as the rig makes them", 1, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, 0.94, bounds);
-  clips("fresh clips", 101, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, 0.94, bounds);
-  clips("clips with another sound every three seconds", 201, 0.33, 0.97, 0.95, 0.75, bounds);
+  clips("clips as the rig makes them", 1, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, kLiveBound, bounds);
+  clips("fresh clips", 101, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, kLiveBound, bounds);
+  clips("clips with another sound every three seconds", 201, 0.33, 0.97, 0.95, 0.70, bounds);
 }
 
 }  // namespace

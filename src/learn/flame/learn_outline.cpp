@@ -49,9 +49,9 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
   return fit;
 }
 
-// Most films have sound, and in most nobody blows. Where the caller did not name inputs, silent inputs, inputs unrelated
-// to the motion, and inputs from which held-out motion does not follow are dropped: in a draught a word may be heard as
-// wind, and over a few seconds of held-out motion any input may seem to help by chance.
+// Most films have sound, and in most nobody blows. Where the caller did not name inputs, silent inputs, inputs
+// unrelated to the motion, and inputs from which held-out motion does not follow are dropped: in a draught a word may
+// be heard as wind, and over a few seconds of held-out motion any input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();

@@ -25,8 +25,8 @@ std::string horizon(int steps) {
 void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
                   const std::string& label, const std::string& unit, ReportSection& section) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
-    section.entries.push_back(
-        {id + "." + arx::steps_id(steps[k]), values[k], label.empty() ? label : label + ", " + horizon(steps[k]), unit});
+    section.entries.push_back({id + "." + arx::steps_id(steps[k]), values[k],
+                               label.empty() ? label : label + ", " + horizon(steps[k]), unit});
   }
 }
 
