@@ -143,6 +143,20 @@ TEST_F(BlowOutProgram, PicturesShowItBurningSmokingAndDark) {
   EXPECT_EQ(dark, picture(1260));  // what is left does not
 }
 
+TEST_F(BlowOutProgram, FramesOfATableAreItsRows) {
+  write_recording("rec.csv", {.rows = 1200, .every = 0});
+  const auto learned = [&](const std::string& frames) {
+    return wisp("learn flame " + at("rec.csv") + " --frames " + frames + " -o " + at("m.wisp") + " --json");
+  };
+  const Said part = learned("301:900");
+  ASSERT_EQ(part.status, 0) << part.err;
+  const auto samples = part.json()["samples"];
+  EXPECT_EQ(samples["learned"].get<int>() + samples["held_out"].get<int>(), 600);
+  const Said beyond = learned("301:1201");
+  EXPECT_EQ(beyond.status, 1);
+  EXPECT_THAT(beyond.err, testing::HasSubstr("--frames 301:1201 reaches beyond its 1200 rows"));
+}
+
 TEST_F(BlowOutProgram, WhatCannotBeARuleIsWrongUsage) {
   write_recording("rec.csv", {.rows = 1200, .every = 0});
   for (const std::string value : {"hard", "1.5", "1.5,", ",2", "1.5,0.2,3", "-1,0.2", "1,0", "nan,1"}) {

@@ -277,8 +277,7 @@ Command validate_command() {
       {{"MODEL", "the model, a .wisp file"},
        {"REC_OR_CLIP",
         "a recording (.csv), or a clip; of a plain ARX model several recordings; of a segment chain a recording and "
-        "its "
-        "twin that differs only in its wind, where REC.calm.csv beside REC.csv is found by itself",
+        "its twin that differs only in its wind, where REC.calm.csv beside REC.csv is found by itself",
         true}},
       std::move(flags),
       {{"wisp validate flame.wisp other.mp4 --overlay overlay.mp4 --film-strip strip.png",

@@ -50,6 +50,21 @@ std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
+// Reads a MATLAB file. A rate given only by `otherwise` is a default, which yields to the file's own rate.
+Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOptions& options, const Arguments& arguments,
+                              const CsvOptions& otherwise) {
+  if (!options.columns.empty()) {
+    return Error{"--columns names columns of a table; of " + path.string() +
+                 " name variables with --inputs and --outputs, such as u or u(:,2)"};
+  }
+  const double rate_hz = options.rate_hz > 0 ? options.rate_hz : options.usual_rate_hz;
+  const auto most = static_cast<std::size_t>(arguments.has("unpacked") ? arguments.number("unpacked") * 1e9 : 0);
+  const MatOptions named{.rate_hz = rate_hz, .max_bytes = most, .inputs = options.inputs, .outputs = options.outputs};
+  if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
+  auto stated = read_mat(path, {.max_bytes = most, .inputs = options.inputs, .outputs = options.outputs});
+  return stated ? std::move(stated) : read_mat(path, named);
+}
+
 }  // namespace
 
 bool is_table(const std::filesystem::path& path) {
@@ -81,25 +96,6 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   }
   return options;
 }
-
-namespace {
-
-// Reads a MATLAB file. A rate given only by `otherwise` is a default, which yields to the file's own rate.
-Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOptions& options, const Arguments& arguments,
-                              const CsvOptions& otherwise) {
-  if (!options.columns.empty()) {
-    return Error{"--columns names columns of a table; of " + path.string() +
-                 " name variables with --inputs and --outputs, such as u or u(:,2)"};
-  }
-  const double rate_hz = options.rate_hz > 0 ? options.rate_hz : options.usual_rate_hz;
-  const auto most = static_cast<std::size_t>(arguments.has("unpacked") ? arguments.number("unpacked") * 1e9 : 0);
-  const MatOptions named{.rate_hz = rate_hz, .max_bytes = most, .inputs = options.inputs, .outputs = options.outputs};
-  if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
-  auto stated = read_mat(path, {.max_bytes = most, .inputs = options.inputs, .outputs = options.outputs});
-  return stated ? std::move(stated) : read_mat(path, named);
-}
-
-}  // namespace
 
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise) {
