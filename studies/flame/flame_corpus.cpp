@@ -77,6 +77,10 @@ UnseenFlames FlameCorpus::unseen(const Takes& takes) { return {takes.name, get(t
 
 std::vector<Recording> FlameCorpus::gusts() { return get({"learn", {11, 12, 13}, {.seconds = 40}}, false); }
 
+std::vector<Recording> FlameCorpus::gusts_and_calm() {
+  return joined(gusts(), get({"learn-calm", {17}, {.seconds = 40, .wind = FlameWind::kCalm}}, false));
+}
+
 std::vector<Recording> FlameCorpus::calm() {
   return get({"learn-calm", {17, 18, 19, 20}, {.seconds = 40, .wind = FlameWind::kCalm}}, false);
 }

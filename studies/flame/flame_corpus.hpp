@@ -35,6 +35,8 @@ class FlameCorpus {
 
   /// To learn from: three clips of 40 s in gusts.
   std::vector<Recording> gusts();
+  /// The same, and one of 40 s in calm.
+  std::vector<Recording> gusts_and_calm();
   /// Four of 40 s in the draughts of a closed room.
   std::vector<Recording> calm();
   /// Gusts, and three clips of 40 s in puffs without what is in decay, extinguished or in re-ignition.

@@ -78,7 +78,10 @@ void judge_flame_pieces(const std::filesystem::path& folder, const PieceQuestion
   print_longest_copy(corpus.gusts());
   if (question.gusts_alone) return;
   // Models have seen what they are to play: calm, or puffs.
-  judge(corpus.calm(), {corpus.unseen_calm()});
+  judge(corpus.gusts_and_calm(), {corpus.unseen_calm()});
+  UnseenFlames calm = corpus.unseen_calm();
+  calm.wind = "calm, learned from calm alone";
+  judge(corpus.calm(), {calm});
   judge(corpus.gusts_and_puffs(), {corpus.unseen_between_blow_outs(), corpus.unseen_blow_outs()});
 }
 

@@ -20,7 +20,7 @@ constexpr double kRate = 44100;
 constexpr double kFrames = 60;
 constexpr double kSeconds = 40;
 // Live, what sounds from the first moment is the room until it pauses, so that nobody has to be still: the rig's first
-// gust.
+// gust. The wind after it is printed beside the bounded one.
 constexpr std::size_t kFirstFrames = 300;
 
 struct Clip {
@@ -63,10 +63,10 @@ double correlation(const std::vector<WindFrame>& frames, const std::vector<doubl
 void clips(const char* what, std::uint64_t first_seed, double other_sounds, double mean_bound, double worst_bound,
            double live_bound, Bounds& bounds) {
   std::printf(
-      "\n== %s: correlation with the true wind\n  seed  recorded  live, after 5 s  its speed alone (the most that live "
-      "can reach)\n",
+      "\n== %s: correlation with the true wind\n  seed  recorded  live   after 5 s  speed of all sound after "
+      "5 s\n",
       what);
-  double sum = 0, worst = 1, live_sum = 0, most_sum = 0;
+  double sum = 0, worst = 1, live_sum = 0, later_sum = 0, most_sum = 0;
   for (std::uint64_t seed = first_seed; seed < first_seed + 6; ++seed) {
     const Clip made = clip(seed, other_sounds);
     const auto track = wind_from_sound(made.sound, {kRate, 1}, {.frame_rate_hz = kFrames});
@@ -75,28 +75,26 @@ void clips(const char* what, std::uint64_t first_seed, double other_sounds, doub
     std::vector<WindFrame> live(made.truth.size() + 1);
     live.resize(level->feed(std::span<const float>(made.sound), live).frames);
     const double recorded = correlation(track->frames, made.truth);
-    const double played = correlation(live, made.truth, &WindFrame::wind, kFirstFrames);
+    const double played = correlation(live, made.truth);
+    const double later = correlation(live, made.truth, &WindFrame::wind, kFirstFrames);
     const double most = correlation(live, made.truth, &WindFrame::speed, kFirstFrames);
-    std::printf("  %4d  %.3f     %.3f            %.3f\n", static_cast<int>(seed), recorded, played, most);
+    std::printf("  %4d  %.3f     %.3f  %.3f      %.3f\n", static_cast<int>(seed), recorded, played, later, most);
     sum += recorded / 6;
     live_sum += played / 6;
+    later_sum += later / 6;
     most_sum += most / 6;
     worst = std::min(worst, recorded);
   }
   bounds.at_least(std::string(what) + ", recorded: mean", sum, mean_bound);
   bounds.at_least(std::string(what) + ", recorded: worst", worst, worst_bound);
   bounds.at_least(std::string(what) + ", live: mean", live_sum, live_bound);
-  std::printf("          of at most %.3f\n", most_sum);
+  std::printf("          after 5 s %.3f, speed of all sound %.3f\n", later_sum, most_sum);
 }
 
-// Strong wind is held at 1 until it has lasted, so that a knock or a drum puts no flame out: that costs 0.02, and what
-// is not recognised as blowing as much.
-constexpr double kLiveBound = 0.90;
-
 void rig(Bounds& bounds) {
-  clips("clips as the rig makes them", 1, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, kLiveBound, bounds);
-  clips("fresh clips", 101, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, kLiveBound, bounds);
-  clips("clips with another sound every three seconds", 201, 0.33, 0.97, 0.95, 0.70, bounds);
+  clips("clips as the rig makes them", 1, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, 0.94, bounds);
+  clips("fresh clips", 101, VirtualMicrophoneOptions{}.other_sounds, 0.985, 0.975, 0.94, bounds);
+  clips("clips with another sound every three seconds", 201, 0.33, 0.97, 0.95, 0.75, bounds);
 }
 
 }  // namespace

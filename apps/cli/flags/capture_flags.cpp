@@ -43,7 +43,7 @@ std::vector<Flag> capture_flags(const std::string& flame) {
       {"flame", Kind::kInteger, "K", flame, "which of several flames, 1 the largest; 0: what moves, flame or not"},
       {"dark", Kind::kSwitch, "", "", "the thing is dark on a light ground"},
       {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
-      {"frames", Kind::kSamples, "A:B", "", "only these frames of a film, or rows of a table; 1-based and inclusive"},
+      {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
       ranged({"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images; overrides a video's own"}, 0.01,
              1e5),
       {"wind-measure",
