@@ -36,6 +36,12 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
+/// Returns the values that are not NaN.
+inline std::vector<double> present(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  return values;
+}
+
 /// Returns the arithmetic mean; 0 for none.
 inline double mean(std::span<const double> values) {
   if (values.empty()) return 0;

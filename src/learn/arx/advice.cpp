@@ -56,11 +56,6 @@ struct Subject {
   }
 };
 
-Samples present(Samples all) {
-  std::erase_if(all, [](double x) { return std::isnan(x); });
-  return all;
-}
-
 // Returns the unit of the last decimal that the samples are written with, 1 to 1e-9; 0 where more decimals are used.
 double last_digit(const Samples& all) {
   double unit = 1;

@@ -71,11 +71,9 @@ class Shapes {
 // Sizes during visible decay, relative to the size before: rows from `lit` on.
 Event seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
   const std::size_t rows = rows_of(kDyingSeen, rate_hz), first = std::max(lit + rows, gone) - rows;
-  Sizes before;
-  for (std::size_t row = std::max(lit + rows, first) - rows; row < first; ++row) {
-    if (!std::isnan(sizes[row])) before.push_back(sizes[row]);
-  }
-  const double whole = before.empty() ? 1 : median(std::move(before));
+  const auto at = [&](std::size_t row) { return sizes.begin() + static_cast<std::ptrdiff_t>(row); };
+  const Sizes before = present({at(std::max(lit + rows, first) - rows), at(first)});
+  const double whole = before.empty() ? 1 : median(before);
   std::size_t begin = gone;
   while (begin > first && sizes[begin - 1] < kShrinks * whole) --begin;
   Event out;
@@ -134,9 +132,9 @@ Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<co
   std::vector<double> sizes, burning;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     sizes.push_back(size_of(recording, *layout, row));
-    const double size = size_of(undisturbed, *layout, row);
-    if (!std::isnan(size)) burning.push_back(size);
+    burning.push_back(size_of(undisturbed, *layout, row));
   }
+  burning = present(std::move(burning));
   const double usual = burning.empty() ? kMissing : median(std::move(burning));
   for (double& size : sizes) size /= usual;
   return sizes;

@@ -78,19 +78,6 @@ ReportSection input_series(const Channel& input, const std::vector<double>& seco
   return {input.name, {}, {}, {{"input." + input.name, "", "seconds", unit, seconds, input.samples}}};
 }
 
-// Runs of consecutive samples that are not missing.
-std::vector<std::vector<double>> whole_stretches(const std::vector<double>& values) {
-  std::vector<std::vector<double>> stretches(1);
-  for (double value : values) {
-    if (!std::isnan(value)) {
-      stretches.back().push_back(value);
-    } else if (!stretches.back().empty()) {
-      stretches.emplace_back();
-    }
-  }
-  return stretches;
-}
-
 ReportSection flicker_series(const ValidatedOutline& out, double rate_hz, std::size_t welch_samples,
                              std::size_t coordinate) {
   ReportSection section{coordinate == 0 ? "Flicker of the tip, sideways" : "Flicker of the tip, up and down"};

@@ -130,21 +130,13 @@ Result<std::size_t> channel_of(const Recording& recording, const std::string& na
 void add_stretches(const Recording& recording, std::size_t channel, std::size_t every, Traces& traces) {
   const auto& samples = recording.channels[channel].samples;
   for (const Episode& episode : episodes(recording)) {
-    std::vector<double> trace;
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t row = episode.begin; row <= episode.end; ++row) {
-      if (row == episode.end || std::isnan(samples[row])) {
-        if (!trace.empty()) traces.push_back(std::exchange(trace, {}));
-        sum = 0;
-        count = 0;
-        continue;
+    const auto own = std::span(samples).subspan(episode.begin, episode.end - episode.begin);
+    for (const std::vector<double>& stretch : whole_stretches(own)) {
+      std::vector<double> trace;
+      for (std::size_t end = every; end <= stretch.size(); end += every) {
+        trace.push_back(mean(std::span(stretch).subspan(end - every, every)));
       }
-      sum += samples[row];
-      if (++count < every) continue;
-      trace.push_back(sum / static_cast<double>(every));
-      sum = 0;
-      count = 0;
+      if (!trace.empty()) traces.push_back(std::move(trace));
     }
   }
 }

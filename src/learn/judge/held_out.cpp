@@ -23,7 +23,7 @@ struct Series {
 // Standard deviation; 0 where the variation is rounding. Samples are normalised first, so squares never underflow.
 double deviation_of(std::vector<double> measured) {
   constexpr double kStill = 1e-9;  // share of the mean
-  std::erase_if(measured, [](double y) { return std::isnan(y); });
+  measured = present(std::move(measured));
   const double level = mean(measured);
   double most = 0;
   for (double y : measured) most = std::max(most, std::abs(y - level));

@@ -56,6 +56,17 @@ std::vector<double> without_mean(std::span<const double> samples) {
 
 }  // namespace
 
+std::vector<std::vector<double>> whole_stretches(std::span<const double> values) {
+  std::vector<std::vector<double>> out;
+  bool goes_on = false;
+  for (const double value : values) {
+    if (!std::isnan(value) && !goes_on) out.emplace_back();
+    goes_on = !std::isnan(value);
+    if (goes_on) out.back().push_back(value);
+  }
+  return out;
+}
+
 Spectrum welch(Samples stretches, double rate_hz, std::size_t length) {
   assert(length >= 2 && length % 2 == 0 && rate_hz > 0);
   const std::vector<double> window = hann(length);

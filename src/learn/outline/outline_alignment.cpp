@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_shape.hpp"
 
@@ -34,15 +35,9 @@ std::string milliseconds(double seconds) {
 
 /// The series minus its mean; missing samples stay missing.
 Series centred(std::span<const double> series) {
-  double sum = 0;
-  double count = 0;
-  for (const double x : series) {
-    if (std::isnan(x)) continue;
-    sum += x;
-    count += 1;
-  }
   Series out(series.begin(), series.end());
-  for (double& x : out) x -= sum / count;
+  const double middle = mean(present(out));
+  for (double& x : out) x -= middle;
   return out;
 }
 
@@ -202,23 +197,15 @@ void judge(Alignment& found, double max_seconds) {
 
 constexpr double kMinSearch = 0.05;  // seconds on either side, the minimum of align_offset()
 
-// Search range: at most a quarter of the recording.
-AlignmentOptions options_for(const Recording& recording, const std::vector<double>& input,
-                             const std::vector<double>& motion) {
-  double rows = 0;
-  for (std::size_t t = 0; t < input.size(); ++t) rows += std::isnan(input[t]) || std::isnan(motion[t]) ? 0 : 1;
-  AlignmentOptions options{.rate_hz = recording.rate_hz};
-  options.max_seconds = std::clamp(rows / recording.rate_hz / 5, kMinSearch, options.max_seconds);
-  return options;
-}
-
+// Searches at most a fifth of the recording.
 Alignment found_or_reason(const Recording& recording, const std::vector<double>& input,
                           const std::vector<double>& motion) {
-  auto found = align_offset(input, motion, options_for(recording, input, motion));
-  if (found) return *std::move(found);
-  Alignment none;
-  none.reason = found.error().message;
-  return none;
+  double rows = 0;
+  for (std::size_t t = 0; t < input.size(); ++t) rows += std::isnan(input[t] + motion[t]) ? 0 : 1;
+  AlignmentOptions options{.rate_hz = recording.rate_hz};
+  options.max_seconds = std::clamp(rows / recording.rate_hz / 5, kMinSearch, options.max_seconds);
+  auto found = align_offset(input, motion, options);
+  return found ? *std::move(found) : Alignment{.reason = found.error().message};
 }
 
 // Ratio of the correlation to its chance level.

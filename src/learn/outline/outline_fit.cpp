@@ -15,19 +15,13 @@ namespace {
 
 constexpr std::size_t kWindows = 120;       // per side: an accuracy of 0.01 for 10 ms of computation
 constexpr double kPlayed = 30;              // minimum duration of play, seconds
+constexpr double kJudged = 10;              // minimum duration of a recording whose spread is judged, seconds
 constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlines used for comparison
 constexpr std::size_t kMaxPlayed = 500;
 constexpr std::size_t kPlaces = 12;  // points per outline
 
 const std::vector<double>& channel_samples(const Recording& recording, const std::string& name) {
   return recording.channels[*find_channel(recording, name)].samples;
-}
-
-// Samples that are not missing.
-std::vector<double> seen(const std::vector<double>& all) {
-  std::vector<double> out;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(out), [](double value) { return !std::isnan(value); });
-  return out;
 }
 
 double unsteadiness(const PreparedOutlines& prepared) {
@@ -40,31 +34,25 @@ double unsteadiness(const PreparedOutlines& prepared) {
         if (!std::isnan(all[k] - all[k - 1])) steps.push_back((all[k] - all[k - 1]) * (all[k] - all[k - 1]));
       }
       neighbours += mean(steps);
-      any += 2 * std::pow(deviation(seen(all)), 2);
+      any += 2 * std::pow(deviation(present(all)), 2);
     }
   }
   return any > 0 ? neighbours / any : 0;
 }
 
-// Index of the recording with most motion; a calm recording would not show the effect of the inputs.
-std::size_t liveliest(const PreparedOutlines& prepared) {
-  std::size_t best = 0;
-  double most = -1;
-  for (std::size_t r = 0; r < prepared.recordings.size(); ++r) {
-    double sum = 0;
-    for (const std::string& name : prepared.channels.outputs)
-      sum += deviation(seen(channel_samples(prepared.recordings[r], name)));
-    if (sum > most) best = r, most = sum;
-  }
-  return best;
+// Sum of the outputs' standard deviations. A calm recording would not show the effect of the inputs.
+double motion_of(const PreparedOutlines& prepared, const Recording& recording) {
+  double sum = 0;
+  for (const std::string& name : prepared.channels.outputs) sum += deviation(present(channel_samples(recording, name)));
+  return sum;
 }
 
 using Outline = std::vector<OutlinePoint>;
 
 // Outlines of at most `most` equally spaced rows, each as points at equal arc lengths; also counts self-intersecting
-// ones.
+// ones, and outlines up to the end of each recording.
 std::vector<Outline> outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared, std::size_t most,
-                              double* crossed = nullptr) {
+                              double* crossed = nullptr, std::vector<std::size_t>* ends = nullptr) {
   const OutlineCurve curve(prepared.layout.knots, 100);
   std::size_t rows = 0, crossings = 0;
   for (const Recording& recording : recordings) rows += recording.rows();
@@ -79,6 +67,7 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
       if (crossed) crossings += crosses_itself(polyline) ? 1 : 0;
       out.push_back(at_equal_lengths(polyline, kPlaces));
     }
+    if (ends) ends->push_back(out.size());
   }
   if (crossed && !out.empty()) *crossed = static_cast<double>(crossings) / static_cast<double>(out.size());
   return out;
@@ -97,15 +86,55 @@ double nearest(const Outline& one, std::span<const Outline> others) {
   return best;
 }
 
-double outside_share(std::span<const Outline> recorded, std::span<const Outline> played) {
-  const std::size_t cut = recorded.size() * 3 / 5;
-  if (cut == 0 || cut == recorded.size() || played.empty()) return 0;
+// `ends`: one past each recording's last outline. The end of each is held out, so that their order does not matter.
+double outside_share(std::span<const Outline> recorded, std::span<const std::size_t> ends,
+                     std::span<const Outline> played) {
+  std::vector<Outline> early, late;
+  std::size_t next = 0;
+  for (const std::size_t end : ends) {
+    const std::size_t cut = next + (end - next) * 3 / 5;
+    for (; next < end; ++next) (next < cut ? early : late).push_back(recorded[next]);
+  }
+  if (early.empty() || late.empty() || played.empty()) return 0;
   std::vector<double> own;
-  for (const Outline& one : recorded.subspan(cut)) own.push_back(nearest(one, recorded.first(cut)));
+  for (const Outline& one : late) own.push_back(nearest(one, early));
   const double bound = quantile(own, 0.99);
   double count = 0;
   for (const Outline& one : played) count += nearest(one, recorded) > bound ? 1 : 0;
   return count / static_cast<double>(played.size());
+}
+
+// Plays along the inputs of a recording for at least kPlayed seconds.
+Result<Synthesis> played_along(const Model& model, const PreparedOutlines& prepared, const Recording& original,
+                               std::uint64_t seed) {
+  const Recording driving = with_regressors(original, prepared.inputs, {});
+  const std::size_t rows = std::max(original.rows(), static_cast<std::size_t>(kPlayed * model.rate_hz));
+  return synthesize(model, {.rows = rows, .seed = seed, .input = &driving});
+}
+
+// Per output, played over recorded; 1 for constant ones.
+std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Recording& real, const Recording& play) {
+  std::vector<double> out;
+  for (const std::string& name : prepared.channels.outputs) {
+    const double recorded = deviation(present(channel_samples(real, name)));
+    out.push_back(recorded > 0 ? deviation(channel_samples(play, name)) / recorded : 1);
+  }
+  return out;
+}
+
+// Warns of recordings whose own spread is not played along them: gusts and draughts have too little in common.
+Result<void> judge_each(const Model& model, const PreparedOutlines& prepared, std::span<const Recording> original,
+                        const OutlineRecipe& recipe, OutlineSummary& summary) {
+  for (std::size_t k = 0; k < original.size() && original.size() > 1 && !prepared.inputs.empty(); ++k) {
+    if (static_cast<double>(original[k].rows()) < kJudged * model.rate_hz) continue;
+    const auto play = played_along(model, prepared, original[k], recipe.seed);
+    if (!play) return play.error();
+    const double spread = median(spread_ratios(prepared, prepared.recordings[k], play->recording));
+    if (spread >= 0.8 && spread <= 1.25) continue;  // good, as the report says
+    summary.warnings.push_back(original[k].source + ": along its input the model moves " + number_text(spread, 2) +
+                               " times as much as it; learn it apart from the others");
+  }
+  return {};
 }
 
 constexpr std::size_t kMinHeldOut = 16;  // minimum number of rows for figures, including a history of six
@@ -153,14 +182,12 @@ Result<std::vector<double>> residual_sd(const OutlineDynamics& dynamics, const P
     const auto predicted = predict_outline(dynamics, recording, prepared, {.steps = 1});
     if (!predicted) return predicted.error();
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      for (std::size_t row = 0; row < recording.rows(); ++row) {
-        const double error = recording.channels[i].samples[row] - (*predicted)[i][row];
-        if (!std::isnan(error)) errors[i].push_back(error);
-      }
+      for (std::size_t row = 0; row < recording.rows(); ++row)
+        errors[i].push_back(recording.channels[i].samples[row] - (*predicted)[i][row]);
     }
   }
   std::vector<double> out;
-  for (const auto& one : errors) out.push_back(deviation(one));
+  for (auto& one : errors) out.push_back(deviation(present(std::move(one))));
   return out;
 }
 
@@ -233,21 +260,19 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
                                  std::span<const Recording> original, std::uint64_t seed) {
   OutlineTrial out;
   out.unsteadiness = unsteadiness(prepared);
-  const std::size_t which = liveliest(prepared);
-  const Recording& real = prepared.recordings[which];
-  const Recording driving = with_regressors(original[which], prepared.inputs, {});
-  const std::size_t rows = std::max(real.rows(), static_cast<std::size_t>(kPlayed * model.rate_hz));
-  const auto play = synthesize(model, {.rows = rows, .seed = seed, .input = &driving});
+  const std::vector<Recording>& all = prepared.recordings;
+  std::size_t which = 0;
+  for (std::size_t k = 1; k < all.size(); ++k)
+    which = motion_of(prepared, all[k]) > motion_of(prepared, all[which]) ? k : which;
+  const auto play = played_along(model, prepared, original[which], seed);
   if (!play) return play.error();
   out.held_share = play->held_share;
-  for (const std::string& name : prepared.channels.outputs) {
-    const double recorded = deviation(seen(channel_samples(real, name)));
-    out.sd_ratio.push_back(recorded > 0 ? deviation(channel_samples(play->recording, name)) / recorded : 1);
-  }
-  out.outside = outside_share(outlines(prepared.recordings, prepared, kMaxRecorded, &out.crossed_recorded),
-                              outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
+  out.sd_ratio = spread_ratios(prepared, all[which], play->recording);
+  std::vector<std::size_t> ends;
+  const auto recorded = outlines(all, prepared, kMaxRecorded, &out.crossed_recorded, &ends);
+  out.outside = outside_share(recorded, ends, outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
   const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
-  if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
+  if (const auto found = fidelity({&all[which], 1}, {&play->recording, 1}, how)) {
     out.half_second = found->energy_distance;
     out.two_seconds = found->long_motion;
   }
@@ -280,6 +305,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   auto trial = try_outline(out.model, *prepared, *in_step, recipe.seed);
   if (!trial) return trial.error();
   summary.trial = *std::move(trial);
+  if (auto ok = judge_each(out.model, *prepared, *in_step, recipe, summary); !ok) return ok.error();
   summary.usable = outline_verdict(summary, &summary.code);
   out.model.training = outline_training(recordings, recipe, summary);
   return out;

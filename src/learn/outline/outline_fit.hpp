@@ -28,7 +28,7 @@ struct OutlineTrial {
   double crossed = 0;            ///< self-intersection rate of played outlines
   double crossed_recorded = 0;   ///< self-intersection rate of recorded outlines
   double outside = 0;            ///< share of played outlines farther from all recorded ones than the 99th percentile
-                                 ///< of that distance between the last 40 % of rows and the rows before
+                                 ///< of that distance between the last 40 % of every recording and the rest
   std::optional<Bounded> half_second;  ///< normalised energy distance of windows; empty if too short
   std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
 };

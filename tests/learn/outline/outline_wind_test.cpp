@@ -1,5 +1,6 @@
 // Outlines that answer to wind.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,6 +35,15 @@ double resting(const Model& model, double wind, const char* output) {
   const auto play = synthesize(model, {.noise = 0, .input = &blow});
   EXPECT_TRUE(play);
   return play->recording.channels[*find_channel(play->recording, output)].samples.back();
+}
+
+// A recording in which nobody blows and the flame flickers by `shock`.
+Recording calm_recording(double shock) {
+  Recording calm = made::outline_recording({.points = 6, .rows = 1200, .shock = shock, .wind = true, .lean = 0});
+  calm.source = "calm.csv";
+  auto& wind = calm.channels[*find_channel(calm, "wind")].samples;
+  std::fill(wind.begin(), wind.end(), 0.0);
+  return calm;
 }
 
 TEST(OutlineWind, TheTipIsFollowedFromTheWindAlone) {
@@ -121,16 +131,36 @@ TEST(OutlineWind, NoiseIsOnlyWhatTheWindLeaves) {
 
 // Whether it moves as much as the recording is asked where something moves, whichever recording comes first.
 TEST(OutlineWind, ACalmRecordingBeforeTheOthersIsNoReasonAgainstTheModel) {
-  Recording calm = made::outline_recording({.points = 6, .rows = 1200, .shock = 0.0002, .wind = true, .lean = 0});
-  auto& wind = calm.channels[*find_channel(calm, "wind")].samples;
-  std::fill(wind.begin(), wind.end(), 0.0);
-  const Recording windy = made::outline_recording(kWindy);
+  const Recording calm = calm_recording(0.0002), windy = made::outline_recording(kWindy);
   for (const auto& recordings : {std::vector{calm, windy}, std::vector{windy, calm}}) {
     const auto fit = fit_outline(recordings);
     ASSERT_TRUE(fit) << fit.error().message;
     EXPECT_TRUE(fit->summary.usable.verdict) << fit->summary.usable.reason;
     for (double ratio : fit->summary.trial.sd_ratio) EXPECT_NEAR(ratio, 1, 0.4);
   }
+}
+
+// Every recording's end is held out, so that the shapes of a calm one alone are no measure for those of a windy one.
+TEST(OutlineWind, TheOrderOfTheRecordingsDoesNotDecideWhichShapesAreForeign) {
+  const Recording calm = calm_recording(0.001), windy = made::outline_recording(kWindy);
+  for (const auto& recordings : {std::vector{calm, windy}, std::vector{windy, calm}}) {
+    const auto fit = fit_outline(recordings);
+    ASSERT_TRUE(fit) << fit.error().message;
+    EXPECT_LT(fit->summary.trial.outside, 0.1);
+  }
+}
+
+TEST(OutlineWind, ARecordingThatIsPlayedWithFarMoreMotionIsNamed) {
+  made::OutlineRecipe again = kWindy;
+  again.seed += 1;
+  const Recording windy = made::outline_recording(kWindy), other = made::outline_recording(again);
+  const auto warnings = [](const std::vector<Recording>& recordings) {
+    const auto fit = fit_outline(recordings);
+    return fit ? fit->summary.warnings : std::vector<std::string>{fit.error().message};
+  };
+  using testing::Contains, testing::HasSubstr, testing::Not;
+  EXPECT_THAT(warnings({windy, calm_recording(0.0002)}), Contains(HasSubstr("calm.csv: along its input the model")));
+  EXPECT_THAT(warnings({windy, other}), Not(Contains(HasSubstr("along its input"))));
 }
 
 TEST(OutlineWind, TheCalmHeightIsTheUnitHoweverHardItBlows) {

@@ -26,13 +26,8 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 std::vector<std::vector<double>> stretches_of(const std::vector<double>& samples, const Recording& recording) {
   std::vector<std::vector<double>> out;
   for (const Episode& episode : episodes(recording)) {
-    out.emplace_back();
-    for (std::size_t row = episode.begin; row < episode.end; ++row) {
-      if (std::isnan(samples[row]))
-        out.emplace_back();
-      else
-        out.back().push_back(samples[row]);
-    }
+    const auto own = std::span(samples).subspan(episode.begin, episode.end - episode.begin);
+    for (auto& one : whole_stretches(own)) out.push_back(std::move(one));
   }
   return out;
 }
