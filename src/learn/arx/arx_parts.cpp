@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "base/hash.hpp"
+#include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/part_state.hpp"
 #include "learn/fit/arx_errors.hpp"
@@ -75,11 +76,8 @@ Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
 
 // Mean of the samples that are not missing; NaN where all are.
 double mean_of(std::span<const double> samples) {
-  double sum = 0, count = 0;
-  for (double sample : samples) {
-    if (!std::isnan(sample)) sum += sample, ++count;
-  }
-  return count > 0 ? sum / count : kMissing;
+  const std::vector<double> there = present({samples.begin(), samples.end()});
+  return there.empty() ? kMissing : mean(there);
 }
 
 // Adds rows of a recording to the state; the rows of the episode before them serve as history.

@@ -84,13 +84,9 @@ Whiteness whiteness_of(const VectorXd& auto_covariance, double rows, double take
 }
 
 double variance_of(const Signals& signals, int channel) {
-  std::vector<double> present;
-  for (const auto& recording : signals.samples) {
-    for (double sample : recording[channel]) {
-      if (!std::isnan(sample)) present.push_back(sample);
-    }
-  }
-  return std::pow(deviation(present), 2);
+  std::vector<double> all;
+  for (const auto& one : signals.samples) all.insert(all.end(), one[channel].begin(), one[channel].end());
+  return std::pow(deviation(present(std::move(all))), 2);
 }
 
 // Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/statistics.hpp"
 #include "learn/fit/arx_fit.hpp"
 #include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
@@ -112,13 +113,9 @@ constexpr double kRidge = 1e-9;  // of columns scaled to one size: a column alwa
 std::vector<double> means_of(const Signals& signals) {
   std::vector<double> means;
   for (std::size_t c = 0; c < signals.names.size(); ++c) {
-    double sum = 0, count = 0;
-    for (const auto& recording : signals.samples) {
-      for (const double x : recording[c]) {
-        if (!std::isnan(x)) sum += x, ++count;
-      }
-    }
-    means.push_back(count > 0 ? sum / count : 0);
+    std::vector<double> all;
+    for (const auto& recording : signals.samples) all.insert(all.end(), recording[c].begin(), recording[c].end());
+    means.push_back(mean(present(std::move(all))));
   }
   return means;
 }

@@ -40,11 +40,15 @@ double unsteadiness(const PreparedOutlines& prepared) {
   return any > 0 ? neighbours / any : 0;
 }
 
-// Sum of the outputs' standard deviations. A calm recording would not show the effect of the inputs.
-double motion_of(const PreparedOutlines& prepared, const Recording& recording) {
-  double sum = 0;
-  for (const std::string& name : prepared.channels.outputs) sum += deviation(present(channel_samples(recording, name)));
-  return sum;
+// Index of the recording with most motion; a calm recording would not show the effect of the inputs.
+std::size_t liveliest(const PreparedOutlines& prepared) {
+  std::vector<double> motion;
+  for (const Recording& recording : prepared.recordings) {
+    double& sum = motion.emplace_back(0.0);
+    for (const std::string& name : prepared.channels.outputs)
+      sum += deviation(present(channel_samples(recording, name)));
+  }
+  return static_cast<std::size_t>(std::max_element(motion.begin(), motion.end()) - motion.begin());
 }
 
 using Outline = std::vector<OutlinePoint>;
@@ -122,17 +126,19 @@ std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Record
   return out;
 }
 
-// Warns of recordings whose own spread is not played along them: gusts and draughts have too little in common.
-Result<void> judge_each(const Model& model, const PreparedOutlines& prepared, std::span<const Recording> original,
-                        const OutlineRecipe& recipe, OutlineSummary& summary) {
-  for (std::size_t k = 0; k < original.size() && original.size() > 1 && !prepared.inputs.empty(); ++k) {
-    if (static_cast<double>(original[k].rows()) < kJudged * model.rate_hz) continue;
-    const auto play = played_along(model, prepared, original[k], recipe.seed);
+// The trial plays along the liveliest recording. Warns of others whose spread the model does not keep along their
+// inputs: gusts and draughts have too little in common for one equation.
+Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, std::span<const Recording> original,
+                          std::uint64_t seed, std::vector<std::string>& warnings) {
+  const std::size_t tried = liveliest(prepared);
+  for (std::size_t k = 0; k < original.size() && !prepared.inputs.empty(); ++k) {
+    if (k == tried || static_cast<double>(original[k].rows()) < kJudged * model.rate_hz) continue;
+    const auto play = played_along(model, prepared, original[k], seed);
     if (!play) return play.error();
     const double spread = median(spread_ratios(prepared, prepared.recordings[k], play->recording));
     if (spread >= 0.8 && spread <= 1.25) continue;  // good, as the report says
-    summary.warnings.push_back(original[k].source + ": along its input the model moves " + number_text(spread, 2) +
-                               " times as much as it; learn it apart from the others");
+    warnings.push_back(original[k].source + ": along its input the model moves " + number_text(spread, 2) +
+                       " times as much as this recording does; learn it apart from the others");
   }
   return {};
 }
@@ -260,19 +266,17 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
                                  std::span<const Recording> original, std::uint64_t seed) {
   OutlineTrial out;
   out.unsteadiness = unsteadiness(prepared);
-  const std::vector<Recording>& all = prepared.recordings;
-  std::size_t which = 0;
-  for (std::size_t k = 1; k < all.size(); ++k)
-    which = motion_of(prepared, all[k]) > motion_of(prepared, all[which]) ? k : which;
+  const std::size_t which = liveliest(prepared);
+  const Recording& real = prepared.recordings[which];
   const auto play = played_along(model, prepared, original[which], seed);
   if (!play) return play.error();
   out.held_share = play->held_share;
-  out.sd_ratio = spread_ratios(prepared, all[which], play->recording);
+  out.sd_ratio = spread_ratios(prepared, real, play->recording);
   std::vector<std::size_t> ends;
-  const auto recorded = outlines(all, prepared, kMaxRecorded, &out.crossed_recorded, &ends);
+  const auto recorded = outlines(prepared.recordings, prepared, kMaxRecorded, &out.crossed_recorded, &ends);
   out.outside = outside_share(recorded, ends, outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
   const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
-  if (const auto found = fidelity({&all[which], 1}, {&play->recording, 1}, how)) {
+  if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
     out.half_second = found->energy_distance;
     out.two_seconds = found->long_motion;
   }
@@ -305,7 +309,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   auto trial = try_outline(out.model, *prepared, *in_step, recipe.seed);
   if (!trial) return trial.error();
   summary.trial = *std::move(trial);
-  if (auto ok = judge_each(out.model, *prepared, *in_step, recipe, summary); !ok) return ok.error();
+  if (auto ok = judge_others(out.model, *prepared, *in_step, recipe.seed, summary.warnings); !ok) return ok.error();
   summary.usable = outline_verdict(summary, &summary.code);
   out.model.training = outline_training(recordings, recipe, summary);
   return out;

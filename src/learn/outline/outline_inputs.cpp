@@ -272,9 +272,9 @@ std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& 
   std::vector<double> sum(layout.outputs.size(), 0.0);
   std::size_t count = 0;
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const auto missing = [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); };
-    if (rows[row] == 0 || std::any_of(layout.outputs.begin(), layout.outputs.end(), missing)) continue;
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += recording.channels[layout.outputs[k]].samples[row];
+    const std::vector<double> control = whole_row(recording, layout, row);
+    if (rows[row] == 0 || control.empty()) continue;
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += control[k];
     ++count;
   }
   if (count == 0) return {};
