@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "base/statistics.hpp"
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/report/outline_report.hpp"
+#include "record/number_text.hpp"
 #include "record/verdict.hpp"
 
 namespace wisp {
@@ -69,6 +73,51 @@ Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const 
   return flicker;
 }
 
+// First row with an outline, and one past the last.
+std::pair<std::size_t, std::size_t> seen_rows(const Recording& recording) {
+  const auto layout = outline_layout(recording);
+  std::size_t first = 0, last = recording.rows();
+  const auto unseen = [&](std::size_t row) { return !layout || whole_row(recording, *layout, row).empty(); };
+  while (first < last && unseen(first)) ++first;
+  while (first < last && unseen(last - 1)) --last;
+  return {first, last};
+}
+
+// A film in which a flame is lit, shaded or blown out has no one spread that play could keep. Where the spread is what
+// a film without inputs is refused for, the longest part that is usable is learned: three quarters, or half of it.
+Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const OutlineRecipe& recipe,
+                              const Progress& progress) {
+  auto whole = fit_what_drives(recordings, recipe, progress);
+  const bool refused = whole && (whole->summary.code == "still" || whole->summary.code == "wild");
+  if (!refused || recordings.size() > 1 || !whole->summary.inputs.empty()) return whole;
+  OutlineRecipe without_inputs = recipe;
+  without_inputs.inputs.emplace();
+  const auto [begin, end] = seen_rows(recordings.front());
+  const auto rows = static_cast<double>(end - begin);
+  const auto off = [](const OutlineFit& fit) { return std::abs(std::log(median(fit.summary.trial.sd_ratio))); };
+  std::optional<OutlineFit> best;
+  for (const double share : {0.75, 0.5}) {
+    for (const double place : {0.0, 0.5, 1.0}) {
+      const auto first = begin + static_cast<std::size_t>(place * (1 - share) * rows);
+      const auto last = first + static_cast<std::size_t>(share * rows);
+      const Recording part = slice(recordings.front(), first, last);
+      auto fit = fit_outline({&part, 1}, without_inputs, progress);
+      if (!fit || !fit->summary.usable.verdict || (best && off(*best) <= off(*fit))) continue;
+      fit->summary.usable.reason += "; learned from frames " + std::to_string(first + 1) + " to " +
+                                    std::to_string(last) + " of " + std::to_string(recordings.front().rows()) +
+                                    " alone: learned from all, it moves " +
+                                    number_text(median(whole->summary.trial.sd_ratio), 2) + " times as much";
+      best = *std::move(fit);
+    }
+    if (best) break;
+  }
+  if (!best) return whole;
+  best->summary.alignment = std::move(whole->summary.alignment);
+  best->summary.warnings = std::move(whole->summary.warnings);
+  best->model.training.usable = best->summary.usable;
+  return *std::move(best);
+}
+
 // Events missing from the recordings are played from a simulated candle, and the verdict says so.
 void note_what_is_borrowed(OutlineFit& fit) {
   if (!fit.model.extinction || !fit.summary.usable.verdict) return;
@@ -108,7 +157,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   }
   const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe.extinction);
   if (!seen) return seen.error();
-  auto fit = fit_what_drives(seen->burning(), recipe, progress);
+  auto fit = fit_steady(seen->burning(), recipe, progress);
   if (!fit) return fit.error();
   const auto extinction = seen->complete(fit->model, recipe.extinction);
   if (!extinction) return extinction.error();

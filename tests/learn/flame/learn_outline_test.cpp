@@ -55,6 +55,26 @@ TEST(LearnOutline, TheReportHasEveryPromisedField) {
   EXPECT_EQ(fit.report.verdict->usable, fit.model.training.usable.verdict);
 }
 
+// A flame that flickers, then grows to twice its size once: play that keeps either part's spread cannot keep both.
+TEST(LearnOutline, OfAFilmThatChangesTheLongestSteadyPartIsLearned) {
+  const std::size_t rows = 900, steady = 690;
+  Recording film = made::outline_recording({.rows = rows, .shock = 0.003});
+  for (Channel& channel : film.channels) {
+    for (std::size_t row = steady; row < rows; ++row) {
+      const double grown = 1 + static_cast<double>(row - steady) / static_cast<double>(rows - steady);
+      channel.samples[row] = (channel.name.ends_with(".x") ? 320 : 400) +
+                             grown * (channel.samples[row] - (channel.name.ends_with(".x") ? 320 : 400));
+    }
+  }
+  const Fit fit = learned({film}, {});
+  EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;
+  EXPECT_THAT(fit.report.verdict->reason, HasSubstr("learned from frames 1 to 675 of 900 alone"));
+  EXPECT_EQ(fit.model.training.usable.reason, fit.report.verdict->reason);
+  const auto rows_used =
+      figure<std::int64_t>(fit.report, "samples.learned") + figure<std::int64_t>(fit.report, "samples.held_out");
+  EXPECT_EQ(rows_used, 675);
+}
+
 TEST(LearnOutline, KeepsTheCandleThatTheFirstFilmWithOneShows) {
   std::vector<Recording> recordings{windy(), windy(2)};
   set_numbers_attribute(recordings[1], "candle", std::array{0.8, 200.0, 60.0, 40.0});
