@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -80,6 +81,8 @@ class Arguments {
  public:
   bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
   bool on(std::string_view flag) const { return has(flag); }
+  /// Whether the user gave it.
+  bool given(std::string_view flag) const { return has(flag) && !defaults_.contains(flag); }
   const std::string& text(std::string_view flag) const { return values_.at(std::string(flag)); }
   int integer(std::string_view flag) const;
   double number(std::string_view flag) const;
@@ -89,10 +92,15 @@ class Arguments {
   const std::vector<std::string>& positionals() const { return positionals_; }
 
   void set(const std::string& flag, std::string value) { values_[flag] = std::move(value); }
+  void set_default(const std::string& flag, std::string value) {
+    defaults_.insert(flag);
+    set(flag, std::move(value));
+  }
   void set_positionals(std::vector<std::string> values) { positionals_ = std::move(values); }
 
  private:
   std::map<std::string, std::string> values_;
+  std::set<std::string, std::less<>> defaults_;  // flags in values_ that have their default
   std::vector<std::string> positionals_;
 };
 

@@ -154,7 +154,7 @@ Arguments arguments_of(const Wired& wired) {
     } else if (const std::string& given = wired.values.at(flag.name); !given.empty()) {
       arguments.set(flag.name, given);
     } else if (!flag.fallback.empty()) {
-      arguments.set(flag.name, flag.fallback);
+      arguments.set_default(flag.name, flag.fallback);
     }
   }
   std::vector<std::string> positionals;

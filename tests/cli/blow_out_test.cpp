@@ -157,6 +157,21 @@ TEST_F(BlowOutProgram, FramesOfATableAreItsRows) {
   EXPECT_THAT(beyond.err, testing::HasSubstr("--frames 301:1201 reaches beyond its 1200 rows"));
 }
 
+TEST_F(BlowOutProgram, FlagsOfFilmsAreRefusedBesideATable) {
+  write_recording("rec.csv", {.rows = 1200, .every = 0});
+  const std::string learn = "learn flame " + at("rec.csv") + " -o " + at("m.wisp");
+  ASSERT_EQ(wisp(learn).status, 0);
+  const std::string validate = "validate " + at("m.wisp") + " " + at("rec.csv");
+  for (const std::string flag : {"--channel red", "--region 0,0,50,50", "--dark", "--flame 1", "--wind-measure rms"}) {
+    for (const std::string& command : {learn, validate}) {
+      const Said said = wisp(command + " " + flag);
+      EXPECT_EQ(said.status, 2) << command << flag;
+      EXPECT_THAT(said.err, HasSubstr(flag.substr(0, flag.find(' ')) + " is of a clip")) << command;
+    }
+  }
+  EXPECT_THAT(wisp(learn + " --points 8").err, HasSubstr("--points is of a clip"));
+}
+
 TEST_F(BlowOutProgram, WhatCannotBeARuleIsWrongUsage) {
   write_recording("rec.csv", {.rows = 1200, .every = 0});
   for (const std::string value : {"hard", "1.5", "1.5,", ",2", "1.5,0.2,3", "-1,0.2", "1,0", "nan,1"}) {

@@ -116,10 +116,10 @@ std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
 // The light of a clip, or a photodiode's trace, normalised to mean 1.
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
-  for (const auto& [flag, of_table] : {std::pair{"region", false}, {"frames", false}, {"channel", true}}) {
-    if (!arguments.has(flag) || arguments.text(flag) == "brightness" || of_table == is_table(path)) continue;
-    return Error{"--" + std::string(flag) + " is of a " + (of_table ? "table, and " : "clip, and ") + path +
-                 (of_table ? " is a clip" : " is a table")};
+  if (is_table(path)) {
+    if (auto ok = refuse_flags(arguments, {"region", "frames"}, path); !ok) return ok.error();
+  } else if (arguments.given("channel")) {
+    return Error{"--channel is of a table, and " + path + " is a clip"};
   }
   if (!is_table(path)) {
     Arguments of_clip = arguments;

@@ -76,10 +76,25 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
   return options;
 }
 
+Result<void> refuse_flags(const Arguments& arguments, std::initializer_list<const char*> of_clips,
+                          const std::string& table) {
+  for (const char* flag : of_clips) {
+    if (!arguments.given(flag)) continue;
+    return Error{"--" + std::string(flag) + " is of a clip, and " + table +
+                 " is a table; give the clip, or leave it out"};
+  }
+  return {};
+}
+
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal) {
   auto options = capture_options(arguments);
   if (!options) return options.error();
+  if (std::ranges::all_of(paths, [](const std::string& path) { return is_table(path); })) {
+    if (auto ok = refuse_flags(arguments, {"points", "channel", "flame", "dark", "region", "wind-measure"}, paths[0]);
+        !ok)
+      return ok.error();
+  }
   const auto recording_of = [&](const std::string& path) -> Result<Recording> {
     if (is_table(path)) {
       auto table = read_table(path, arguments);
