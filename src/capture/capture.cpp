@@ -90,6 +90,9 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   auto captured = live->finish(times_of(*reader, options));
   if (!captured) return captured;
   if (auto ok = check_frames(path, options.frames, captured->recording.rows()); !ok) return ok.error();
+  if (options.frames) {
+    captured->recording.attributes.push_back({"first_frame", std::to_string(options.frames->first)});
+  }
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));
   return captured;
 }

@@ -135,6 +135,47 @@ TEST_F(Clip, AFilmStripShowsTheLearnedFlameInTheClipsOwnLightAndCrop) {
   EXPECT_LT(difference / (3.0 * kHigh * strip.width()), 6);
 }
 
+TEST_F(Clip, AFlameIsDrawnOnTheCandleOfItsFilm) {
+  constexpr std::uint32_t kWax = 0xFF208040U;  // greener than any that Wisp would draw
+  auto film = VideoWriter::create(at("clip.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30});
+  ASSERT_TRUE(film);
+  for (int k = 0; k < kFrames; ++k) {
+    Image image = flame_frame(k, {80, 155}, 0.4);
+    for (int y = 160; y < kHeight; ++y) std::ranges::fill(image.row(y).subspan(60, 40), kWax);
+    ASSERT_TRUE(film->write(image));
+  }
+  ASSERT_TRUE(film->finish());
+  ASSERT_EQ(wisp("capture flame " + at("clip.mp4") + " --frames 11:90 -o " + at("rec.csv")).status, 0);
+  EXPECT_THAT(file_text(at("rec.csv")), HasSubstr("# first_frame 11"));
+  ASSERT_EQ(wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp")).status, 0);
+  const std::string run = "run " + at("m.wisp") + " --frames 40";
+  fs::create_directories(at("pictures"));
+  for (const char* name : {"rec.csv", "clip.mp4"}) {
+    const Said said = wisp(run + " --clip " + at(name) + " -o " + at("pictures/1.png"));
+    ASSERT_EQ(said.status, 0) << said.err;
+    auto reader = VideoReader::open(at("pictures"), {.rate_hz = 1});
+    ASSERT_TRUE(reader);
+    ASSERT_TRUE(reader->next());
+    const RgbImage picture = reader->rgb();
+    EXPECT_EQ(picture.height, 720);
+    const auto at_pixel = [&](double across, double down) {
+      const auto x = static_cast<std::size_t>(across * picture.width),
+                 y = static_cast<std::size_t>(down * picture.height);
+      return &picture.pixels[3 * (y * static_cast<std::size_t>(picture.width) + x)];
+    };
+    const std::uint8_t* wax = at_pixel(0.5, 0.95);
+    EXPECT_NEAR(wax[0], 0x20, 12);
+    EXPECT_NEAR(wax[1], 0x80, 12);
+    EXPECT_NEAR(wax[2], 0x40, 12);
+    EXPECT_GT(at_pixel(0.5, 0.6)[0], 180);
+    EXPECT_LT(at_pixel(0.02, 0.1)[0], 20);
+  }
+  for (const char* flags : {" -o out.csv", " --instances 2 -o out.png", " --camera 20 -o out.png"}) {
+    const Said said = wisp(run + " --clip " + at("rec.csv") + flags);
+    EXPECT_EQ(said.status, 2) << flags;
+  }
+}
+
 TEST_F(Clip, TheSameSeedGivesTheSameBytes) {
   write_clip("clip.mp4", kFrames);
   ASSERT_EQ(wisp("learn flame " + at("clip.mp4") + " -o " + at("a.wisp")).status, 0);

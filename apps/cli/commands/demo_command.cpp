@@ -12,6 +12,7 @@
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/describe/json.hpp"
+#include "wisp/draw/flame.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -75,7 +76,7 @@ Result<void> run(const Step& step, Terminal& terminal) {
   terminal.say("\n$ wisp " + line);
   Arguments arguments;
   for (const Flag& flag : step.command.flags) {
-    if (!flag.fallback.empty()) arguments.set(flag.name, flag.fallback);
+    if (!flag.fallback.empty()) arguments.set_default(flag.name, flag.fallback);
   }
   for (const auto& [flag, value] : step.flags) arguments.set(flag, value);
   arguments.set_positionals(step.files);
@@ -131,6 +132,9 @@ Result<void> all_steps(const Places& places, const Clips& clips, const Arguments
   const std::string frames = std::to_string(std::max(1, static_cast<int>(20 * model->rate_hz)));
   Step film{"run", run_command(), {path}, {{"output", places.at("flame.mp4")}, {"frames", frames}}};
   if (!model->inputs.empty()) film.flags.push_back({"input", recording});
+  // A film on black has no candle to show.
+  const auto seen = [](const Figure& figure) { return figure.name == kCandleFigures[0]; };
+  if (is_flame(*model) && std::ranges::any_of(model->training.figures, seen)) film.flags.push_back({"clip", recording});
   return run(film, terminal);
 }
 

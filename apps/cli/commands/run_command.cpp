@@ -13,6 +13,7 @@
 #include "flags/recordings.hpp"
 #include "flags/wind_input.hpp"
 #include "terminal.hpp"
+#include "wisp/capture/capture.hpp"
 #include "wisp/describe/text.hpp"
 #include "wisp/draw/flame.hpp"
 #include "wisp/draw/plot.hpp"
@@ -88,10 +89,11 @@ struct Play {
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
-  Camera camera;                   // camera of a model of bodies
-  double orbit = 0;                // seconds per revolution of the camera; 0: fixed
-  double toward = 0;               // wind direction, degrees
-  std::vector<std::size_t> relit;  // frames before which all extinguished instances are lit again, ascending
+  Camera camera;                      // camera of a model of bodies
+  double orbit = 0;                   // seconds per revolution of the camera; 0: fixed
+  double toward = 0;                  // wind direction, degrees
+  std::vector<std::size_t> relit;     // frames before which all extinguished instances are lit again, ascending
+  std::optional<FilmedFlame> film{};  // the film whose candle it is drawn on
 };
 
 // Plays a bank frame by frame.
@@ -184,6 +186,7 @@ Recording record_run(const Play& play, const Bank& bank, Player& player) {
 Result<void> write_film(const Play& play, const Bank& bank, Player& player, const std::string& path,
                         Terminal& terminal) {
   CandlePictures pictures(play.model, bank);
+  if (play.film) pictures.draw_on(*play.film);
   auto film = VideoWriter::create(
       path, {.width = pictures.width(), .height = pictures.height(), .rate_hz = play.model.rate_hz});
   if (!film) return film.error();
@@ -198,6 +201,7 @@ Result<void> write_film(const Play& play, const Bank& bank, Player& player, cons
 Result<void> write_picture(const Play& play, const Bank& bank, Player& player, const std::string& path) {
   if (std::holds_alternative<OutlineView>(play.model.view)) {
     CandlePictures pictures(play.model, bank);
+    if (play.film) pictures.draw_on(*play.film);
     for (std::size_t frame = 0; frame < play.frames; ++frame) pictures.blow(bank, player.wind(player.step()));
     return write_png(path, pictures.draw(bank, player.camera()));
   }
@@ -337,6 +341,35 @@ Result<Play> prepare(const Arguments& arguments) {
   return play;
 }
 
+// Watches the film of --clip.
+Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& play) {
+  if (!arguments.has("clip")) return {};
+  const std::string& path = arguments.text("clip");
+  const bool numbers = std::filesystem::path(arguments.text("output")).extension() == ".csv";
+  const bool round = arguments.has("camera") || play.orbit > 0;
+  if (numbers || round || !is_flame(play.model) || arguments.integer("instances") != 1) {
+    return Error{"--clip " + path +
+                 ": a film's candle carries one flame, seen from where it was filmed, in a picture or a "
+                 "film; leave --clip out, or the other flags"};
+  }
+  const auto curve = curve_of(play.model);
+  if (!curve) return curve.error();
+  auto recording = Result<Recording>(Recording());
+  if (is_table(path)) {
+    recording = read_csv(path);
+  } else {
+    auto captured = capture(path, {.curve = *curve}, terminal.progress());
+    if (!captured) return captured.error();
+    recording = std::move(captured->recording);
+  }
+  if (!recording) return recording.error();
+  constexpr int kHeight = 720;
+  auto film = filmed_flame(*recording, kHeight);
+  if (!film) return film.error();
+  play.film = *std::move(film);
+  return {};
+}
+
 Result<void> run_loop(const Arguments& arguments, Terminal& terminal) {
   const auto model = read_model(arguments.positional());
   return model ? write_loop(*model, arguments, terminal) : model.error();
@@ -344,8 +377,9 @@ Result<void> run_loop(const Arguments& arguments, Terminal& terminal) {
 
 Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("loop")) return run_loop(arguments, terminal);
-  const auto play = prepare(arguments);
+  auto play = prepare(arguments);
   if (!play) return play.error();
+  if (auto ok = watch_film(arguments, terminal, *play); !ok) return ok;
   const auto target = steer_target_from(play->model, arguments);
   if (!target) return target.error();
   warn_of_wind(*play, terminal);
@@ -399,6 +433,8 @@ std::vector<Flag> all_flags() {
        "on",
        "the residual noise; off, a chain goes on with what is likeliest and joins best",
        {"on", "off"}},
+      {"clip", Kind::kPath, "CLIP_OR_REC", "",
+       "draw it on the candle of this film, in its light: the clip, or the recording captured from it"},
       {"camera", Kind::kNames, "AZIMUTH,ELEVATION", "",
        "see it from so many degrees round it, and above the level: a flame in the round, by rotational symmetry"},
       {"orbit", Kind::kNumber, "S", "0", "the camera goes once round it in so many seconds"},
@@ -427,6 +463,7 @@ Command run_command() {
           {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
            "The noiseless response to steady wind, as numbers"},
           {"wisp run flame.wisp --loop 4 -o loop.mp4", "Four seconds of a flame that repeat without a seam, as a film"},
+          {"wisp run flame.wisp --clip candle.mp4 --frames 600 -o flame.mp4", "The same on your own candle"},
           {"wisp run leaf.wisp --frames 1200 --instances 5 -o falls.mp4", "Five leaves that fall for ever, for 20 s"},
           {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
            "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},

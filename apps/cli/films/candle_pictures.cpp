@@ -35,6 +35,12 @@ CandlePictures::CandlePictures(const Model& model, int count, int points)
   points_.resize(scenes_.size() * static_cast<std::size_t>(points));
 }
 
+void CandlePictures::draw_on(FilmedFlame film) {
+  width_ = film.view().width;
+  height_ = film.view().height;
+  film_ = std::move(film);
+}
+
 void CandlePictures::blow(const Bank& bank, float wind) {
   const ExtinctionFacet* extinction = bank.extinction();
   if (!extinction) return;
@@ -70,6 +76,11 @@ const Image& CandlePictures::draw(std::span<const float> outlines) {
 }
 
 const Image& CandlePictures::draw_points() {
+  if (film_) {
+    const float size = scenes_.front().size.value_or(1);
+    image_ = film_->draw(size > 0 ? std::span<const Point>(points_) : std::span<const Point>(), size);
+    return image_;
+  }
   const std::size_t each = points_.size() / scenes_.size();
   std::vector<Flame> flames;
   for (std::size_t k = 0; k < scenes_.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "films/filmed_flame.hpp"
 #include "wisp/draw/live_flames.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -21,6 +22,11 @@ class CandlePictures {
   ///
   /// Precondition: the view is an outline, count > 0 and points >= 2.
   CandlePictures(const Model& model, int count, int points);
+
+  /// Draws on the candle of a film from now on, in its view's size.
+  ///
+  /// Precondition: one outline, and film.known().
+  void draw_on(FilmedFlame film);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -44,6 +50,7 @@ class CandlePictures {
   std::vector<float> polylines_;
   std::vector<Point> points_;
   std::optional<LiveFlames> candles_;  // empty: draws plain shapes
+  std::optional<FilmedFlame> film_;
   Image image_;
 };
 

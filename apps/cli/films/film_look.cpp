@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 namespace wisp::cli {
 namespace {
@@ -166,12 +167,17 @@ FilmLook::FilmLook(const FilmView& view)
       flame_(static_cast<std::size_t>(kHeights) * kDepths),
       around_(static_cast<std::size_t>(view.width) * view.height),
       still_(around_.size()),
-      squares_(around_.size()) {
+      squares_(around_.size()),
+      out_(around_.size()) {
   assert(view.width >= 1 && view.height >= 1 && view.unit > 0);
 }
 
 void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
-  assert(frame.width() == view_.width && frame.height() == view_.height && outline.size() >= 3);
+  assert(frame.width() == view_.width && frame.height() == view_.height);
+  for (int y = 0; outline.empty() && y < view_.height; ++y) {
+    for (int x = 0; x < view_.width; ++x) add(out_[static_cast<std::size_t>(y) * view_.width + x], frame.row(y)[x]);
+  }
+  if (outline.size() < 3) return;
   for (int y = 0; y < view_.height; ++y) {
     const Places places(view_, outline, y);
     const auto row = frame.row(y);
@@ -218,20 +224,36 @@ float FilmLook::stillness(std::size_t pixel, float height) const {
   return std::max(1 - smooth(kUnder, kFootBegins, height), still * (1 - smooth(kFootBegins, kFootEnds, height)));
 }
 
-Image FilmLook::draw(std::span<const Point> outline) const {
-  assert(known());
-  const std::vector<Sum> colours = flame_colours(), plate = surroundings();
+void FilmLook::finish() {
+  constexpr float kUnlit = 0.25F;  // of the light of a room that no frame showed without its flame
+  colours_ = flame_colours();
+  plate_ = surroundings();
+  foot_.resize(plate_.size());
+  unlit_.resize(plate_.size());
+  over_.resize(plate_.size());
+  for (std::size_t pixel = 0; pixel < plate_.size(); ++pixel) {
+    const auto row = static_cast<float>(pixel / static_cast<std::size_t>(view_.width));
+    over_[pixel] = stillness(pixel, (view_.base.y - row) / view_.unit);
+    foot_[pixel] = mean(still_[pixel]);
+    unlit_[pixel] =
+        out_[pixel][3] > 0 ? mean(out_[pixel]) : mix(Sum{}, mix(plate_[pixel], foot_[pixel], over_[pixel]), kUnlit);
+  }
+}
+
+Image FilmLook::draw(std::span<const Point> outline, float light) const {
+  assert(known() && !colours_.empty());
   Image image(view_.width, view_.height);
-  if (outline.size() < 3) return image;
   for (int y = 0; y < view_.height; ++y) {
-    const Places places(view_, outline, y);
-    const float height = (view_.base.y - static_cast<float>(y)) / view_.unit;
+    std::optional<Places> places;
+    if (outline.size() >= 3) places.emplace(view_, outline, y);
     for (int x = 0; x < view_.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
-      const FlamePlace place = places.at(x);
-      const Sum flame = bilinear(colours, height_index(place.height), depth_index(place.depth));
-      Sum colour = mix(plate[pixel], flame, smooth(kGlowEnds, kGlowWhole, place.depth));
-      colour = mix(colour, mean(still_[pixel]), stillness(pixel, height));
+      const FlamePlace place = places ? places->at(x) : FlamePlace{0, kOutside};
+      Sum colour = mix(unlit_[pixel], plate_[pixel], light);
+      if (const float share = smooth(kGlowEnds, kGlowWhole, place.depth); share > 0) {
+        colour = mix(colour, bilinear(colours_, height_index(place.height), depth_index(place.depth)), share);
+      }
+      if (over_[pixel] > 0) colour = mix(colour, mix(unlit_[pixel], foot_[pixel], light), over_[pixel]);
       std::uint32_t code = 0xFF000000U;
       for (int c = 0; c < 3; ++c) {
         code |= static_cast<std::uint32_t>(std::lround(std::clamp(colour[c], 0.0F, 255.0F))) << (16 - 8 * c);

@@ -20,21 +20,28 @@ struct FilmView {
 
 class FilmLook {
  public:
+  FilmLook() = default;
+
   /// Precondition: width, height >= 1 and unit > 0.
   explicit FilmLook(const FilmView& view);
 
-  /// Learns from a frame's view and its captured outline, both in the view's pixels.
+  /// Learns from a frame's view and its captured outline, both in the view's pixels; without an outline, how the view
+  /// looks when the flame is out.
   ///
-  /// Precondition: the frame has the view's size, and the outline at least three points.
+  /// Precondition: the frame has the view's size, and an outline at least three points.
   void learn(const Image& frame, std::span<const Point> outline);
 
-  /// Whether any frame was learned.
+  /// Computes what draw() needs, after the last frame.
+  void finish();
+
+  /// Whether any frame with an outline was learned.
   bool known() const { return frames_ > 0; }
 
-  /// Draws the view with another outline burning in it.
+  /// Draws the view with another outline burning in it; empty: none. `light`, 0 to 1, is the share of the flame's light
+  /// that falls on the surroundings: at 0 they are as when the flame is out or, if no frame showed that, at a quarter.
   ///
-  /// Precondition: known().
-  Image draw(std::span<const Point> outline) const;
+  /// Precondition: known() and finish().
+  Image draw(std::span<const Point> outline, float light = 1) const;
 
  private:
   using Sum = std::array<float, 4>;  // sums of red, green and blue codes, and their count
@@ -44,12 +51,18 @@ class FilmLook {
   std::vector<Sum> flame_colours() const;
   std::vector<Sum> surroundings() const;
 
-  FilmView view_;
+  FilmView view_{};
   int frames_ = 0;
   std::vector<Sum> flame_;      // by height in the flame and depth inside its outline
   std::vector<Sum> around_;     // per pixel, over frames with the flame elsewhere
   std::vector<Sum> still_;      // per pixel, over all frames: wick and wax
   std::vector<float> squares_;  // per pixel, over all frames: squared sum of its codes
+  std::vector<Sum> out_;        // per pixel, over frames without a flame
+
+  // Means, computed by finish().
+  std::vector<Sum> colours_;
+  std::vector<Sum> plate_, foot_, unlit_;  // per pixel: surroundings, wick and wax, and both without the flame's light
+  std::vector<float> over_;                // per pixel: stillness(), by which wick and wax hide the flame
 };
 
 }  // namespace wisp::cli

@@ -12,7 +12,7 @@ namespace {
 
 // Rejects flags that contradict a loop, which has constant conditions.
 Result<void> check_flags(const Arguments& arguments) {
-  for (const char* flag : {"frames", "input", "relight", "steer"}) {
+  for (const char* flag : {"frames", "input", "relight", "steer", "clip"}) {
     if (arguments.has(flag)) {
       return Error{"--" + std::string(flag) + " does not go with --loop, a loop of so many seconds in a constant wind"};
     }

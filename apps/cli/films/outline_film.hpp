@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "films/filmed_flame.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/validate.hpp"
 #include "wisp/record/recording.hpp"
@@ -16,13 +17,6 @@ struct OverlayContent {
   const OutlineRows& captured;
   const OutlineRows& simulated;
   std::string simulated_label;  ///< for example "predicted 5 frames ahead"
-};
-
-/// The clip that a recording was captured from; its frames from `first_frame` (0-based) on are the rows.
-struct ClipFrames {
-  std::filesystem::path path;  ///< empty: no clip, pictures are black
-  double rate_hz = 0;          ///< frame rate of a folder of images; 0 for films
-  std::size_t first_frame = 0;
 };
 
 /// Writes the clip with captured and simulated outlines drawn over it.

@@ -89,6 +89,9 @@ Result<Report> compare(std::span<const NamedModel> models, std::span<const Recor
 /// clip's pixels, whose centres are at whole numbers. Empty where a row has no outline.
 using OutlineRows = std::vector<std::vector<std::array<double, 2>>>;
 
+/// Errors: not a recording of an outline.
+Result<OutlineRows> outline_rows(const Recording& recording);
+
 /// The report, and the outlines for its pictures.
 struct ValidatedOutline {
   Report report;

@@ -15,18 +15,6 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
-Result<OutlineRows> outline_rows(const Recording& recording) {
-  const auto layout = outline_layout(recording);
-  if (!layout) return layout.error();
-  const OutlineCurve curve(layout->knots);
-  OutlineRows rows;
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
-    const auto control = whole_row(recording, *layout, row);
-    rows.push_back(control.empty() ? std::vector<OutlinePoint>() : curve.polyline(control));
-  }
-  return rows;
-}
-
 // Predictions shown in pictures: free simulation where an input drives the model, else the longest prediction of at
 // most five frames.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
@@ -131,6 +119,18 @@ Result<void> add_outlines(const Recording& recording, const OutlineJudgement& fo
 }
 
 }  // namespace
+
+Result<OutlineRows> outline_rows(const Recording& recording) {
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  const OutlineCurve curve(layout->knots);
+  OutlineRows rows;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const auto control = whole_row(recording, *layout, row);
+    rows.push_back(control.empty() ? std::vector<OutlinePoint>() : curve.polyline(control));
+  }
+  return rows;
+}
 
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
                                           const ValidationOptions& options, const Progress& progress) {
