@@ -232,9 +232,7 @@ std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment
 FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows) {
   FeatureWindows windows;
   std::mt19937_64 random(rows);
-  std::size_t block = 0;
   for (const Stretch& own : series) {
-    if (own.rows() < rows) continue;
     for (std::size_t first = 0; first + rows <= own.rows(); first += rows) {
       for (std::size_t column = 0; column < own.channels; ++column) {
         add_figures(own, first, rows, column, windows.values);
@@ -244,9 +242,7 @@ FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows)
         }
       }
       windows.features = 4 * own.channels;
-      windows.blocks.push_back(block);
     }
-    ++block;
   }
   return windows;
 }

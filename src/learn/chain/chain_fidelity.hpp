@@ -32,8 +32,7 @@ struct JoinDefect {
 /// A piece with fewer than two events has no rows.
 std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments);
 
-/// Windows of `rows` rows, end to end. Features are mean, standard deviation, minimum and maximum of every column. Each
-/// piece is one block.
+/// Windows of `rows` rows, end to end. Features are mean, standard deviation, minimum and maximum of every column.
 ///
 /// Precondition: rows >= 2.
 FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows);

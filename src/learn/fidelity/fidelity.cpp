@@ -35,18 +35,6 @@ std::size_t longest(const Stretches& stretches) {
   return rows;
 }
 
-std::vector<std::vector<double>> channel_of(const Stretches& stretches, std::size_t channel) {
-  std::vector<std::vector<double>> out;
-  for (const Stretch& stretch : stretches) out.push_back(stretch.channel(channel));
-  return out;
-}
-
-std::vector<double> joined(const std::vector<std::vector<double>>& stretches) {
-  std::vector<double> out;
-  for (const auto& stretch : stretches) out.insert(out.end(), stretch.begin(), stretch.end());
-  return out;
-}
-
 FeatureWindows windows_of(const Stretches& stretches, const Lengths& lengths, std::size_t most) {
   // Extracts twice the number of windows, then thins them evenly: most of the spread without storing every window.
   const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / (2 * most));
@@ -164,10 +152,9 @@ void take_channels(const Sides& sides, const Distances& value, const Distances& 
 }
 
 void take_long(const Sides& sides, const Stretches& pieces, const FidelityOptions& options, Fidelity& out) {
-  const LongOptions how{sides.rate_hz};
-  const LongDistances value = long_distances(sides.real, pieces, how);
-  const LongDistances floor = long_distances(sides.halves.first, sides.halves.second, how);
-  const LongDistances ceiling = long_distances(sides.real, shuffled(sides.real, options.seed), how);
+  const LongDistances value = long_distances(sides.real, pieces, sides.rate_hz);
+  const LongDistances floor = long_distances(sides.halves.first, sides.halves.second, sides.rate_hz);
+  const LongDistances ceiling = long_distances(sides.real, shuffled(sides.real, options.seed), sides.rate_hz);
   out.long_motion = {value.motion, floor.motion, ceiling.motion};
   out.long_spectra = {value.spectra, floor.spectra, ceiling.spectra};
   out.tails = {value.tails, floor.tails, ceiling.tails};

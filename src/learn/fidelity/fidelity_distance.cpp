@@ -22,9 +22,6 @@ Stretch rows_of(const Stretch& stretch, std::size_t first, std::size_t last) {
   return {stretch.channels, {begin + first * stretch.channels, begin + last * stretch.channels}};
 }
 
-// Length of a block of correlated windows.
-constexpr std::size_t kBlockWindows = 4;
-
 double distance(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (std::size_t f = 0; f < a.size(); ++f) sum += (a[f] - b[f]) * (a[f] - b[f]);
@@ -50,6 +47,8 @@ void append_window(const Stretch& stretch, std::size_t first, std::size_t rows, 
   }
 }
 
+constexpr double kLongSeconds = 2;            // duration of a long window
+constexpr std::size_t kMaxLongWindows = 300;  // on each side
 constexpr double kThinnedHz = 15;
 constexpr int kBands = 13;
 constexpr std::size_t kMinWindows = 8;           // on each side; with fewer, distances are dominated by chance
@@ -133,14 +132,7 @@ double tails_apart(std::span<const Stretch> a, std::span<const Stretch> b) {
 std::vector<double> tolerances(std::span<const Stretch> real, double tolerance) {
   std::vector<double> out;
   const std::size_t channels = real.empty() ? 0 : real.front().channels;
-  for (std::size_t c = 0; c < channels; ++c) {
-    std::vector<double> all;
-    for (const Stretch& stretch : real) {
-      const auto samples = stretch.channel(c);
-      all.insert(all.end(), samples.begin(), samples.end());
-    }
-    out.push_back(tolerance * deviation(all));
-  }
+  for (std::size_t c = 0; c < channels; ++c) out.push_back(tolerance * deviation(joined(channel_of(real, c))));
   return out;
 }
 
@@ -166,10 +158,13 @@ std::size_t longest_common_run(const Stretch& a, const Stretch& b, std::span<con
 
 }  // namespace
 
-std::vector<double> Stretch::channel(std::size_t index) const {
-  std::vector<double> samples(rows());
-  for (std::size_t t = 0; t < samples.size(); ++t) samples[t] = (*this)(t, index);
-  return samples;
+std::vector<std::vector<double>> channel_of(std::span<const Stretch> stretches, std::size_t channel) {
+  std::vector<std::vector<double>> out;
+  for (const Stretch& stretch : stretches) {
+    auto& samples = out.emplace_back();
+    for (std::size_t t = 0; t < stretch.rows(); ++t) samples.push_back(stretch(t, channel));
+  }
+  return out;
 }
 
 Result<std::vector<Stretch>> stretches_of(const Recording& recording, std::span<const std::string> channels) {
@@ -242,30 +237,20 @@ std::vector<Stretch> shuffled(std::span<const Stretch> stretches, std::uint64_t 
 FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop) {
   assert(rows >= 1 && hop >= 1);
   FeatureWindows out;
-  std::size_t block_base = 0;
   for (const Stretch& stretch : stretches) {
     out.features = 2 * rows * stretch.channels;
     // The first row of a stretch has no difference to a row before, so no window starts there.
-    for (std::size_t first = 1; first + rows <= stretch.rows(); first += hop) {
-      append_window(stretch, first, rows, out);
-      out.blocks.push_back(block_base + (first - 1) / (kBlockWindows * rows));
-    }
-    if (!out.blocks.empty()) block_base = out.blocks.back() + 1;
+    for (std::size_t first = 1; first + rows <= stretch.rows(); first += hop) append_window(stretch, first, rows, out);
   }
   return out;
 }
 
 FeatureWindows thinned(const FeatureWindows& windows, std::size_t most) {
   if (windows.size() <= most) return windows;
-  FeatureWindows out{windows.features, {}, {}};
-  std::size_t last_block = 0;
+  FeatureWindows out{windows.features, {}};
   for (std::size_t k = 0; k < most; ++k) {
-    const std::size_t i = k * windows.size() / most;
-    const auto window = windows.window(i);
+    const auto window = windows.window(k * windows.size() / most);
     out.values.insert(out.values.end(), window.begin(), window.end());
-    const bool new_block = !out.blocks.empty() && windows.blocks[i] != last_block;
-    out.blocks.push_back(out.blocks.empty() ? 0 : out.blocks.back() + (new_block ? 1 : 0));
-    last_block = windows.blocks[i];
   }
   return out;
 }
@@ -301,34 +286,28 @@ double energy_distance(const FeatureWindows& x, const FeatureWindows& y) {
 
 FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop) {
   FeatureWindows out;
-  std::size_t first_block = 0;
   for (const Stretch& stretch : stretches) {
-    if (stretch.rows() < rows) continue;
-    std::size_t block = first_block;
     for (std::size_t first = 0; first + rows <= stretch.rows(); first += hop) {
       const std::size_t before = out.values.size();
       append_spectra(stretch, first, rows, out.values);
       out.features = out.values.size() - before;
-      block = first_block + first / (kBlockWindows * rows);
-      out.blocks.push_back(block);
     }
-    first_block = block + 1;
   }
   return out;
 }
 
-LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, const LongOptions& options) {
-  const std::size_t rows = std::lround(options.window_seconds * options.rate_hz) / 2 * 2;
+LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz) {
+  const std::size_t rows = std::lround(kLongSeconds * rate_hz) / 2 * 2;
   if (rows < 8) return {kMissing, kMissing, tails_apart(a, b)};
   const auto hop_of = [&](std::span<const Stretch> side, std::size_t step) {
-    return std::max<std::size_t>(1, total_rows(side) / step / options.max_windows);
+    return std::max<std::size_t>(1, total_rows(side) / step / kMaxLongWindows);
   };
-  const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(options.rate_hz / kThinnedHz));
+  const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(rate_hz / kThinnedHz));
   const auto motion = [&](std::span<const Stretch> side) {
-    return thinned(motion_windows(every(side, step), rows / step, hop_of(side, step)), options.max_windows);
+    return thinned(motion_windows(every(side, step), rows / step, hop_of(side, step)), kMaxLongWindows);
   };
   const auto spectra = [&](std::span<const Stretch> side) {
-    return thinned(spectral_windows(side, rows, hop_of(side, 1)), options.max_windows);
+    return thinned(spectral_windows(side, rows, hop_of(side, 1)), kMaxLongWindows);
   };
   return {energy_of(motion(a), motion(b)), energy_of(spectra(a), spectra(b)), tails_apart(a, b)};
 }

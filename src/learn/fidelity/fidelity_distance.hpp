@@ -34,14 +34,14 @@ struct Stretch {
   std::size_t rows() const { return channels == 0 ? 0 : values.size() / channels; }
   std::span<const double> row(std::size_t t) const { return std::span(values).subspan(t * channels, channels); }
   double operator()(std::size_t t, std::size_t channel) const { return values[t * channels + channel]; }
-
-  /// Samples of one channel.
-  std::vector<double> channel(std::size_t index) const;
 };
 
 /// The maximal stretches of a recording over the named channels, in order.
 /// Errors: a channel missing from the recording.
 Result<std::vector<Stretch>> stretches_of(const Recording& recording, std::span<const std::string> channels);
+
+/// Samples of one channel, stretch by stretch.
+std::vector<std::vector<double>> channel_of(std::span<const Stretch> stretches, std::size_t channel);
 
 /// Total number of rows of all stretches.
 std::size_t total_rows(std::span<const Stretch> stretches);
@@ -62,19 +62,17 @@ Halves halves_of(std::span<const Stretch> stretches);
 /// The same seed gives the same order on every machine.
 std::vector<Stretch> shuffled(std::span<const Stretch> stretches, std::uint64_t seed);
 
-/// Windows of behaviour, each described by the same features. Windows that overlap or lie close together are correlated
-/// and form one block.
+/// Windows of behaviour, each described by the same features.
 struct FeatureWindows {
   std::size_t features = 0;
-  std::vector<double> values;       ///< windows × features, row-major
-  std::vector<std::size_t> blocks;  ///< block index of each window, ascending from 0
+  std::vector<double> values;  ///< windows × features, row-major
 
-  std::size_t size() const { return blocks.size(); }
+  std::size_t size() const { return features == 0 ? 0 : values.size() / features; }
   std::span<const double> window(std::size_t i) const { return std::span(values).subspan(i * features, features); }
 };
 
 /// Cuts stretches into windows of `rows` rows that start every `hop` rows; the features are the rows themselves and
-/// their differences from the row before. A block is as long as four windows.
+/// their differences from the row before.
 ///
 /// Precondition: rows >= 1, hop >= 1.
 FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop);
@@ -100,17 +98,11 @@ struct LongDistances {
                        ///< differences: 0.1 is 10 % more or less violent
 };
 
-/// Options of long_distances().
-struct LongOptions {
-  double rate_hz = 0;
-  double window_seconds = 2;
-  std::size_t max_windows = 300;  ///< ≥ 2, maximum on each side
-};
-
-/// Compares two sides. Motion windows are thinned to 15 rows a second; spectra cover faster motion.
+/// Compares two sides, by at most 300 windows of each. Motion windows are thinned to 15 rows a second; spectra cover
+/// faster motion.
 ///
 /// Precondition: both sides have the same channels.
-LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, const LongOptions& options);
+LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz);
 
 /// Cuts stretches into windows of `rows` rows that start every `hop` rows. Features are logarithms of the power in at
 /// most 13 geometric bands per channel, after removing the mean and applying a Hann window.

@@ -26,12 +26,6 @@ namespace {
 
 using Traces = std::vector<std::vector<double>>;
 
-std::vector<double> joined(const Traces& traces) {
-  std::vector<double> all;
-  for (const auto& trace : traces) all.insert(all.end(), trace.begin(), trace.end());
-  return all;
-}
-
 constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
 constexpr double kHoldout = 0.3;                           // share at every stretch's end that is held out
 constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
@@ -42,14 +36,6 @@ constexpr double kCalm = 0.02;
 
 // Logarithm of the variation, with a floor of 1e-5: smaller variation is the photodiode's noise.
 double level(double restless) { return std::log(restless + 1e-5); }
-
-std::size_t nearest(double value, std::span<const double> levels) {
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < levels.size(); ++k) {
-    if (std::abs(value - levels[k]) < std::abs(value - levels[best])) best = k;
-  }
-  return best;
-}
 
 // Number of rows in half a second, at least 4.
 std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2))); }
@@ -107,7 +93,10 @@ std::vector<double> levels_of(const Traces& restless, int modes, std::uint64_t s
 
 std::vector<int> nearest_levels(std::span<const double> restless, std::span<const double> levels) {
   std::vector<int> out;
-  for (const double value : restless) out.push_back(static_cast<int>(nearest(level(value), levels)));
+  for (const double value : restless) {
+    const auto nearer = [own = level(value)](double a, double b) { return std::abs(own - a) < std::abs(own - b); };
+    out.push_back(static_cast<int>(std::min_element(levels.begin(), levels.end(), nearer) - levels.begin()));
+  }
   return out;
 }
 

@@ -148,7 +148,7 @@ void alternate(const Rows& rows, double least, KMeans& found) {
 
 KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  KMeans found{.columns = rows.columns, .centroids = start_centroids(rows, options.clusters, random)};
+  KMeans found{.centroids = start_centroids(rows, options.clusters, random)};
   found.cluster.resize(rows.count);
   found.sizes.resize(static_cast<std::size_t>(options.clusters));
   alternate(rows, kTolerance * variance, found);

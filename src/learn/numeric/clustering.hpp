@@ -19,7 +19,6 @@ struct KMeansOptions {
 };
 
 struct KMeans {
-  std::size_t columns = 0;
   std::vector<double> centroids;       ///< clusters × columns
   std::vector<std::uint16_t> cluster;  ///< cluster of each row
   std::vector<std::size_t> sizes;      ///< rows per cluster; none is empty unless rows coincide

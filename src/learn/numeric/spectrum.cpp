@@ -56,6 +56,12 @@ std::vector<double> without_mean(std::span<const double> samples) {
 
 }  // namespace
 
+std::vector<double> joined(Samples stretches) {
+  std::vector<double> out;
+  for (const auto& stretch : stretches) out.insert(out.end(), stretch.begin(), stretch.end());
+  return out;
+}
+
 std::vector<std::vector<double>> whole_stretches(std::span<const double> values) {
   std::vector<std::vector<double>> out;
   bool goes_on = false;

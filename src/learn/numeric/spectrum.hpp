@@ -13,6 +13,9 @@ namespace wisp {
 /// Stretches of consecutive samples of one channel.
 using Samples = std::span<const std::vector<double>>;
 
+/// All samples, stretch after stretch.
+std::vector<double> joined(Samples stretches);
+
 /// Runs of consecutive values that are not NaN.
 std::vector<std::vector<double>> whole_stretches(std::span<const double> values);
 

@@ -25,10 +25,9 @@ Stretch interleaved(const std::vector<double>& a, const std::vector<double>& b, 
 FeatureWindows normal_windows(std::size_t windows, double mean, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> gauss(mean, 1);
-  FeatureWindows out{3, {}, {}};
+  FeatureWindows out{3, {}};
   for (std::size_t i = 0; i < windows; ++i) {
     for (int f = 0; f < 3; ++f) out.values.push_back(gauss(random));
-    out.blocks.push_back(i);
   }
   return out;
 }
@@ -51,8 +50,8 @@ TEST(FidelityEnergy, TheSameWindowsAreAtDistanceZero) {
 }
 
 TEST(FidelityEnergy, TwoPointsAreAsFarApartAsCanBe) {
-  const FeatureWindows x{1, {0, 0}, {0, 1}};
-  const FeatureWindows y{1, {5, 5}, {0, 1}};
+  const FeatureWindows x{1, {0, 0}};
+  const FeatureWindows y{1, {5, 5}};
   EXPECT_DOUBLE_EQ(energy_distance(x, y), 1);
 }
 
@@ -64,31 +63,29 @@ TEST(FidelityEnergy, AShiftOfOneStandardDeviationIsFar) {
 TEST(FidelityEnergy, WindowsHoldRowsThenDifferences) {
   const FeatureWindows windows = motion_windows(std::vector{Stretch{1, {1, 4, 9, 16, 25}}}, 2, 2);
   EXPECT_EQ(windows.values, (std::vector<double>{4, 9, 3, 5, 16, 25, 7, 9}));
-  EXPECT_EQ(windows.blocks, (std::vector<std::size_t>{0, 0}));
 }
 
-TEST(FidelityEnergy, WindowsOfAnotherStretchAreAnotherBlock) {
-  const FeatureWindows windows = motion_windows(std::vector{Stretch{1, {1, 2, 3}}, Stretch{1, {1, 2, 3}}}, 2, 1);
-  EXPECT_EQ(windows.blocks, (std::vector<std::size_t>{0, 1}));
+TEST(FidelityEnergy, WindowsDoNotCrossStretches) {
+  const FeatureWindows windows = motion_windows(std::vector{Stretch{1, {1, 2, 3}}, Stretch{1, {1, 2, 4}}}, 2, 1);
+  EXPECT_EQ(windows.values, (std::vector<double>{2, 3, 1, 1, 2, 4, 1, 2}));
 }
 
 TEST(FidelityEnergy, ThinnedWindowsAreSpreadEvenly) {
-  FeatureWindows windows{1, {0, 1, 2, 3, 4, 5}, {0, 0, 1, 1, 2, 2}};
+  FeatureWindows windows{1, {0, 1, 2, 3, 4, 5}};
   const FeatureWindows few = thinned(windows, 3);
   EXPECT_EQ(few.values, (std::vector<double>{0, 2, 4}));
-  EXPECT_EQ(few.blocks, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(thinned(windows, 9).size(), 6u);
 }
 
 TEST(FidelityEnergy, StandardisedFeaturesHaveMeanZeroAndDeviationOne) {
-  FeatureWindows x{2, {1, 7, 3, 7}, {0, 1}};
-  FeatureWindows y{2, {5, 9}, {0}};
+  FeatureWindows x{2, {1, 7, 3, 7}};
+  FeatureWindows y{2, {5, 9}};
   standardise(x, y);
   EXPECT_EQ(x.values, (std::vector<double>{-1, 0, 1, 0}));
   EXPECT_EQ(y.values, (std::vector<double>{3, 2}));
 }
 
-constexpr LongOptions kOptions{.rate_hz = 60};
+constexpr double kRateHz = 60;
 
 // Two channels of one resonance each; now and then one is hit.
 Stretch resonances(std::size_t rows, std::uint64_t seed, double damping, double hit) {
@@ -109,7 +106,7 @@ Stretch resonances(std::size_t rows, std::uint64_t seed, double damping, double 
   return out;
 }
 
-LongDistances apart(const Stretch& a, const Stretch& b) { return long_distances({&a, 1}, {&b, 1}, kOptions); }
+LongDistances apart(const Stretch& a, const Stretch& b) { return long_distances({&a, 1}, {&b, 1}, kRateHz); }
 
 TEST(FidelityLong, TheSameProcessIsNear) {
   const LongDistances found = apart(resonances(6000, 1, 0.8, 0), resonances(6000, 2, 0.8, 0));

@@ -57,9 +57,9 @@ TEST(FidelityStretch, ShufflingKeepsWholeRows) {
   ASSERT_EQ(mixed.front().rows(), 100u);
   EXPECT_NE(mixed.front().values, counted.values);
   for (std::size_t t = 0; t < 100; ++t) EXPECT_EQ(mixed.front()(t, 0), -mixed.front()(t, 1));
-  auto sorted = mixed.front().channel(0);
+  auto sorted = channel_of(mixed, 0).front();
   std::sort(sorted.begin(), sorted.end());
-  EXPECT_EQ(sorted, counted.channel(0));
+  EXPECT_EQ(sorted, channel_of({&counted, 1}, 0).front());
 }
 
 TEST(FidelityStretch, TheSameSeedShufflesAlike) {
