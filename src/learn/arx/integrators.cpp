@@ -1,11 +1,10 @@
 // Source: D. Dickey and W. Fuller, "Distribution of the estimators for autoregressive time series with a unit root",
 // JASA 74 (1979): the limit of the squared t statistic with an estimated constant.
 
-#include "learn/arx/integrators.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "learn/arx/learn_arx.hpp"
 #include "learn/judge/judged_fit.hpp"
 #include "learn/rows/arx_design.hpp"
 
@@ -49,7 +48,7 @@ std::vector<int> find_integrators(std::span<const Recording> recordings, const C
     if (!held) break;
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (!open[i]) continue;
-      const double statistic = double(held->summary.samples_used) * std::log(held->summary.loss[i] / before[i]);
+      const double statistic = double(held->summary.rows) * std::log(held->summary.loss[i] / before[i]);
       open[i] = statistic <= kDickeyFuller || held->summary.fit_percent[i] > kExact;
       before[i] = held->summary.loss[i];
       if (!open[i] || !(held->summary.free_run_fit_percent[i] > best[i] + kGain)) continue;

@@ -24,9 +24,8 @@ LagLayout all_lags(const Signals& signals, const DelayOptions& options, int most
 }
 
 // Regressors of one output: input k with delay nk (without lags where nk is unset), the other inputs with all lags.
-CandidateRows with_delay(const LagLayout& layout, const DelayOptions& options, int output, int k,
-                         std::optional<int> nk) {
-  CandidateRows rows{{}, {output}};
+SharedRows with_delay(const LagLayout& layout, const DelayOptions& options, int output, int k, std::optional<int> nk) {
+  SharedRows rows{{}, {output}};
   for (int p = 1; p < layout.size(); ++p) {
     const auto [channel, lag] = layout[p];
     const bool feedback = channel < layout.outputs() && lag > 0;

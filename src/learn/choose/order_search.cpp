@@ -64,21 +64,21 @@ class Search {
  public:
   Search(const Signals& signals, const Signals* validation, const SearchOptions& options,
          const std::vector<OrderCandidate>& candidates)
-      : signals_(signals), validation_signals_(validation), options_(options), layout_(layout_of(candidates)) {
-    int earliest = kMaxOrder * 2;
+      : signals_(signals), validation_signals_(validation), options_(options), layout_(layout()) {
+    int earliest = kMaxOrder * 2, latest = 0;
     for (const OrderCandidate& candidate : candidates) {
-      latest_ = std::max(latest_, candidate.orders.history());
+      latest = std::max(latest, candidate.orders.history());
       earliest = std::min(earliest, candidate.orders.history());
     }
-    windows_.emplace(signals, layout_, earliest, latest_);
-    if (validation != nullptr && options.steps == 1) validation_.emplace(*validation, layout_, earliest, latest_);
+    windows_.emplace(signals, layout_, earliest, latest);
+    if (validation != nullptr && options.steps == 1) validation_.emplace(*validation, layout_, earliest, latest);
   }
 
   Result<void> judge(OrderCandidate& candidate) {
     const int first = candidate.orders.history();
-    const std::vector<CandidateRows> rows = rows_of(candidate.orders);
+    const std::vector<SharedRows> rows = shared_rows(candidate.orders, options_.offset, layout_);
     std::size_t most = 0;
-    for (const CandidateRows& part : rows) most = std::max(most, part.columns.size());
+    for (const SharedRows& part : rows) most = std::max(most, part.columns.size());
     candidate.rows = windows_->rows(first);
     if (candidate.rows <= most) return too_few(candidate, most);
     const CandidateFit fit = fit_candidate(*windows_, first, layout_, rows);
@@ -94,39 +94,16 @@ class Search {
   }
 
  private:
-  LagLayout layout_of(const std::vector<OrderCandidate>& candidates) const {
-    std::vector<std::vector<bool>> used(signals_.channels());
-    std::vector<LaggedChannel> columns;
-    for (const OrderCandidate& candidate : candidates) {
-      for (int i = 0; i < signals_.outputs; ++i) {
-        for (const LaggedChannel& column : row_regressors(candidate.orders, i, ArxOffset::kMean)) {
-          auto& lags = used[column.channel];
-          if (lags.size() <= static_cast<std::size_t>(column.lag))
-            lags.resize(static_cast<std::size_t>(column.lag) + 1);
-          if (!lags[column.lag]) columns.push_back(column);
-          lags[column.lag] = true;
-        }
-      }
-    }
-    return LagLayout(signals_.outputs, signals_.inputs, columns);
-  }
-
-  std::vector<CandidateRows> rows_of(const ArxOrders& orders) const {
-    std::vector<CandidateRows> rows;
-    for (int i = 0; i < signals_.outputs; ++i) {
-      std::vector<int> columns;
-      for (const LaggedChannel& column : row_regressors(orders, i, options_.offset)) {
-        columns.push_back(layout_.find(column));
-      }
-      const auto same =
-          std::find_if(rows.begin(), rows.end(), [&](const auto& part) { return part.columns == columns; });
-      if (same != rows.end()) {
-        same->outputs.push_back(i);
-      } else {
-        rows.push_back({std::move(columns), {i}});
-      }
-    }
-    return rows;
+  // Layout of all candidates: that of one model with the first delay and every lag from there to the last.
+  LagLayout layout() const {
+    const int lags = options_.nb.last > 0 ? options_.nb.last + options_.nk.last - options_.nk.first : 0;
+    const ArxOrders all = make_orders({.outputs = signals_.outputs,
+                                       .inputs = signals_.inputs,
+                                       .na = options_.na.last,
+                                       .nb = lags,
+                                       .nk = options_.nk.first,
+                                       .coupling = options_.coupling});
+    return make_design(all, ArxOffset::kMean).layout;
   }
 
   std::vector<double> losses(const Eigen::MatrixXd& gram, std::size_t rows) const {
@@ -147,12 +124,8 @@ class Search {
     }
     double coefficients = 0;
     for (int i = 0; i < signals_.outputs; ++i) coefficients += row_size(candidate, i, options_.offset);
-    const Criteria criteria =
+    static_cast<Criteria&>(candidate) =
         criteria_of(covariance, signals_.outputs, static_cast<double>(candidate.rows), coefficients);
-    candidate.fpe = criteria.fpe;
-    candidate.aic = criteria.aic;
-    candidate.aicc = criteria.aicc;
-    candidate.bic = criteria.bic;
   }
 
   // The model in the data's units, about the operating point of the validation recordings.
@@ -167,8 +140,7 @@ class Search {
         if (column.channel == kConstantChannel) {
           model.constant[i] = -weight;
         } else {
-          const double sign = column.channel < signals_.outputs ? 1.0 : -1.0;
-          model.theta[i].push_back(sign * weight * signals_.scale[column.channel]);
+          model.theta[i].push_back(-sign_of(column, signals_.outputs) * weight * signals_.scale[column.channel]);
         }
       }
     }
@@ -210,7 +182,6 @@ class Search {
   const Signals* validation_signals_;
   const SearchOptions& options_;
   LagLayout layout_;
-  int latest_ = 0;
   std::optional<SearchWindows> windows_;
   std::optional<SearchWindows> validation_;
 };
@@ -237,13 +208,9 @@ double value_of(const OrderCandidate& candidate, OrderCriterion by) {
 
 double value_of_row(const OrderCandidate& candidate, OrderCriterion by, int i, double d) {
   if (by == OrderCriterion::kValidation) return candidate.loss_validation[i];
-  const Criteria criteria = criteria_of({&candidate.loss[i], 1}, 1, static_cast<double>(candidate.rows), d);
   OrderCandidate row;
   row.rows = candidate.rows;
-  row.fpe = criteria.fpe;
-  row.aic = criteria.aic;
-  row.aicc = criteria.aicc;
-  row.bic = criteria.bic;
+  static_cast<Criteria&>(row) = criteria_of({&candidate.loss[i], 1}, 1, static_cast<double>(candidate.rows), d);
   return value_of(row, by);
 }
 

@@ -32,17 +32,13 @@ struct SearchOptions {
 };
 
 /// A candidate and its figures. Fits are as estimated, without stabilisation.
-struct OrderCandidate {
+struct OrderCandidate : Criteria {
   ArxOrders orders;
   int na = 0;  ///< orders and delay of the grid point
   int nb = 0;
   int nk = 0;
-  std::size_t rows = 0;      ///< number of rows in the estimation
-  std::vector<double> loss;  ///< V per output, its unit²
-  double fpe = 0;            ///< fpe and the next three: as in ArxSummary
-  double aic = 0;
-  double aicc = 0;
-  double bic = 0;
+  std::size_t rows = 0;                 ///< number of rows in the estimation
+  std::vector<double> loss;             ///< V per output, its unit²
   std::vector<double> loss_validation;  ///< mean squared error per output; empty without validation recordings
   bool determined = true;               ///< false: the data do not determine all of its coefficients
 };

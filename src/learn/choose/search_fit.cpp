@@ -33,7 +33,7 @@ Eigen::MatrixXd products_by_triangle(const Eigen::MatrixXd& triangle, const Eige
   return residuals.transpose() * residuals;
 }
 
-bool solve_by_gram(const Eigen::MatrixXd& gram, const CandidateRows& rows, const LagLayout& layout,
+bool solve_by_gram(const Eigen::MatrixXd& gram, const SharedRows& rows, const LagLayout& layout,
                    Eigen::MatrixXd& annihilator) {
   const Eigen::MatrixXd part = gram(rows.columns, rows.columns);
   const Eigen::VectorXd weight = part.diagonal().cwiseSqrt().cwiseInverse();
@@ -48,7 +48,7 @@ bool solve_by_gram(const Eigen::MatrixXd& gram, const CandidateRows& rows, const
   return true;
 }
 
-bool solve_by_triangle(const Eigen::MatrixXd& triangle, const CandidateRows& rows, const LagLayout& layout,
+bool solve_by_triangle(const Eigen::MatrixXd& triangle, const SharedRows& rows, const LagLayout& layout,
                        Eigen::MatrixXd& annihilator) {
   SharedProblem problem{rows.columns, {}, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.columns.size())), {}};
   for (int output : rows.outputs) problem.targets.push_back(layout.target(output));
@@ -113,13 +113,13 @@ const Eigen::MatrixXd& SearchWindows::triangle(int first_sample) {
 }
 
 CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
-                           const std::vector<CandidateRows>& rows) {
+                           const std::vector<SharedRows>& rows) {
   CandidateFit fit;
   fit.annihilator = Eigen::MatrixXd::Zero(layout.size(), layout.outputs());
   for (int i = 0; i < layout.outputs(); ++i) fit.annihilator(layout.target(i), i) = 1;
   const Eigen::MatrixXd& gram = windows.gram(first_sample);
   bool by_gram = true;
-  for (const CandidateRows& part : rows) by_gram = by_gram && solve_by_gram(gram, part, layout, fit.annihilator);
+  for (const SharedRows& part : rows) by_gram = by_gram && solve_by_gram(gram, part, layout, fit.annihilator);
   if (by_gram) {
     if (auto square = products(gram, fit.annihilator)) {
       fit.residual_gram = std::move(*square);
@@ -127,7 +127,7 @@ CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLa
     }
   }
   const Eigen::MatrixXd& triangle = windows.triangle(first_sample);
-  for (const CandidateRows& part : rows) {
+  for (const SharedRows& part : rows) {
     fit.determined = solve_by_triangle(triangle, part, layout, fit.annihilator) && fit.determined;
   }
   fit.residual_gram = products_by_triangle(triangle, fit.annihilator);

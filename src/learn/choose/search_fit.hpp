@@ -5,7 +5,6 @@
 #include <map>
 #include <vector>
 
-#include "learn/numeric/lag_layout.hpp"
 #include "learn/rows/arx_design.hpp"
 #include "learn/rows/arx_rows.hpp"
 
@@ -39,12 +38,6 @@ class SearchWindows {
   std::map<int, Eigen::MatrixXd> triangle_;
 };
 
-/// Rows of a candidate: regressors and targets, as columns of the search's layout.
-struct CandidateRows {
-  std::vector<int> columns;
-  std::vector<int> outputs;
-};
-
 struct CandidateFit {
   /// One column per output over all columns of the layout: −θ at the regressors, 1 at the target. A row of data times
   /// it is the residual.
@@ -55,7 +48,7 @@ struct CandidateFit {
 
 /// Fits a candidate within the window that starts at `first_sample`.
 CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
-                           const std::vector<CandidateRows>& rows);
+                           const std::vector<SharedRows>& rows);
 
 /// Σ r_i r_j of a fit over a window of different data.
 Eigen::MatrixXd residual_gram_over(SearchWindows& windows, int first_sample, const Eigen::MatrixXd& annihilator);

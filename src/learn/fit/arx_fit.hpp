@@ -54,29 +54,29 @@ struct ArxStability {
   double moved = 0;        ///< largest change of a coefficient by stabilisation alone, in its standard errors
 };
 
-/// Quality of the fit, warnings and verdict. Figures are those of the model as returned.
-struct ArxSummary {
+/// Information criteria over n rows of residuals with covariance Λ, for c coefficients of all outputs together.
+struct Criteria {
+  double fpe = 0;        ///< det Λ (1 + d/n)/(1 − d/n), d = c / outputs
+  double fpe_total = 0;  ///< FPE with d = c, as in MATLAB
+  double aic = 0;        ///< n ln det Λ + 2c
+  double aicc = 0;       ///< aic + 2c (c + 1)/(n − c − 1); infinite where n <= c + 1
+  double bic = 0;        ///< n ln det Λ + c ln n
+};
+
+/// Quality of the fit, warnings and verdict. Figures are those of the model as returned; the criteria are of its noise
+/// covariance and effective numbers of coefficients.
+struct ArxSummary : Criteria, RowCounts {
   std::vector<double> loss;              ///< V: mean squared residual per output over the rows used, output's unit²
   std::vector<double> noise_covariance;  ///< ny × ny, row-major: mean products of residuals over rows used
-  double fpe = 0;        ///< det(noise covariance)·(1 + d/n)/(1 − d/n), d = mean number of coefficients per output
-  double fpe_total = 0;  ///< FPE with d = d_total, the coefficients of all outputs together, as in MATLAB
-  double aic = 0;        ///< n ln det(noise covariance) + 2 d_total
-  double aicc = 0;       ///< aic + 2 d_total (d_total + 1)/(n − d_total − 1)
-  double bic = 0;        ///< n ln det(noise covariance) + d_total ln n
-  std::vector<double> row_fpe;               ///< V·(1 + d/n)/(1 − d/n) per output row with d of that row
-  std::vector<double> fit_percent;           ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) one step ahead, per output
+  std::vector<double> row_fpe;           ///< V·(1 + d/n)/(1 − d/n) per output row with d of that row
+  std::vector<double> fit_percent;       ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) one step ahead, per output
   std::vector<double> free_run_fit_percent;  ///< fit_percent of free simulation from the input; empty without inputs
   std::vector<double> played_fit_percent;    ///< fit_percent of the stored model in single precision, as it is played
   std::vector<double> condition;             ///< 2-norm condition number of each output row's regressors, data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;
   std::vector<double> effective;  ///< d per output: number of coefficients, or the effective number under a kernel
-  std::size_t samples_used = 0;   ///< n: rows in the regression
-  int first_sample = 0;           ///< first row of an episode that is predicted, 0-based
-  std::size_t episodes_used = 0;
-  std::size_t episodes_skipped = 0;  ///< episodes too short to predict a single row
-  std::size_t rows_left_out = 0;     ///< rows skipped because a sample in them or in their history is missing
-  std::string method;                ///< name of the factorisation, and why it was chosen
+  std::string method;             ///< name of the factorisation, and why it was chosen
   std::vector<std::string> warnings;
   Usable usable;
 };

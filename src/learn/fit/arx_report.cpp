@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/fit/arx_stability.hpp"
 #include "learn/numeric/chi_squared.hpp"
+#include "learn/numeric/decompositions.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -29,11 +29,6 @@ double scale_of(const FitFacts& facts, const LaggedChannel& column) {
   return column.channel == kConstantChannel ? 1.0 : facts.scale[column.channel];
 }
 
-// Sign of a coefficient: −1 for those of A, which are on the left side of the equation.
-double sign_of(const FitFacts& facts, const LaggedChannel& column) {
-  return column.channel != kConstantChannel && column.channel < facts.outputs ? -1.0 : 1.0;
-}
-
 // The model in scaled units, without means.
 ArxModel scaled_model(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate) {
   ArxModel model;
@@ -49,7 +44,7 @@ ArxModel scaled_model(const FitFacts& facts, const ArxDesign& design, const ArxE
         if (column.channel == kConstantChannel) {
           model.constant[rows.outputs[k]] = theta;
         } else {
-          model.theta[rows.outputs[k]].push_back(sign_of(facts, column) * theta);
+          model.theta[rows.outputs[k]].push_back(sign_of(column, facts.outputs) * theta);
         }
       }
     }
@@ -66,7 +61,7 @@ GroupThetas thetas_of(const FitFacts& facts, const ArxDesign& design, const ArxM
         const LaggedChannel column = design.layout[rows.columns[p]];
         theta(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(k)) =
             column.channel == kConstantChannel ? scaled.constant[rows.outputs[k]]
-                                               : sign_of(facts, column) * scaled.theta[rows.outputs[k]][p];
+                                               : sign_of(column, facts.outputs) * scaled.theta[rows.outputs[k]][p];
       }
     }
   }
@@ -80,7 +75,7 @@ std::vector<Eigen::MatrixXd> inverses(const FitFacts& facts, const ArxDesign& de
     const SharedRows& rows = design.groups[g];
     Eigen::VectorXd sign(static_cast<Eigen::Index>(rows.columns.size()));
     for (std::size_t p = 0; p < rows.columns.size(); ++p) {
-      sign[static_cast<Eigen::Index>(p)] = sign_of(facts, design.layout[rows.columns[p]]);
+      sign[static_cast<Eigen::Index>(p)] = sign_of(design.layout[rows.columns[p]], facts.outputs);
     }
     for (int output : rows.outputs) {
       all[output] = sign.asDiagonal() * estimate.groups[g].inverse * sign.asDiagonal();
@@ -128,8 +123,12 @@ void write_std_errors(const FitFacts& facts, const ArxDesign& design, const ArxE
 
 void write_effective(const ArxDesign& design, const ArxEstimate& estimate, ArxSummary& summary) {
   summary.effective.resize(std::size_t(design.layout.outputs()));
+  summary.condition.resize(summary.effective.size());
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
-    for (int output : design.groups[g].outputs) summary.effective[std::size_t(output)] = estimate.effective[g];
+    for (int output : design.groups[g].outputs) {
+      summary.effective[std::size_t(output)] = estimate.effective[g];
+      summary.condition[std::size_t(output)] = estimate.groups[g].condition;
+    }
   }
 }
 
@@ -141,12 +140,7 @@ void write_criteria(const FitFacts& facts, ArxSummary& summary) {
     coefficients += d;
     summary.row_fpe.push_back(summary.loss[i] * (1 + d / n) / (1 - d / n));
   }
-  const Criteria criteria = criteria_of(summary.noise_covariance, facts.outputs, n, coefficients);
-  summary.fpe = criteria.fpe;
-  summary.fpe_total = criteria.fpe_total;
-  summary.aic = criteria.aic;
-  summary.aicc = criteria.aicc;
-  summary.bic = criteria.bic;
+  static_cast<Criteria&>(summary) = criteria_of(summary.noise_covariance, facts.outputs, n, coefficients);
 }
 
 void write_loss(const FitFacts& facts, const ArxEstimate& estimate, const Eigen::MatrixXd& residual_gram,
@@ -173,20 +167,13 @@ void write_noise(const FitFacts& facts, const ArxSummary& summary, ArxModel& mod
   }
 }
 
-// Index of each row's first coefficient in the joint covariance.
-std::vector<Eigen::Index> row_starts(const ArxModel& model) {
-  std::vector<Eigen::Index> starts{0};
-  for (const auto& row : model.theta) starts.push_back(starts.back() + static_cast<Eigen::Index>(row.size()));
-  return starts;
-}
-
 // Factors from scaled coefficients without A's sign to the model's coefficients.
 Eigen::VectorXd factors(const FitFacts& facts, const ArxDesign& design, const SharedRows& rows, int output,
                         Eigen::Index size) {
   Eigen::VectorXd out(size);
   for (Eigen::Index p = 0; p < size; ++p) {
     const LaggedChannel column = design.layout[rows.columns[p]];
-    out[p] = sign_of(facts, column) * scale_of(facts, column) * inverse_or_zero(facts.scale[output]);
+    out[p] = sign_of(column, facts.outputs) * scale_of(facts, column) * inverse_or_zero(facts.scale[output]);
   }
   return out;
 }
@@ -253,6 +240,27 @@ void name_rank_problems(const FitFacts& facts, const ArxDesign& design, const Ar
   }
 }
 
+// Scales the poles of one output's A; B and the constant move to their conditional optimum for that A.
+void scale_row(const Eigen::MatrixXd& inverse, double factor, int output, ArxModel& model) {
+  std::vector<double>& theta = model.theta[output];
+  std::vector<double> moved;
+  for (int j = 0; j < model.orders.outputs(); ++j) {
+    double power = factor;
+    for (int lag = 0; lag < model.orders.na(output, j); ++lag, power *= factor) {
+      moved.push_back(theta[moved.size()] * (power - 1));
+    }
+  }
+  const auto own = std::ssize(moved);
+  const Eigen::VectorXd push =
+      ranked_solution(inverse.topLeftCorner(own, own), Eigen::Map<const Eigen::VectorXd>(moved.data(), own)).x;
+  const Eigen::VectorXd follow = inverse.bottomLeftCorner(inverse.rows() - own, own) * push;
+  for (Eigen::Index k = 0; k < own; ++k) theta[k] += moved[k];
+  for (Eigen::Index k = 0; k < follow.size(); ++k) {
+    const auto place = static_cast<std::size_t>(own + k);
+    (place < theta.size() ? theta[place] : model.constant[output]) += follow[k];
+  }
+}
+
 // Stability is checked, and restored where needed, on coefficients rounded to single precision, as they are stored.
 void settle_stability(const FitFacts& facts, const std::vector<Eigen::MatrixXd>& inverse, ArxModel& scaled,
                       ArxStability& stable) {
@@ -288,8 +296,6 @@ double loss_factor(const Eigen::MatrixXd& with, const Eigen::MatrixXd& without) 
   return std::exp(log);
 }
 
-std::string percent(double value) { return value > -1000 ? number_text(value, 3) + " %" : "nothing: it diverges"; }
-
 // Percent. A one-step fit above kPromise with a free-run fit below kKept hides the model's failure.
 constexpr double kPromise = 80, kKept = 60;
 
@@ -298,13 +304,47 @@ void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summa
   for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
     const double one_step = summary.fit_percent[i], free_run = summary.free_run_fit_percent[i];
     if (one_step < kPromise || free_run >= kKept) continue;
-    summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
-                               ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") +
-                               percent(free_run) + "; judge this model by simulation, and try other orders or delays");
+    summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + fit_text(one_step) +
+                               ", but free simulation from the input fits " + (free_run > kDiverges ? "only " : "") +
+                               fit_text(free_run) + "; judge this model by simulation, and try other orders or delays");
   }
 }
 
 }  // namespace
+
+std::string fit_text(double percent) {
+  return percent > kDiverges ? number_text(percent, 3) + " %" : "nothing: it diverges";
+}
+
+std::vector<Eigen::Index> row_starts(const ArxModel& model) {
+  std::vector<Eigen::Index> starts{0};
+  for (const auto& row : model.theta) starts.push_back(starts.back() + static_cast<Eigen::Index>(row.size()));
+  return starts;
+}
+
+Eigen::MatrixXd companion_of(const ArxModel& model, const std::vector<int>& outputs) {
+  int order = 0;
+  for (int value : model.orders.na.values()) order = std::max(order, value);
+  const Eigen::Index count = std::ssize(outputs), states = count * order;
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(states, states);
+  for (Eigen::Index r = 0; r < count; ++r) {
+    for (Eigen::Index c = 0; c < count; ++c) {
+      const auto a = model.a(outputs[r], outputs[c]);
+      for (Eigen::Index lag = 0; lag < std::ssize(a); ++lag) companion(r, lag * count + c) = -a[lag];
+    }
+  }
+  for (Eigen::Index r = count; r < states; ++r) companion(r, r - count) = 1;
+  return companion;
+}
+
+void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius, double share) {
+  for (const std::vector<int>& outputs : coupled_outputs(model.orders.na)) {
+    const Eigen::MatrixXd companion = companion_of(model, outputs);
+    const double radius = companion.size() > 0 ? eigenvalues(companion).cwiseAbs().maxCoeff() : 0;
+    if (radius <= max_radius) continue;
+    for (int output : outputs) scale_row(inverse[output], share * max_radius / radius, output, model);
+  }
+}
 
 Criteria criteria_of(std::span<const double> covariance, int outputs, double rows, double coefficients) {
   const double log_det = log_determinant(covariance, outputs);
@@ -339,16 +379,8 @@ ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate es
   write_effective(design, estimate, summary);
   write_criteria(facts, summary);
   write_noise(facts, summary, fit.model);
-  summary.condition.resize(facts.outputs);
-  for (std::size_t g = 0; g < design.groups.size(); ++g) {
-    for (int output : design.groups[g].outputs) summary.condition[output] = estimate.groups[g].condition;
-  }
   name_rank_problems(facts, design, estimate, summary);
-  summary.samples_used = facts.rows;
-  summary.first_sample = facts.first_sample;
-  summary.episodes_used = facts.episodes_used;
-  summary.episodes_skipped = facts.episodes_skipped;
-  summary.rows_left_out = facts.rows_left_out;
+  static_cast<RowCounts&>(summary) = facts;
   summary.method = std::move(estimate.method);
   return fit;
 }

@@ -16,33 +16,40 @@
 namespace wisp {
 
 /// All facts about a fit except its estimate.
-struct FitFacts {
+struct FitFacts : RowCounts {
   ArxOptions options;
   int outputs = 0;
   std::vector<std::string> names;  ///< outputs, then inputs
   std::vector<double> offset;      ///< per channel
   std::vector<double> scale;       ///< per channel
-  std::size_t rows = 0;
-  int first_sample = 0;
-  std::size_t episodes_used = 0;
-  std::size_t episodes_skipped = 0;
-  std::size_t rows_left_out = 0;
-  double drawn_in = 1;  ///< share of the maximum stable radius to which unstable poles are scaled
+  double drawn_in = 1;             ///< share of the maximum stable radius to which unstable poles are scaled
 };
 
-struct Criteria {
-  double fpe = 0;        ///< det Λ (1 + d/n)/(1 − d/n), d = coefficients / outputs
-  double fpe_total = 0;  ///< FPE with d = coefficients
-  double aic = 0;        ///< n ln det Λ + 2 coefficients
-  double aicc = 0;       ///< aic + 2 c (c + 1)/(n − c − 1), c = coefficients; infinite where n <= c + 1
-  double bic = 0;        ///< n ln det Λ + c ln n
-};
+/// Percent of fit below which the simulation is reported to diverge, without a figure.
+inline constexpr double kDiverges = -1000;
+std::string fit_text(double percent);
+
+/// Index of each output row's first coefficient in the joint covariance.
+std::vector<Eigen::Index> row_starts(const ArxModel& model);
 
 /// Information criteria of residuals with covariance Λ (ny × ny, row-major) over n rows.
 Criteria criteria_of(std::span<const double> covariance, int outputs, double rows, double coefficients);
 
 /// Inverse of a channel's scale; 0 for the scale 0 of a constant channel.
 inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
+
+/// Companion matrix of a set of outputs without coupling to other outputs: its eigenvalues are their poles.
+Eigen::MatrixXd companion_of(const ArxModel& model, const std::vector<int>& outputs);
+
+/// Where a group of coupled outputs has a pole beyond `max_radius`, scales all poles of the group by one factor, so
+/// that the largest radius becomes share · max_radius. B and the constant move to their optimum for that A. `inverse`,
+/// per output row: (XᵀX)⁻¹ of its regressors, laid out and scaled as in the model, with an estimated constant last.
+///
+/// Chosen on public data: least squares on the boundary of the stable set has the lower one-step loss but the larger
+/// simulation error on unseen rows (docs/studies/identification.md).
+///
+/// Preconditions: 0 < max_radius < 1; one inverse per output row, positive semidefinite.
+void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius, double share = 1);
 
 /// The model, stabilised unless disabled, and its summary; judge_fit sets `usable`.
 ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);

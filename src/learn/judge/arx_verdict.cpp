@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "learn/fit/arx_report.hpp"
+#include "learn/numeric/constants.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp::arx {
@@ -12,19 +13,12 @@ namespace {
 // A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
 constexpr double kTimesBound = 2.5;
 
-// Percent of fit below which the simulation is reported to diverge, without a figure.
-constexpr double kDiverges = -1000;
-
-std::string fit_text(double percent) {
-  return percent > kDiverges ? number_text(percent, 3) + " %" : std::string("nothing: it diverges");
-}
-
 std::string too_few_rows(const ArxSummary& summary) {
   const auto& numbers = summary.effective;
   const int most = numbers.empty() ? 0 : int(std::ceil(*std::max_element(numbers.begin(), numbers.end()) - 1e-9));
-  const auto rows = static_cast<double>(summary.samples_used);
+  const auto rows = static_cast<double>(summary.rows);
   if (most == 0 || rows >= kMinRowsACoefficient * most) return "";
-  return std::to_string(summary.samples_used) + " rows are too few for " + std::to_string(most) +
+  return std::to_string(summary.rows) + " rows are too few for " + std::to_string(most) +
          " coefficients an output: fewer than " + number_text(kMinRowsACoefficient, 3) +
          " a coefficient; record more, or lower the orders";
 }
@@ -142,7 +136,7 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
         }
       }
     }
-    out.push_back(rows > 0 ? sum / rows : std::numeric_limits<double>::quiet_NaN());
+    out.push_back(rows > 0 ? sum / rows : kMissing);
   }
   return out;
 }

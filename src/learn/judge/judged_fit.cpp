@@ -85,8 +85,7 @@ Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoic
   const RowPlan plan = plan_rows(*signals, design.layout, options.orders.history());
   if (auto ok = check_rows(plan, design); !ok) return ok.error();
 
-  const FitFacts facts{options,   signals->outputs,  signals->names,     signals->offset,       signals->scale,
-                       plan.rows, plan.first_sample, plan.episodes_used, plan.episodes_skipped, plan.rows_left_out};
+  const FitFacts facts{plan, options, signals->outputs, signals->names, signals->offset, signals->scale};
   ArxEstimate estimate =
       estimate_from_data(*signals, plan, design, {options.covariance, options.kernel, options.kernel_outputs});
   if (!options.integrators.empty()) hold_integrators(options, design, estimate);

@@ -337,7 +337,7 @@ class Runner {
         response.row(r).setZero();
       }
     }
-    const Eigen::VectorXd past = shortest_solution(response, rest);
+    const Eigen::VectorXd past = ranked_solution(response, rest).x;
     return {past.begin(), past.end()};
   }
 

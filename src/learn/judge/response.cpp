@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "learn/fit/arx_errors.hpp"
-#include "learn/fit/arx_stability.hpp"
+#include "learn/fit/arx_report.hpp"
 #include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
@@ -97,13 +97,6 @@ std::vector<Complex> sorted(const VectorXcd& values) {
     return a.real() != b.real() ? a.real() > b.real() : a.imag() > b.imag();
   });
   return out;
-}
-
-// Index of each row's first coefficient among those of all rows.
-std::vector<Index> row_starts(const ArxModel& model) {
-  std::vector<Index> starts{0};
-  for (const auto& row : model.theta) starts.push_back(starts.back() + static_cast<Index>(row.size()));
-  return starts;
 }
 
 using Covariance = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;

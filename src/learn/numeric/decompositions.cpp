@@ -27,8 +27,6 @@ SymmetricEigensystem symmetric_eigensystem(const MatrixXd& matrix) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-VectorXd shortest_solution(const MatrixXd& matrix, const VectorXd& right) { return ranked_solution(matrix, right).x; }
-
 RankedSolution ranked_solution(const MatrixXd& matrix, const VectorXd& right) {
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(matrix);
   return {solver.solve(right), solver.rank()};

@@ -21,15 +21,12 @@ struct SymmetricEigensystem {
 
 SymmetricEigensystem symmetric_eigensystem(const Eigen::MatrixXd& matrix);
 
-/// Minimum-norm solution of the least-squares problem |`matrix` x − `right`|.
-Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
-
 struct RankedSolution {
   Eigen::VectorXd x;
   Eigen::Index rank;  ///< rank of the matrix
 };
 
-/// shortest_solution() together with the numerical rank.
+/// Minimum-norm solution of the least-squares problem |`matrix` x − `right`|, with the numerical rank.
 RankedSolution ranked_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 /// Solves with a positive or negative semidefinite matrix, of which only the lower triangle is read.

@@ -333,7 +333,7 @@ Result<OutlineDynamics> fit_points(std::span<const Recording> recordings, const 
   auto fitted = fit_arx(recordings, prepared.channels, options);
   if (!fitted) return fitted.error();
   OutlineDynamics out{std::move(fitted->model), {}, 0, fitted->summary.stable.changed};
-  out.rows = fitted->summary.samples_used;
+  out.rows = fitted->summary.rows;
   out.arx.std_error.clear();
   return out;
 }

@@ -19,35 +19,31 @@ std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, A
   return columns;
 }
 
-std::size_t ArxDesign::row_size(int output) const {
-  for (const SharedRows& group : groups) {
-    if (std::find(group.outputs.begin(), group.outputs.end(), output) != group.outputs.end()) {
-      return group.columns.size();
+std::vector<SharedRows> shared_rows(const ArxOrders& orders, ArxOffset offset, const LagLayout& layout, bool apart) {
+  std::vector<SharedRows> groups;
+  for (int i = 0; i < orders.outputs(); ++i) {
+    std::vector<int> columns;
+    for (const LaggedChannel& column : row_regressors(orders, i, offset)) columns.push_back(layout.find(column));
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const SharedRows& group) { return group.columns == columns; });
+    if (!apart && same != groups.end()) {
+      same->outputs.push_back(i);
+    } else {
+      groups.push_back({std::move(columns), {i}});
     }
   }
-  return 0;
+  return groups;
 }
 
 ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart) {
-  std::vector<std::vector<LaggedChannel>> rows;
   std::vector<LaggedChannel> used;
   for (int i = 0; i < orders.outputs(); ++i) {
-    rows.push_back(row_regressors(orders, i, offset));
-    used.insert(used.end(), rows.back().begin(), rows.back().end());
+    const auto row = row_regressors(orders, i, offset);
+    used.insert(used.end(), row.begin(), row.end());
   }
-  ArxDesign design{LagLayout(orders.outputs(), orders.inputs(), used), {}};
-  for (int i = 0; i < orders.outputs(); ++i) {
-    std::vector<int> columns;
-    for (const LaggedChannel& column : rows[i]) columns.push_back(design.layout.find(column));
-    const auto same = std::find_if(design.groups.begin(), design.groups.end(),
-                                   [&](const SharedRows& group) { return group.columns == columns; });
-    if (!apart && same != design.groups.end()) {
-      same->outputs.push_back(i);
-    } else {
-      design.groups.push_back({std::move(columns), {i}});
-    }
-  }
-  return design;
+  LagLayout layout(orders.outputs(), orders.inputs(), used);
+  auto groups = shared_rows(orders, offset, layout, apart);
+  return {std::move(layout), std::move(groups)};
 }
 
 ChannelPairs wanted_pairs(const ArxDesign& design) {

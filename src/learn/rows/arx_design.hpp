@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "learn/numeric/lag_layout.hpp"
 #include "learn/rows/lag_gram.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
@@ -37,15 +36,22 @@ struct SharedRows {
 struct ArxDesign {
   LagLayout layout;
   std::vector<SharedRows> groups;
-
-  /// Number of coefficients of an output row, including the constant.
-  std::size_t row_size(int output) const;
 };
 
 /// Regressors of one output row in theta's order; the constant, where it is estimated, comes last.
 std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset);
 
-/// Design of the regression. With `apart` every output is its own group, even where regressors are equal.
+/// Sign of a coefficient in the model: −1 for those of A, which are on the left side of the equation.
+inline double sign_of(const LaggedChannel& column, int outputs) {
+  return column.channel != kConstantChannel && column.channel < outputs ? -1.0 : 1.0;
+}
+
+/// Output rows on a layout that has their regressors. With `apart` every output is its own group, even where regressors
+/// are equal.
+std::vector<SharedRows> shared_rows(const ArxOrders& orders, ArxOffset offset, const LagLayout& layout,
+                                    bool apart = false);
+
+/// Design of the regression, on a layout of exactly its regressors.
 ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart = false);
 
 /// Channels whose products the design's rows need.

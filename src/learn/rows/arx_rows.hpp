@@ -6,12 +6,51 @@
 #include <string>
 #include <vector>
 
-#include "learn/numeric/lag_layout.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
+
+/// A column of a regression: channel `channel` at t − lag. Channels are the outputs, then the inputs; the constant
+/// column is channel −1.
+struct LaggedChannel {
+  int channel = 0;
+  int lag = 0;
+  friend bool operator==(const LaggedChannel&, const LaggedChannel&) = default;
+};
+inline constexpr int kConstantChannel = -1;
+
+/// Columns in a fixed order: the constant, then for each channel the lags in use, ascending. Lag 0 of every output is
+/// included as the target.
+class LagLayout {
+ public:
+  LagLayout(int outputs, int inputs, std::span<const LaggedChannel> used);
+
+  int outputs() const { return outputs_; }
+  int channels() const { return static_cast<int>(lags_.size()); }
+  int size() const { return static_cast<int>(columns_.size()); }
+
+  /// Largest lag in use, the number of rows of history.
+  int history() const { return history_; }
+
+  /// Lags in use of one channel, ascending.
+  std::span<const int> lags(int channel) const { return lags_[channel]; }
+
+  LaggedChannel operator[](int column) const { return columns_[column]; }
+
+  /// Position of a column, or −1 where it is absent.
+  int find(LaggedChannel column) const;
+
+  int target(int output) const { return find({output, 0}); }
+
+ private:
+  int outputs_;
+  int history_ = 0;
+  std::vector<std::vector<int>> lags_;
+  std::vector<int> first_;  // position of each channel's first lag
+  std::vector<LaggedChannel> columns_;
+};
 
 /// Names of channels, in the model's order. Roles in the recording are ignored: an output of one system may be an input
 /// of another.
@@ -58,14 +97,18 @@ struct RowRun {
   std::size_t end = 0;
 };
 
-/// All target rows of the regression.
-struct RowPlan {
-  std::vector<RowRun> runs;
-  std::size_t rows = 0;
-  int first_sample = 0;
+/// Numbers of rows and episodes in a regression.
+struct RowCounts {
+  std::size_t rows = 0;  ///< n: rows in the regression
+  int first_sample = 0;  ///< first row of an episode that is predicted, 0-based
   std::size_t episodes_used = 0;
-  std::size_t episodes_skipped = 0;
-  std::size_t rows_left_out = 0;
+  std::size_t episodes_skipped = 0;  ///< episodes too short to predict a single row
+  std::size_t rows_left_out = 0;     ///< rows skipped because a sample in them or in their history is missing
+};
+
+/// All target rows of the regression.
+struct RowPlan : RowCounts {
+  std::vector<RowRun> runs;
 };
 
 /// Finds the channels, with offsets 0 and scales 1. Errors: as fit_arx, for recordings and channels.

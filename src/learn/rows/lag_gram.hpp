@@ -13,7 +13,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "learn/numeric/lag_layout.hpp"
 #include "learn/rows/arx_rows.hpp"
 
 namespace wisp {

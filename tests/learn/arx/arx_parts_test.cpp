@@ -180,7 +180,7 @@ void expect_fit(const ArxPart& part, const Recording& recording, ArxOffset offse
     EXPECT_NEAR(model.constant[i], want->model.constant[i], 1e-10);
   }
   const auto number = [&](const char* id) { return std::get<std::int64_t>(got->report.find(id)->value); };
-  EXPECT_EQ(number("samples_used"), want->summary.samples_used);
+  EXPECT_EQ(number("samples_used"), want->summary.rows);
   EXPECT_EQ(number("first_sample"), want->summary.first_sample);
   EXPECT_EQ(number("rows_left_out"), want->summary.rows_left_out);
   EXPECT_EQ(number("episodes.used"), want->summary.episodes_used);

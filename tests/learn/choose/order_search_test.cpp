@@ -30,8 +30,8 @@ ArxOptions fit_options(const OrderCandidate& candidate, const SearchOptions& sea
 // The criteria are differences of large sums: relative to n, as they are compared.
 void expect_same(const OrderCandidate& got, const ArxFit& want) {
   const ArxSummary& summary = want.summary;
-  const double n = static_cast<double>(summary.samples_used);
-  EXPECT_EQ(got.rows, summary.samples_used);
+  const double n = static_cast<double>(summary.rows);
+  EXPECT_EQ(got.rows, summary.rows);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(got.loss[i] / summary.loss[i], 1, 1e-10);
   EXPECT_NEAR(got.fpe / summary.fpe, 1, 1e-10);
   EXPECT_NEAR(got.aic / n, summary.aic / n, 1e-10);

@@ -36,7 +36,7 @@ TEST(ArxFit, FindsTheCoefficientsOfNoiselessData) {
   ASSERT_TRUE(fit) << fit.error().message;
   const std::vector<double> expected{-1.5, 0.7, 1.0, 0.5};
   for (std::size_t p = 0; p < 4; ++p) EXPECT_NEAR(fit->model.theta[0][p], expected[p], 1e-12);
-  EXPECT_EQ(fit->summary.samples_used, 198u);
+  EXPECT_EQ(fit->summary.rows, 198u);
   EXPECT_EQ(fit->summary.first_sample, 2);
   EXPECT_TRUE(fit->summary.usable.verdict);
   EXPECT_NEAR(fit->summary.stable.radius, std::sqrt(0.7), 1e-6);

@@ -92,7 +92,7 @@ TEST(ArxHardCases, OneMissingSampleInAHundredThousandCostsItsRowsOnly) {
   recording.channels[1].samples[54321] = kMissing;
   const ArxFit got = fit(recording, options());
   EXPECT_EQ(got.summary.rows_left_out, 3u);
-  EXPECT_EQ(got.summary.samples_used, 100000u - 2 - 3);
+  EXPECT_EQ(got.summary.rows, 100000u - 2 - 3);
   expect_near(got.model.theta[0], kTruth, 0.01);
   EXPECT_TRUE(got.summary.usable.verdict);
 }
@@ -103,7 +103,7 @@ TEST(ArxHardCases, EpisodesShorterThanTheOrderAreSkippedAndCounted) {
   const ArxFit got = fit(recording, options());
   EXPECT_EQ(got.summary.episodes_used, 2u);
   EXPECT_EQ(got.summary.episodes_skipped, 1u);
-  EXPECT_EQ(got.summary.samples_used, 500u - 2 - 2 - 2);
+  EXPECT_EQ(got.summary.rows, 500u - 2 - 2 - 2);
 }
 
 TEST(ArxHardCases, NoHistoryCrossesFromOneEpisodeToTheNext) {
@@ -130,7 +130,7 @@ TEST(ArxHardCases, OrdersOfZeroGiveAModelOfTheMean) {
   const Recording recording = second_order(300, 0.1);
   const ArxFit got = fit(recording, options(1, 0, 0, 0));
   EXPECT_TRUE(got.model.theta[0].empty());
-  EXPECT_EQ(got.summary.samples_used, 300u);
+  EXPECT_EQ(got.summary.rows, 300u);
   EXPECT_NEAR(got.summary.fit_percent[0], 0, 1e-9);
   EXPECT_EQ(got.summary.stable.radius, 0);
   EXPECT_TRUE(check(got.model));

@@ -101,7 +101,7 @@ TEST_P(ArxMadeReference, CoefficientsStandardErrorsAndLossAgree) {
     // Where normal equations are solved, it is that of their triangle, which knows it to rounding times its square.
     const double square = row["condition"].number * row["condition"].number;
     EXPECT_NEAR(fit.summary.condition[i] / row["condition"].number, 1, 1e-13 + 2.2e-16 * square);
-    EXPECT_EQ(fit.summary.samples_used, static_cast<std::size_t>(row["n"].number));
+    EXPECT_EQ(fit.summary.rows, static_cast<std::size_t>(row["n"].number));
   }
 }
 
@@ -116,7 +116,7 @@ TEST_P(ArxMadeReference, NoiseCovarianceAndCriteriaAgree) {
     }
   }
   EXPECT_NEAR(fit.summary.fpe_total / want()["fpe"].number, 1, 10 * tolerance);
-  const double n = static_cast<double>(fit.summary.samples_used);
+  const double n = static_cast<double>(fit.summary.rows);
   EXPECT_NEAR(fit.summary.aic, want()["aic"].number, 10 * n * tolerance);
   EXPECT_NEAR(fit.summary.bic, want()["bic"].number, 10 * n * tolerance);
 }

@@ -107,14 +107,14 @@ TEST_F(ArxReference, CoefficientsErrorsAndCriteriaAgreeOnAllSets) {
       EXPECT_NEAR(fit.summary.loss[i] / row["V"].number, 1, 1e-9);
       EXPECT_NEAR(fit.summary.row_fpe[i] / row["fpe"].number, 1, 1e-9);
       EXPECT_NEAR(fit.summary.condition[i] / row["cond"].number, 1, 1e-7);
-      EXPECT_EQ(fit.summary.samples_used, static_cast<std::size_t>(row["n"].number));
+      EXPECT_EQ(fit.summary.rows, static_cast<std::size_t>(row["n"].number));
       for (std::size_t j = 0; j < ny; ++j) {
         EXPECT_NEAR(fit.summary.noise_covariance[i * ny + j], want["noise_covariance"][i][j].number,
                     1e-9 * std::abs(want["noise_covariance"][i][i].number));
       }
     }
     EXPECT_NEAR(fit.summary.fpe_total / want["fpe_det"].number, 1, 1e-8);
-    const double n = static_cast<double>(fit.summary.samples_used);
+    const double n = static_cast<double>(fit.summary.rows);
     EXPECT_NEAR(fit.summary.aic / n, want["naic"].number, 1e-9 * std::abs(want["naic"].number));
   }
 }

@@ -1,4 +1,4 @@
-#include "learn/fit/arx_stability.hpp"
+#include "learn/fit/arx_report.hpp"
 
 #include <gtest/gtest.h>
 

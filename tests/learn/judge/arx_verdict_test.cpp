@@ -95,7 +95,7 @@ TEST(ArxVerdict, AnInputThatActsAtOnceIsToldOf) {
 TEST(ArxVerdict, ARepairThatMovesCoefficientsFarIsNotUsable) {
   ArxSummary summary;
   summary.usable = {true, "fine"};
-  summary.samples_used = 1000;
+  summary.rows = 1000;
   summary.stable = {.radius = 0.999, .changed = true, .estimated = 2, .loss_factor = 40, .moved = 31};
   const ChannelChoice channels{{}, {"y"}};
   const ArxOrders orders{OrderMatrix(1, 1, 2), OrderMatrix(1, 0), OrderMatrix(1, 0)};
@@ -107,7 +107,7 @@ TEST(ArxVerdict, ARepairThatMovesCoefficientsFarIsNotUsable) {
 TEST(ArxVerdict, ASimulationThatRunsAwayIsToldInAWord) {
   ArxSummary summary;
   summary.usable = {true, "fine"};
-  summary.samples_used = 1000;
+  summary.rows = 1000;
   summary.fit_percent = {99};
   summary.free_run_fit_percent = {-1e30};
   const ChannelChoice channels{{"u"}, {"y"}};
