@@ -1,5 +1,7 @@
 #include "wisp/learn/validate.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/statistics.hpp"
@@ -12,6 +14,122 @@
 
 namespace wisp {
 namespace {
+
+// ---- Several models on one recording, over the rows that all of them predict ----
+
+// Predictions of one model for one number of steps: a channel NAME.predicted per output.
+struct Said {
+  std::size_t model;
+  int steps;
+  Recording table;
+};
+
+const std::vector<double>* series_of(const Recording& table, const std::string& name) {
+  const auto channel = find_channel(table, name);
+  return channel ? &table.channels[*channel].samples : nullptr;
+}
+
+Result<std::vector<Said>> all_said(std::span<const NamedModel> models, const Recording& recording,
+                                   const ValidationOptions& options, const Progress& progress) {
+  std::vector<Said> out;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    for (int steps : options.steps) {
+      const double share = static_cast<double>(out.size()) / static_cast<double>(models.size() * options.steps.size());
+      if (!go_on(progress, "predicting", share)) return Error{std::string(kStopped)};
+      auto table = predict(models[m].model, recording, {steps, options.initial});
+      if (!table) return Error{models[m].name + ": " + table.error().message};
+      out.push_back({m, steps, std::move(*table)});
+    }
+  }
+  return out;
+}
+
+// Rows of an output that are measured, and predicted by every model that has the output.
+std::vector<std::size_t> common_rows(const std::vector<double>& measured, const std::vector<Said>& said,
+                                     const std::string& output, int steps) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < measured.size(); ++row) {
+    bool common = std::isfinite(measured[row]);
+    for (const Said& one : said) {
+      if (one.steps != steps || !common) continue;
+      const auto* predicted = series_of(one.table, output + ".predicted");
+      common = !predicted || std::isfinite((*predicted)[row]);
+    }
+    if (common) rows.push_back(row);
+  }
+  return rows;
+}
+
+double fit_percent(const std::vector<double>& measured, const std::vector<double>& predicted,
+                   const std::vector<std::size_t>& rows) {
+  double mean = 0, error = 0, spread = 0;
+  for (std::size_t row : rows) mean += measured[row] / static_cast<double>(rows.size());
+  for (std::size_t row : rows) {
+    error += (measured[row] - predicted[row]) * (measured[row] - predicted[row]);
+    spread += (measured[row] - mean) * (measured[row] - mean);
+  }
+  return spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0;
+}
+
+// Outputs of any of the models, in order of first appearance.
+std::vector<std::string> outputs_of(std::span<const NamedModel> models) {
+  std::vector<std::string> names;
+  for (const NamedModel& one : models) {
+    for (const Output& output : one.model.outputs) {
+      if (std::find(names.begin(), names.end(), output.name) == names.end()) names.push_back(output.name);
+    }
+  }
+  return names;
+}
+
+// Table with one row per model and output.
+ReportTable table_of(std::span<const NamedModel> models, const Recording& recording, const std::vector<Said>& said,
+                     const std::vector<int>& steps) {
+  ReportTable table{"compared", "fit of every model", {{"output", "output"}, {"model", "model"}}, {}};
+  for (int step : steps) {
+    const std::string label = step == kFreeRun ? "free" : std::to_string(step) + " ahead";
+    table.columns.push_back({"fit_percent." + arx::steps_id(step), "fit " + label, "%"});
+    table.columns.push_back({"rows." + arx::steps_id(step), ""});
+  }
+  for (const std::string& output : outputs_of(models)) {
+    const auto& measured = *series_of(recording, output);
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      std::vector<ReportValue> row{output, models[m].name};
+      for (const Said& one : said) {
+        const auto* predicted = one.model == m ? series_of(one.table, output + ".predicted") : nullptr;
+        if (!predicted) continue;
+        const auto rows = common_rows(measured, said, output, one.steps);
+        row.emplace_back(rows.empty() ? std::nan("") : fit_percent(measured, *predicted, rows));
+        row.emplace_back(rows.size());
+      }
+      if (row.size() == table.columns.size()) table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+// Series of every output: measured, and predicted by each model for the last number of steps, which is free simulation
+// unless options say otherwise.
+void add_series(std::span<const NamedModel> models, const Recording& recording, const std::vector<Said>& said,
+                int steps, ReportSection& section) {
+  const std::vector<double> seconds = seconds_of(recording);
+  const std::string way = steps == kFreeRun ? ", free simulation" : ", " + std::to_string(steps) + " ahead";
+  const auto outputs = outputs_of(models);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const Channel& measured = recording.channels[*find_channel(recording, outputs[i])];
+    const std::string y = outputs[i] + (measured.unit.empty() ? "" : ", " + measured.unit);
+    const std::string place = "." + std::to_string(i);
+    section.series.push_back({"measured" + place, "measured", "time, s", y, seconds, measured.samples});
+    for (const Said& one : said) {
+      const auto* predicted = one.steps == steps ? series_of(one.table, outputs[i] + ".predicted") : nullptr;
+      if (!predicted) continue;
+      section.series.push_back({"model" + place + "." + std::to_string(one.model), models[one.model].name + way,
+                                "time, s", y, seconds, *predicted});
+    }
+  }
+}
+
+// ---- Several recordings ----
 
 constexpr double kBadlyFitted = 30;  // percentage points of fit below the median over recordings
 
@@ -70,6 +188,30 @@ Result<Report> of_every(std::span<const Recording> recordings, Judge judge) {
 }
 
 }  // namespace
+
+Result<Report> compare(std::span<const NamedModel> models, const Recording& measured, const ValidationOptions& options,
+                       const Progress& progress) {
+  if (models.empty() || options.steps.empty()) return Error{"there is no model, or no number of steps, to compare"};
+  for (const NamedModel& one : models) {
+    if (!std::holds_alternative<OutlineView>(one.model.view)) continue;
+    return Error{one.name + ": is a model of an outline, expected models of plain channels; wisp validate judges it"};
+  }
+  const Preparation& preparation = models.front().model.training.preparation;
+  for (const NamedModel& one : models) {
+    if (one.model.training.preparation == preparation) continue;
+    return Error{one.name + ": was learned from recordings prepared by \"" + text_of(one.model.training.preparation) +
+                 "\", the first model by \"" + text_of(preparation) + "\": their fits are of different recordings"};
+  }
+  const auto prepared = prepare(measured, preparation);
+  if (!prepared) return prepared.error();
+  const auto said = all_said(models, measured, options, progress);
+  if (!said) return said.error();
+  Report report;
+  ReportSection& section = report.add("Comparison, over the rows that every model predicts");
+  section.tables.push_back(table_of(models, *prepared, *said, options.steps));
+  add_series(models, *prepared, *said, options.steps.back(), section);
+  return report;
+}
 
 Result<Report> compare(std::span<const NamedModel> models, std::span<const Recording> recordings,
                        const ValidationOptions& options, const Progress& progress) {

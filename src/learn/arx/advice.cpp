@@ -11,7 +11,7 @@
 #include <set>
 
 #include "base/statistics.hpp"
-#include "learn/arx/integrators.hpp"
+#include "learn/arx/learn_arx.hpp"
 #include "learn/choose/order_search.hpp"
 #include "learn/judge/held_out.hpp"
 #include "learn/numeric/chi_squared.hpp"

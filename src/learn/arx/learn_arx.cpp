@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "learn/arx/integrators.hpp"
 #include "learn/choose/focus.hpp"
 #include "learn/choose/order_search.hpp"
 #include "learn/judge/arx_verdict.hpp"
@@ -66,24 +65,14 @@ Result<ArxOrders> with_delays(std::span<const Recording> recordings, const ArxRe
     }
   }
   add(section, "delays.most", delays->most, "longest that was tried", "samples");
-  return std::move(*orders);
+  return orders;
 }
 
 Result<ArxOrders> chosen_orders(std::span<const Recording> recordings, const ArxRecipe& recipe,
                                 const ChannelChoice& channels, const Progress& progress, Report& report) {
   if (recipe.search) return searched(recordings, recipe, channels, progress, report);
   if (!recipe.nk) return with_delays(recordings, recipe, channels, progress, report);
-  auto orders = orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
-  if (!orders) return orders.error();
-  return std::move(*orders);
-}
-
-Result<void> check_recipe(const ArxRecipe& recipe) {
-  if (auto ok = check_fields(recipe); !ok) return ok;
-  if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
-    return Error{"a kernel chooses the coefficients itself: it needs the focus prediction"};
-  }
-  return {};
+  return orders_of(recipe.na, recipe.nb, *recipe.nk, recipe.coupling, channels);
 }
 
 }  // namespace
@@ -94,14 +83,12 @@ Result<void> check_progress(const Progress& progress, std::string_view stage, do
 }
 
 ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders) {
-  ArxOptions options;
-  options.orders = orders;
-  options.offset = recipe.offset;
-  options.kernel = recipe.kernel;
-  options.covariance = recipe.responses;  // needed by the confidence bands
-  options.stabilise = !recipe.keep_unstable;
-  options.stability_margin = 1 - recipe.radius;
-  return options;
+  return {.orders = orders,
+          .offset = recipe.offset,
+          .kernel = recipe.kernel,
+          .stabilise = !recipe.keep_unstable,
+          .stability_margin = 1 - recipe.radius,
+          .covariance = recipe.responses};  // needed by the confidence bands
 }
 
 Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& channels, const Sources& sources) {
@@ -110,7 +97,7 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
   model.dynamics = fit.model;
   model.training.own_levels = sources.own_levels;
   model.training.recipe = notes_of(recipe, fit);
-  model.training.figures = {{"fpe", fit.summary.fpe}, {"samples_used", static_cast<double>(fit.summary.samples_used)}};
+  model.training.figures = {{"fpe", fit.summary.fpe}, {"samples_used", static_cast<double>(fit.summary.rows)}};
   model.training.usable = fit.summary.usable;
   add_fit(fit, model, out.report);
   if (recipe.responses) add_responses({fit.model, channels, sources.rate_hz, fit.covariance}, true, out.report);
@@ -193,7 +180,10 @@ Result<Fit> learn_prepared(std::span<const Recording> recordings, ArxRecipe reci
 }  // namespace arx
 
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress) {
-  if (auto ok = arx::check_recipe(recipe); !ok) return ok.error();
+  if (auto ok = check_fields(recipe); !ok) return ok.error();
+  if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
+    return Error{"a kernel chooses the coefficients itself: it needs the focus prediction"};
+  }
   if (recipe.preparation != Preparation{}) return arx::learn_prepared(recordings, recipe, progress);
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   Report chosen;

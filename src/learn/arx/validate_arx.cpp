@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/judge/prediction.hpp"
 #include "learn/judge/residual_tests.hpp"
@@ -85,41 +86,31 @@ double share_inside(const std::vector<double>& measured, const std::vector<doubl
 
 std::string steps_label(int steps) { return steps == kFreeRun ? "free" : std::to_string(steps) + " ahead"; }
 
-std::vector<ReportColumn> channel_columns(const Subject& subject, bool tested) {
-  std::vector<ReportColumn> columns{{"name", "output"}};
-  for (int step : subject.options.steps) {
-    columns.push_back({"fit_percent." + steps_id(step), "fit " + steps_label(step), "%"});
-  }
-  columns.push_back({"whiteness_p", "residual white, p"});
-  if (!tested) columns.push_back({"independence_p", ""});
-  for (const std::string& input : subject.channels.inputs) {
-    if (tested) columns.push_back({"independence_p." + as_id(input), "independent of " + input + ", p"});
-  }
-  for (int step : subject.options.steps) {
-    columns.push_back({"rms_error." + steps_id(step), ""});
-    columns.push_back({"predicted_sd." + steps_id(step), ""});
-    columns.push_back({"inside_95_percent_interval." + steps_id(step), ""});
-  }
-  return columns;
-}
-
 ReportTable channel_table(const Subject& subject, const Judged& judged) {
-  ReportTable table{"channels", "every output", channel_columns(subject, judged.tests.has_value()), {}};
-  for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
-    auto& row = table.rows.emplace_back();
-    row.emplace_back(subject.channels.outputs[i]);
-    for (const PredictionFigures& figure : judged.figures) row.emplace_back(figure.fit_percent[i]);
-    row.emplace_back(judged.tests ? judged.tests->whiteness[i].p : kMissing);
-    if (!judged.tests) row.emplace_back(kMissing);
-    for (std::size_t k = 0; judged.tests && k < subject.channels.inputs.size(); ++k) {
-      row.emplace_back(judged.tests->independence[i][k].p);
-    }
-    for (std::size_t s = 0; s < judged.figures.size(); ++s) {
-      const double sd = subject.sd_of(i, subject.options.steps[s]);
-      row.emplace_back(std::sqrt(judged.figures[s].mean_square[i]));
-      row.emplace_back(sd);
-      row.emplace_back(share_inside(subject.measured(i), judged.predictions[s][i], sd));
-    }
+  ReportTable table{"channels", "every output", {{"name", "output"}}, {}};
+  for (const std::string& output : subject.channels.outputs) table.rows.push_back({output});
+  for (const PredictionFigures& figure : judged.figures) {
+    add_column(table, {"fit_percent." + steps_id(figure.steps), "fit " + steps_label(figure.steps), "%"},
+               [&](std::size_t i) { return figure.fit_percent[i]; });
+  }
+  const auto& tests = judged.tests;
+  add_column(table, {"whiteness_p", "residual white, p"},
+             [&](std::size_t i) { return tests ? tests->whiteness[i].p : kMissing; });
+  if (!tests) add_column(table, {"independence_p", ""}, [](std::size_t) { return kMissing; });
+  for (std::size_t k = 0; tests && k < subject.channels.inputs.size(); ++k) {
+    const std::string& input = subject.channels.inputs[k];
+    add_column(table, {"independence_p." + as_id(input), "independent of " + input + ", p"},
+               [&](std::size_t i) { return tests->independence[i][k].p; });
+  }
+  for (std::size_t s = 0; s < judged.figures.size(); ++s) {
+    const int steps = subject.options.steps[s];
+    const std::string id = steps_id(steps);
+    const auto sd = [&](std::size_t i) { return subject.sd_of(i, steps); };
+    add_column(table, {"rms_error." + id, ""},
+               [&](std::size_t i) { return std::sqrt(judged.figures[s].mean_square[i]); });
+    add_column(table, {"predicted_sd." + id, ""}, sd);
+    add_column(table, {"inside_95_percent_interval." + id, ""},
+               [&](std::size_t i) { return share_inside(subject.measured(i), judged.predictions[s][i], sd(i)); });
   }
   return table;
 }
@@ -194,9 +185,7 @@ Report report_of(const Subject& subject, const Judged& judged) {
   Report report;
   ReportSection& section = report.add("Prediction and free simulation");
   for (const PredictionFigures& figure : judged.figures) {
-    double sum = 0;
-    for (double one : figure.j) sum += one;
-    add(section, "J." + steps_id(figure.steps), sum / static_cast<double>(figure.j.size()));
+    add(section, "J." + steps_id(figure.steps), mean(figure.j));
   }
   add(section, "rows", judged.figures.front().rows, "rows judged");
   section.tables.push_back(channel_table(subject, judged));

@@ -9,10 +9,6 @@
 namespace wisp {
 namespace {
 
-const char* word_of(Origin origin) {
-  return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
-}
-
 std::string sentence_of(const Extinction& rule) {
   const double twice = rule.seconds / (1 + rule.haste);
   return "wind of " + number_text(rule.level, 3) + " puts it out in " + number_text(rule.seconds, 2) + " s" +
@@ -102,6 +98,10 @@ Result<double> scale_for(const Model& model, const Recording& recording, std::sp
 }
 
 }  // namespace
+
+const char* word_of(Origin origin) {
+  return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
+}
 
 ReportSection extinction_section(const Model& model) {
   if (!model.extinction) return {"", {{"extinction", {}, "", ""}}};

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "learn/flame/extinction.hpp"
-#include "learn/flame/extinction_learning.hpp"
 #include "learn/flame/flame_sizes.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
@@ -67,6 +66,8 @@ Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, con
 /// The recording without extinctions, as in training; the whole recording where the model has no rule.
 /// Errors: as find_blow_outs().
 Result<Recording> burning_part(const Model& model, const Recording& recording);
+
+const char* word_of(Origin origin);
 
 /// Section `extinction` {input, level, seconds, haste, recovery, modes […]} as in model_report(); empty where the model
 /// has no rule.

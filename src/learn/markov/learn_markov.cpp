@@ -82,12 +82,10 @@ ReportTable channel_table(const std::vector<PredictionFigures>& figures, const C
   for (const std::string& output : channels.outputs) table.rows.push_back({output});
   for (const PredictionFigures& figure : figures) {
     const std::string id = arx::steps_id(figure.steps), ahead = figure.steps == kFreeRun ? "free" : id + " ahead";
-    table.columns.push_back({"fit_percent." + id, "fit " + ahead, "%"});
-    table.columns.push_back({"rms_error." + id, "RMS error " + ahead});
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      table.rows[i].emplace_back(figure.fit_percent[i]);
-      table.rows[i].emplace_back(std::sqrt(figure.mean_square[i]));
-    }
+    arx::add_column(table, {"fit_percent." + id, "fit " + ahead, "%"},
+                    [&](std::size_t i) { return figure.fit_percent[i]; });
+    arx::add_column(table, {"rms_error." + id, "RMS error " + ahead},
+                    [&](std::size_t i) { return std::sqrt(figure.mean_square[i]); });
   }
   return table;
 }

@@ -15,7 +15,9 @@ namespace wisp::markov {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
+using Eigen::VectorXd;
 
 Result<Rows> rows_of(const SwitchedArxModel& model, const Recording& recording, const ChannelChoice& channels) {
   if (auto ok = check(model); !ok) return ok.error();
@@ -103,11 +105,6 @@ class Predictor {
   Eigen::MatrixXd given_past_;
 };
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::RowVectorXd;
-using Eigen::VectorXd;
-
 constexpr double kRidge = 1e-9;  // of columns scaled to one size: a column always 0 in a mode gets coefficient 0
 
 std::vector<double> means_of(const Signals& signals) {
@@ -118,11 +115,6 @@ std::vector<double> means_of(const Signals& signals) {
     means.push_back(mean(present(std::move(all))));
   }
   return means;
-}
-
-// Sign of a coefficient: −1 for those of A, which the model has on the left side.
-double sign_of(const LaggedChannel& column, int outputs) {
-  return column.channel != kConstantChannel && column.channel < outputs ? -1 : 1;
 }
 
 MatrixXd residuals(const Rows& rows, const MatrixXd& theta) { return rows.y - rows.phi * theta; }
@@ -150,6 +142,24 @@ MatrixXd weighted_theta(const Rows& rows, const VectorXd& weights) {
     theta(columns, i) = symmetric_solution(gram(columns, columns), right(columns, i)).cwiseProduct(scale(columns));
   }
   return theta;
+}
+
+// ln of the Gaussian density of every row's outputs under every mode, rows × modes.
+MatrixXd log_densities(const Chain& chain, const Rows& rows) {
+  MatrixXd out(rows.rows(), static_cast<Index>(chain.modes.size()));
+  const RowVectorXd least = 1e-9 * rows.y.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-150);  // floor of the noise
+  for (std::size_t k = 0; k < chain.modes.size(); ++k) {
+    MatrixXd factor = chain.modes[k].factor;
+    double size = 0.5 * rows.outputs() * std::log(2 * std::numbers::pi);
+    for (int i = 0; i < rows.outputs(); ++i) {
+      factor(i, i) = std::max(factor(i, i), least(i));
+      size += std::log(factor(i, i));
+    }
+    const MatrixXd white =
+        factor.triangularView<Eigen::Lower>().solve(residuals(rows, chain.modes[k].theta).transpose());
+    out.col(static_cast<Index>(k)) = -0.5 * white.colwise().squaredNorm().transpose().array() - size;
+  }
+  return out;
 }
 
 }  // namespace
@@ -317,23 +327,6 @@ bool limit_radius(double max_radius, const Rows& rows, const VectorXd& weights, 
       weights.transpose() * residuals(rows, mode.theta) / std::max(weights.sum(), 1e-9);
   mode.factor = residual_factor(residuals(rows, mode.theta), weights, min_variance);
   return true;
-}
-
-MatrixXd log_densities(const Chain& chain, const Rows& rows) {
-  MatrixXd out(rows.rows(), static_cast<Index>(chain.modes.size()));
-  const RowVectorXd least = 1e-9 * rows.y.cwiseAbs().colwise().maxCoeff().cwiseMax(1e-150);  // floor of the noise
-  for (std::size_t k = 0; k < chain.modes.size(); ++k) {
-    MatrixXd factor = chain.modes[k].factor;
-    double size = 0.5 * rows.outputs() * std::log(2 * std::numbers::pi);
-    for (int i = 0; i < rows.outputs(); ++i) {
-      factor(i, i) = std::max(factor(i, i), least(i));
-      size += std::log(factor(i, i));
-    }
-    const MatrixXd white =
-        factor.triangularView<Eigen::Lower>().solve(residuals(rows, chain.modes[k].theta).transpose());
-    out.col(static_cast<Index>(k)) = -0.5 * white.colwise().squaredNorm().transpose().array() - size;
-  }
-  return out;
 }
 
 Belief believe(const Chain& chain, const Rows& rows) {

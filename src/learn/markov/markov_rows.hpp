@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "learn/judge/prediction.hpp"
-#include "learn/markov/markov_rows.hpp"
 #include "learn/rows/arx_design.hpp"
 #include "learn/rows/arx_rows.hpp"
 #include "wisp/base/result.hpp"
@@ -71,9 +70,6 @@ Mode fit_mode(const Rows& rows, const Eigen::VectorXd& weights, const Eigen::Vec
 /// residuals. Returns whether that was needed.
 bool limit_radius(double max_radius, const Rows& rows, const Eigen::VectorXd& weights,
                   const Eigen::VectorXd& min_variance, Mode& mode);
-
-/// ln of the Gaussian density of every row's outputs under every mode, rows × modes.
-Eigen::MatrixXd log_densities(const Chain& chain, const Rows& rows);
 
 /// Probabilities of the modes, by forward and backward passes over the runs.
 struct Belief {

@@ -60,12 +60,6 @@ void tell_row(const ArxModel& model, const Model& of, int i, ReportSection& sect
   }
 }
 
-void add_orders(const ArxOrders& orders, ReportSection& section) {
-  add(section, "na", list_of(orders.na));
-  add(section, "nb", list_of(orders.nb));
-  add(section, "nk", list_of(orders.nk));
-}
-
 void add_quality(const ArxSummary& summary, std::size_t outputs, ReportSection& section) {
   add(section, "fit_percent.1", summary.fit_percent, "fit one step ahead", "%", "100 is perfect, 0 is the mean");
   if (!summary.free_run_fit_percent.empty()) {
@@ -84,7 +78,7 @@ void add_quality(const ArxSummary& summary, std::size_t outputs, ReportSection& 
 }
 
 void add_data(const ArxSummary& summary, ReportSection& section) {
-  add(section, "samples_used", summary.samples_used, "rows learned from");
+  add(section, "samples_used", summary.rows, "rows learned from");
   add(section, "first_sample", summary.first_sample);
   add(section, "episodes.used", summary.episodes_used);
   add(section, "episodes.skipped", summary.episodes_skipped);
@@ -112,33 +106,24 @@ ReportTable rank_problems(const std::vector<RankProblem>& problems) {
   return table;
 }
 
-const std::vector<ReportColumn>& candidate_columns() {
-  static const std::vector<ReportColumn> columns{{"na", "na"},
-                                                 {"nb", "nb"},
-                                                 {"nk", "nk"},
-                                                 {"V", "V"},
-                                                 {"fpe", "FPE"},
-                                                 {"aic", "AIC"},
-                                                 {"aicc", ""},
-                                                 {"bic", "BIC"},
-                                                 {"samples_used", "rows"},
-                                                 {"determined", ""},
-                                                 {"V_validation", "V on validation rows"}};
-  return columns;
+// Figures of a candidate: entries, and columns of a table.
+std::vector<ReportEntry> figures_of(const OrderCandidate& one) {
+  return {{"na", one.na, "na", ""},
+          {"nb", one.nb, "nb", ""},
+          {"nk", one.nk, "nk", ""},
+          {"V", one.loss, "V", ""},
+          {"fpe", one.fpe, "FPE", ""},
+          {"aic", one.aic, "AIC", ""},
+          {"aicc", one.aicc, "", ""},
+          {"bic", one.bic, "BIC", ""},
+          {"samples_used", one.rows, "rows", ""},
+          {"determined", one.determined, "", ""},
+          {"V_validation", list_or_none(one.loss_validation), "V on validation rows", ""}};
 }
 
-std::vector<ReportValue> candidate_row(const OrderCandidate& one) {
-  return {one.na,
-          one.nb,
-          one.nk,
-          ReportValue(one.loss),
-          one.fpe,
-          one.aic,
-          one.aicc,
-          one.bic,
-          one.rows,
-          one.determined,
-          list_or_none(one.loss_validation)};
+void add_row(const OrderCandidate& one, ReportTable& table) {
+  auto& row = table.rows.emplace_back();
+  for (ReportEntry& figure : figures_of(one)) row.push_back(std::move(figure.value));
 }
 
 constexpr std::size_t kMaxTold = 10;
@@ -213,7 +198,7 @@ void add_fit(const ArxFit& fit, const Model& model, Report& report) {
   report.warnings.insert(report.warnings.end(), summary.warnings.begin(), summary.warnings.end());
   tell(fit.model, model, report);
   ReportSection& section = report.add("Fit");
-  add_orders(fit.model.orders, section);
+  add_orders(fit.model.orders, "", section);
   describe(fit.model, "", section);
   add(section, "constant", fit.model.constant);
   add(section, "operating_point.outputs", fit.model.output_mean);
@@ -228,15 +213,16 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
   ReportSection& section = report.add("Orders");
   const OrderCandidate& best = search.candidates[search.best];
   add_line(section, "best of " + std::to_string(search.candidates.size()), orders_text(best));
-  const auto& columns = candidate_columns();
-  const auto row = candidate_row(best);
-  for (std::size_t k = 0; k < columns.size(); ++k) add(section, "best." + columns[k].id, row[k]);
+  ReportTable all{"candidates", "", {}, {}};  // too long for a screen, so for programs only
+  for (const ReportEntry& figure : figures_of(best)) {
+    add(section, "best." + figure.id, figure.value);
+    all.columns.push_back({figure.id, figure.label});
+  }
   add(section, "best.index", search.best);
-  ReportTable all{"candidates", "", columns, {}};  // too long for a screen, so for programs only
-  for (const OrderCandidate& one : search.candidates) all.rows.push_back(candidate_row(one));
+  ReportTable first{"", "the best and its runners-up", all.columns, {}};
+  for (const OrderCandidate& one : search.candidates) add_row(one, all);
+  for (std::size_t c : best_candidates(search, by, kMaxTold)) add_row(search.candidates[c], first);
   section.tables.push_back(std::move(all));
-  ReportTable first{"", "the best and its runners-up", columns, {}};
-  for (std::size_t c : best_candidates(search, by, kMaxTold)) first.rows.push_back(candidate_row(search.candidates[c]));
   section.tables.push_back(std::move(first));
   ReportTable rows{"best_of_output",
                    outputs.size() > 1 ? "best for every output alone" : "",

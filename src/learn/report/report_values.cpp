@@ -14,6 +14,12 @@ void add_line(ReportSection& section, std::string label, ReportValue value, std:
   add(section, "", std::move(value), std::move(label), "", std::move(meaning));
 }
 
+void add_orders(const ArxOrders& orders, const std::string& prefix, ReportSection& section) {
+  add(section, prefix + "na", list_of(orders.na));
+  add(section, prefix + "nb", list_of(orders.nb));
+  add(section, prefix + "nk", list_of(orders.nk));
+}
+
 ReportList list_of(const OrderMatrix& orders) {
   ReportList rows;
   for (int i = 0; i < orders.rows(); ++i) {

@@ -18,6 +18,16 @@ void add(ReportSection& section, std::string id, ReportValue value, std::string 
 /// Adds a line for people.
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
+/// Adds a column to a table that has its rows, with value(row) in each.
+template <class Value>
+void add_column(ReportTable& table, ReportColumn column, Value value) {
+  table.columns.push_back(std::move(column));
+  for (std::size_t row = 0; row < table.rows.size(); ++row) table.rows[row].emplace_back(value(row));
+}
+
+/// Adds for programs `na`, `nb` and `nk`, with `prefix` before their ids.
+void add_orders(const ArxOrders& orders, const std::string& prefix, ReportSection& section);
+
 /// Matrix as a list of rows.
 ReportList list_of(const OrderMatrix& orders);
 ReportList matrix_of(std::span<const double> values, std::size_t rows);
