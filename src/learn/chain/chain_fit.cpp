@@ -8,7 +8,6 @@
 
 #include "learn/chain/motion/segmentation.hpp"
 #include "learn/chain/segments/modes.hpp"
-#include "learn/chain/segments/realisations.hpp"
 #include "learn/chain/segments/segment_store.hpp"
 #include "wisp/model/chain.hpp"
 #include "wisp/model/file.hpp"
@@ -307,11 +306,10 @@ ModeChain chain_of(const Cut& data, const Modes& modes, const ChainRecipe& recip
 ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const ChainRecipe& recipe,
                         std::vector<std::uint64_t>& origin) {
   const bool bounded_height = height_is_bounded(from.motion, from.segments);
-  auto store = store_segments(from.motion, from.segments, from.mode, from.modes,
-                              {.heading_free = recipe.heading_free,
-                               .max_bytes = recipe.max_bytes,
-                               .bounded_height = bounded_height,
-                               .breadth = from.motion.has_orientation || bounded_height ? recipe.best_of : 0});
+  auto store = store_segments(from, {.heading_free = recipe.heading_free,
+                                     .max_bytes = recipe.max_bytes,
+                                     .bounded_height = bounded_height,
+                                     .breadth = from.motion.has_orientation || bounded_height ? recipe.best_of : 0});
   ChainModel dynamics;
   dynamics.motion = from.motion.has_orientation ? ChainMotion::kPose : ChainMotion::kPosition;
   dynamics.heading_free = recipe.heading_free;

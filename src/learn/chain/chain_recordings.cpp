@@ -1,4 +1,4 @@
-#include "learn/chain/chain_recordings.hpp"
+// Prepares recordings for chains: falls, and windy–calm pairs that show the effect of wind.
 
 #include <algorithm>
 #include <cmath>

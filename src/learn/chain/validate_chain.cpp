@@ -6,7 +6,6 @@
 #include <string>
 
 #include "learn/chain/chain_fidelity.hpp"
-#include "learn/chain/chain_recordings.hpp"
 #include "learn/chain/gusts/gust_play.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "record/number_text.hpp"

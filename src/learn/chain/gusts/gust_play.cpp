@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
 
 #include "base/statistics.hpp"
+#include "learn/numeric/constants.hpp"
+#include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -17,20 +18,16 @@ namespace {
 
 void add_direction(const std::string& id, const GustDirection& direction, const std::string& label,
                    ReportSection& section) {
-  section.entries.push_back({id + ".median", direction.median, label + "direction off by, median", "degrees"});
-  section.entries.push_back({id + ".mean", direction.mean, label + "direction off by, mean", "degrees"});
-  section.entries.push_back({id + ".mean_clear",
-                             direction.mean_clear,
-                             label + "direction off by, clear gusts",
-                             "degrees",
-                             {},
-                             "mean over gusts whose displacement stands out of chance"});
+  arx::add(section, id + ".median", direction.median, label + "direction off by, median", "degrees");
+  arx::add(section, id + ".mean", direction.mean, label + "direction off by, mean", "degrees");
+  arx::add(section, id + ".mean_clear", direction.mean_clear, label + "direction off by, clear gusts", "degrees",
+           "mean over gusts whose displacement stands out of chance");
 }
 
 // Appends a point with NaN as y, which breaks the line.
 void add_break(ReportSeries& out) {
   out.x.push_back(out.x.back());
-  out.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  out.y.push_back(kMissing);
 }
 
 // Appends the parts of a path, relative to its first point, in which the wind blows (or not), with breaks between.
@@ -273,7 +270,7 @@ GustPlayFigures figures_of(const Tally& tally, GustPlayFigures figures) {
   figures.direction = tally.angles.direction();
   figures.clear_gusts = tally.angles.clear.size();
   const bool halves = figures.clones >= 4;
-  figures.halves_fit_percent = halves ? tally.halves.fit_percent() : std::numeric_limits<double>::quiet_NaN();
+  figures.halves_fit_percent = halves ? tally.halves.fit_percent() : kMissing;
   figures.halves_direction = tally.half_angles.direction();
   figures.diverges = !std::isfinite(figures.largest_displacement) || !std::isfinite(figures.left_after) ||
                      figures.left_after > kMaxLeft;
@@ -298,25 +295,20 @@ Result<void> check(const Model& model, const GustPairs& pairs) {
 
 ReportSection gusts_section(const GustPlayFigures& figures) {
   ReportSection section{"Gusts, played from where each calm fall is at the onset"};
-  auto& entries = section.entries;
-  entries = {
-      {"gusts.gusts", figures.gusts, "gusts", ""},
-      {"gusts.clear_gusts", figures.clear_gusts, "clear ones", "", {}, "whose displacement stands out of chance"},
-      {"gusts.clones", figures.clones, "clones of each", ""},
-      {"gusts.fit_percent", figures.fit_percent, "displacement fits by", "%", {}, "mean over clones"},
-      {"gusts.velocity_fit_percent", figures.velocity_fit_percent, "velocity fits by", "%"}};
+  arx::add(section, "gusts.gusts", figures.gusts, "gusts");
+  arx::add(section, "gusts.clear_gusts", figures.clear_gusts, "clear ones", "",
+           "whose displacement stands out of chance");
+  arx::add(section, "gusts.clones", figures.clones, "clones of each");
+  arx::add(section, "gusts.fit_percent", figures.fit_percent, "displacement fits by", "%", "mean over clones");
+  arx::add(section, "gusts.velocity_fit_percent", figures.velocity_fit_percent, "velocity fits by", "%");
   add_direction("gusts.direction_degrees", figures.direction, "", section);
-  entries.push_back({"gusts.halves.fit_percent",
-                     figures.halves_fit_percent,
-                     "half the clones: displacement fits by",
-                     "%",
-                     {},
-                     "the other half's, as recorded"});
+  arx::add(section, "gusts.halves.fit_percent", figures.halves_fit_percent, "half the clones: displacement fits by",
+           "%", "the other half's, as recorded");
   add_direction("gusts.halves.direction_degrees", figures.halves_direction, "half the clones: ", section);
-  entries.push_back({"gusts.largest_displacement", figures.largest_displacement, "carried at most", "m"});
-  entries.push_back({"gusts.largest_recorded_displacement", figures.largest_recorded_displacement, "  recorded", "m"});
-  entries.push_back({"gusts.left_after", figures.left_after, "left after two seconds", "m/s"});
-  entries.push_back({"gusts.diverges", figures.diverges, "diverges", ""});
+  arx::add(section, "gusts.largest_displacement", figures.largest_displacement, "carried at most", "m");
+  arx::add(section, "gusts.largest_recorded_displacement", figures.largest_recorded_displacement, "  recorded", "m");
+  arx::add(section, "gusts.left_after", figures.left_after, "left after two seconds", "m/s");
+  arx::add(section, "gusts.diverges", figures.diverges, "diverges");
   return section;
 }
 

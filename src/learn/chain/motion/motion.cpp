@@ -1,8 +1,6 @@
 #include "learn/chain/motion/motion.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "base/statistics.hpp"
@@ -240,9 +238,8 @@ Result<void> add_recording(const Recording& recording, std::size_t index, const 
     if (auto ok = finish(piece); !ok) return ok;
   }
   if (worst > kRounding) {
-    char text[160];
-    std::snprintf(text, sizeof text, ": quaternions are up to %.2g from unit length; they were made unit", worst);
-    motion.warnings.push_back(recording.source + text);
+    motion.warnings.push_back(recording.source + ": quaternions are up to " + number_text(worst, 2) +
+                              " from unit length; they were made unit");
   }
   return {};
 }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "learn/chain/motion/motion.hpp"
-#include "learn/chain/motion/segmentation.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/chain_recipe.hpp"
 

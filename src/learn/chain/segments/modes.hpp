@@ -1,7 +1,10 @@
 #pragma once
-// Modes of the paper: clusters of segments, and transition probabilities given the one or two modes before.
+// Modes of the paper: clusters of segments, transition probabilities given the one or two modes before, and
+// realisations.
 //
-// Source: sections 2.2 and 4.1.3 of the paper.
+// Source: sections 2.2 and 4.1.3 of the paper. Section 2.2 names splines, linear systems, differential equations and
+// chains besides segments as realisations. Learning converts each into segments, so that a model stores and plays
+// segments only (realisations.cpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -61,5 +64,33 @@ ModeChain counted_chain(const ModeSequences& sequences, int modes, int history);
 /// Mean log probability (natural) that the chain gives to each mode with one before it: −ln(modes) for a uniform chain.
 /// A probability of 0 counts as 1e-6. NaN without transitions.
 double log_likelihood(const ModeChain& chain, const ModeSequences& sequences);
+
+/// Segments of motion, sorted into modes.
+struct SortedSegments {
+  const Motion& motion;
+  std::span<const Segment> segments;
+  std::span<const std::uint16_t> mode;
+  int modes;
+};
+
+/// Segments, modes and motion after a realisation replaced the recorded segments.
+struct RealisedSegments {
+  Motion motion;
+  std::vector<Segment> segments;
+  std::vector<std::uint16_t> mode;
+  int modes = 0;
+};
+
+/// Each segment as a cubic B-spline: its mode's mean plus its projection on the mode's 12 largest principal components.
+RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
+
+/// Segments simulated by a system of each mode, from the recorded initial states and as long: velocities in body axes
+/// as a linear system with noise (degree 1), or as a differential equation with products of velocities (degree 2).
+/// Errors: motion without orientation, a mode with fewer rows than a fit needs.
+Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
+
+/// Halves of the segments, each half of a mode clustered into two: a mode then is a chain of four modes.
+/// Errors: more than 64 modes in total.
+Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 
 }  // namespace wisp::chain

@@ -1,5 +1,3 @@
-#include "learn/chain/segments/realisations.hpp"
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>

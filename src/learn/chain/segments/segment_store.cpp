@@ -2,25 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <span>
 #include <utility>
-#include <vector>
-
-#include "learn/chain/motion/segmentation.hpp"
-#include "learn/chain/segments/modes.hpp"
 
 namespace wisp::chain {
 namespace {
 
 // ---- Choice of the best-joining successors ----
-
-struct JoinOptions {
-  bool heading_free = true;
-  bool bounded_height = false;  ///< prefer successors that begin near the height at which the segment ends
-  int breadth = 4;              ///< number of successors per segment and mode, > 0
-};
 
 // Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
 constexpr double kAttitudeWeight = 1.5;
@@ -38,7 +25,7 @@ struct Moments {
   const double* at(std::size_t k) const { return values.data() + k * size(); }
 };
 
-void add_moment(const MotionPiece& from, double row, const JoinOptions& options, Moments& out) {
+void add_moment(const MotionPiece& from, double row, const SegmentStoreOptions& options, Moments& out) {
   const bool fresh = out.values.empty();
   const auto add = [&](const Triple& vector, double weight) {
     out.values.insert(out.values.end(), vector.begin(), vector.end());
@@ -92,8 +79,8 @@ double distance_of(const double* a, const double* b, std::size_t size) {
   return distance;
 }
 
-std::vector<std::uint16_t> best_successors(const Motion& motion, std::span<const Segment> segments,
-                                           std::span<const std::uint16_t> mode, const JoinOptions& options) {
+std::vector<std::uint16_t> best_successors(const SortedSegments& from_all, const SegmentStoreOptions& options) {
+  const auto& [motion, segments, mode, modes] = from_all;
   Moments starts, ends;
   for (const Segment& segment : segments) {
     add_moment(motion.pieces[segment.piece], segment.begin, options, starts);
@@ -222,21 +209,20 @@ std::vector<std::size_t> thinned(const std::vector<std::size_t>& members, std::s
 
 // Segments to store, by mode and in recording order. Where not all fit, a stratified sample that preserves the
 // distribution of dives, speeds and turns.
-std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Segment> segments,
-                                       std::span<const std::uint16_t> cluster, int modes, bool pose,
-                                       const SegmentStoreOptions& options) {
-  std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
+std::vector<std::size_t> kept_segments(const SortedSegments& from, const SegmentStoreOptions& options) {
+  const std::span segments = from.segments;
+  std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(from.modes));
   double bytes = 0;
-  const double successors = kSuccessorBytes * options.breadth * modes + 6;  // 6 bytes for the lead
+  const double successors = kSuccessorBytes * options.breadth * from.modes + 6;  // 6 bytes for the lead
   for (std::size_t k = 0; k < segments.size(); ++k) {
-    members[cluster[k]].push_back(k);
-    bytes += bytes_of(segments[k], pose, successors);
+    members[from.mode[k]].push_back(k);
+    bytes += bytes_of(segments[k], from.motion.has_orientation, successors);
   }
   const double share = std::min(1.0, static_cast<double>(options.max_bytes) / bytes);
   const auto room = static_cast<std::size_t>(share * static_cast<double>(segments.size()));
   const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMaxSegments - members.size()));
   std::vector<std::array<double, 3>> extremes;
-  for (const Segment& one : segments) extremes.push_back(extremes_of(motion, one));
+  for (const Segment& one : segments) extremes.push_back(extremes_of(from.motion, one));
   std::vector<std::size_t> kept;
   for (auto& mode : members) {
     order_alike(mode, extremes, 0);
@@ -263,11 +249,11 @@ void put_heights(const Motion& motion, std::span<const Segment> segments, Segmen
 
 }  // namespace
 
-SegmentStore store_segments(const Motion& motion, std::span<const Segment> found,
-                            std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options) {
-  const std::vector<Segment> segments = on_rows(motion, found);
+SegmentStore store_segments(const SortedSegments& found, const SegmentStoreOptions& options) {
+  const Motion& motion = found.motion;
+  const std::vector<Segment> segments = on_rows(motion, found.segments);
   SegmentStore store;
-  store.source = kept_segments(motion, segments, cluster, modes, motion.has_orientation, options);
+  store.source = kept_segments({motion, segments, found.mode, found.modes}, options);
   std::vector<MotionPiece> pieces;
   double farthest = 0, fastest = 0, quickest = 0;
   const auto [speed, spin_speed] = usual_rates(motion);
@@ -287,7 +273,7 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
     out.rate_scale.push_back(scale_for(quickest, kRateShare * spin_speed));
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    out.mode.push_back(cluster[store.source[k]]);
+    out.mode.push_back(found.mode[store.source[k]]);
     out.steps.push_back(static_cast<std::uint16_t>(segments[store.source[k]].steps));
     for (std::size_t row = 0; row < pieces[k].rows(); ++row) {
       put(pieces[k].position[row], out.row_scale[0], out.rows);
@@ -303,8 +289,7 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   if (options.breadth > 0) {
     std::vector<Segment> kept;
     for (std::size_t source : store.source) kept.push_back(segments[source]);
-    out.follow =
-        best_successors(motion, kept, out.mode, {options.heading_free, options.bounded_height, options.breadth});
+    out.follow = best_successors({motion, kept, out.mode, found.modes}, options);
   }
   return store;
 }

@@ -3,12 +3,9 @@
 // successors that join it best.
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include "learn/chain/motion/motion.hpp"
-#include "learn/chain/motion/segmentation.hpp"
+#include "learn/chain/segments/modes.hpp"
 #include "wisp/model/chain.hpp"
 
 namespace wisp::chain {
@@ -27,11 +24,9 @@ struct SegmentStore {
   std::vector<std::size_t> source;  ///< per stored segment: its index among the given ones
 };
 
-/// Stores segments. `cluster` is each segment's mode.
+/// Stores segments.
 ///
-/// Preconditions: as many clusters as segments, all below `modes`, each mode with a segment; orientation where breadth
-/// > 0.
-SegmentStore store_segments(const Motion& motion, std::span<const Segment> segments,
-                            std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options);
+/// Preconditions: each mode has a segment; orientation where breadth > 0.
+SegmentStore store_segments(const SortedSegments& found, const SegmentStoreOptions& options);
 
 }  // namespace wisp::chain
