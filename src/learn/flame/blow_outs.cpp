@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 
 #include "base/statistics.hpp"
 #include "learn/numeric/constants.hpp"
@@ -21,14 +19,9 @@ constexpr double kMinPresence = 0.15;  // seconds: shorter appearances between t
 
 constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;
 
-struct Run {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
 // Runs of rows without an outline, including appearances between them shorter than kMinPresence.
-std::vector<Run> absences(const Recording& recording, const OutlineLayout& layout) {
-  std::vector<Run> runs;
+std::vector<Episode> absences(const Recording& recording, const OutlineLayout& layout) {
+  std::vector<Episode> runs;
   const std::size_t least = rows_of(kMinPresence, recording.rate_hz);
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     const bool seen = std::none_of(layout.outputs.begin(), layout.outputs.end(),
@@ -57,14 +50,13 @@ std::vector<double> averaged(const std::vector<double>& samples, std::size_t win
 }
 
 // kUsual quantile of the wind in rows where the flame is visible and not about to go out.
-double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone, std::size_t looked_back) {
+double usual_wind(const std::vector<double>& wind, const std::vector<Episode>& gone, std::size_t looked_back) {
   std::vector<double> lived;
   std::size_t next = 0;
   for (std::size_t row = 0; row < wind.size(); ++row) {
     while (next < gone.size() && row >= gone[next].end) ++next;
     if (next == gone.size() || row + looked_back < gone[next].begin) lived.push_back(wind[row]);
   }
-  if (lived.empty()) return 0;
   return quantile(lived, kUsual);
 }
 
@@ -95,7 +87,7 @@ std::vector<double> steps_of(const Recording& recording, const OutlineLayout& la
     steps[row] = std::sqrt(square / static_cast<double>(layout.points));
     if (!std::isnan(high)) heights.push_back(high - low);
   }
-  height = heights.empty() ? 0 : median(std::move(heights));
+  height = median(std::move(heights));
   return steps;
 }
 
@@ -106,8 +98,7 @@ std::size_t remove_jumps(Recording& recording) {
   if (!layout) return 0;
   double height = 0;
   const auto steps = steps_of(recording, *layout, height);
-  std::vector<double> known;
-  std::copy_if(steps.begin(), steps.end(), std::back_inserter(known), [](double x) { return !std::isnan(x); });
+  const std::vector<double> known = present(steps);
   if (known.empty()) return 0;
   const double longest = std::max(kJump * quantile(known, kUsualStep), kJumpHeights * height);
   std::vector<std::size_t> jumps{0};
@@ -140,15 +131,15 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
                  ", which tells what blew the flame out; expected the flame filmed with its sound, and the measure of "
                  "wind that the model takes"};
   }
-  std::vector<Run> gone = absences(recording, *layout);
+  std::vector<Episode> gone = absences(recording, *layout);
   const std::size_t least = rows_of(kMinGone, recording.rate_hz);
-  std::erase_if(gone, [&](const Run& run) { return run.end - run.begin < least; });
+  std::erase_if(gone, [&](const Episode& run) { return run.size() < least; });
   const std::size_t looked_back = rows_of(kLookedBack, recording.rate_hz);
   const std::size_t window = rows_of(kMinBlown, recording.rate_hz);
   const auto wind = averaged(recording.channels[*channel].samples, window);
   const double usual = usual_wind(wind, gone, looked_back);
   std::vector<BlowOut> out;
-  for (const Run& run : gone) {
+  for (const Episode& run : gone) {
     if (run.begin == 0) continue;
     // A strong puff lasts beyond the few frames in which the flame disappears, so rows of the absence count too.
     const std::size_t first = run.begin - std::min(run.begin, looked_back);
@@ -169,7 +160,7 @@ Recording without_blow_outs(const Recording& recording, std::span<const BlowOut>
     const std::size_t last = std::min(out.rows(), blow_out.back + settling);
     for (Channel& channel : out.channels) {
       std::fill(channel.samples.begin() + static_cast<std::ptrdiff_t>(first),
-                channel.samples.begin() + static_cast<std::ptrdiff_t>(last), std::numeric_limits<double>::quiet_NaN());
+                channel.samples.begin() + static_cast<std::ptrdiff_t>(last), kMissing);
     }
   }
   return out;

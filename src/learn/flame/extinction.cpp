@@ -4,11 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "base/statistics.hpp"
-#include "learn/flame/blow_outs.hpp"
 
 namespace wisp {
 namespace {
@@ -30,26 +27,6 @@ struct FlameLife {
   std::size_t watched = 0;        ///< first row in which its extinction is accepted,
   std::size_t until = 0;          ///< and one past the last; after the life's end, within the recording
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
-};
-
-class FlameLives {
- public:
-  explicit FlameLives(std::span<const ExtinctionEvidence> evidence);
-
-  const std::vector<FlameLife>& lives() const { return lives_; }
-  std::size_t deaths() const;
-  std::size_t gusts() const;
-  double weakest_death() const { return weakest_death_; }            ///< averaged wind; 0 where no flame was blown out
-  double strongest_survived() const { return strongest_survived_; }  ///< averaged wind; 0 where there was no gust
-
- private:
-  void add_lives(const ExtinctionEvidence& evidence, const std::vector<double>& wind);
-  void find_gusts(FlameLife& life, double least);
-
-  std::vector<std::vector<double>> winds_;
-  std::vector<FlameLife> lives_;
-  double weakest_death_ = 0;
-  double strongest_survived_ = 0;
 };
 
 constexpr double kWatchedBefore = 0.5;  // seconds before the recorded extinction from which one counts as reproduced
@@ -77,68 +54,80 @@ double strongest_mean(const WindSpan& span, std::size_t window) {
   return strongest;
 }
 
-FlameLives::FlameLives(std::span<const ExtinctionEvidence> evidence) {
-  double strongest = 0;
-  for (const ExtinctionEvidence& each : evidence) {
-    winds_.push_back(strengths(each));
-    strongest = std::max(strongest, *std::max_element(winds_.back().begin(), winds_.back().end()));
-    for (const BlowOut& blow_out : each.blow_outs) {
-      if (!blow_out.blown) continue;
-      const double wind = blow_out.wind / each.scale;
-      weakest_death_ = weakest_death_ == 0 ? wind : std::min(weakest_death_, wind);
+class FlameLives {
+ public:
+  explicit FlameLives(std::span<const ExtinctionEvidence> evidence) {
+    double strongest = 0;
+    for (const ExtinctionEvidence& each : evidence) {
+      winds_.push_back(strengths(each));
+      strongest = std::max(strongest, *std::max_element(winds_.back().begin(), winds_.back().end()));
+      for (const BlowOut& blow_out : each.blow_outs) {
+        if (!blow_out.blown) continue;
+        const double wind = blow_out.wind / each.scale;
+        weakest_death_ = weakest_death_ == 0 ? wind : std::min(weakest_death_, wind);
+      }
+    }
+    for (std::size_t k = 0; k < evidence.size(); ++k) add_lives(evidence[k], winds_[k]);
+    const double least = kGustShare * (weakest_death_ > 0 ? weakest_death_ : strongest);
+    for (FlameLife& life : lives_) find_gusts(life, least);
+  }
+
+  const std::vector<FlameLife>& lives() const { return lives_; }
+  double weakest_death() const { return weakest_death_; }            ///< averaged wind; 0 where no flame was blown out
+  double strongest_survived() const { return strongest_survived_; }  ///< averaged wind; 0 where there was no gust
+
+  std::size_t deaths() const {
+    return static_cast<std::size_t>(
+        std::count_if(lives_.begin(), lives_.end(), [](const FlameLife& life) { return life.died; }));
+  }
+  std::size_t gusts() const {
+    std::size_t count = 0;
+    for (const FlameLife& life : lives_) count += life.gusts.size();
+    return count;
+  }
+
+ private:
+  void add_lives(const ExtinctionEvidence& evidence, const std::vector<double>& wind) {
+    const double rate_hz = evidence.recording->rate_hz;
+    std::size_t begin = 0;
+    const auto add = [&](std::size_t end, std::size_t until, bool died) {
+      const std::size_t before = rows_of(kWatchedBefore, rate_hz);
+      const std::size_t watched = died ? std::max(begin, end - std::min(end, before)) : end;
+      lives_.push_back({{wind.data(), begin, end}, rate_hz, died, watched, until});
+    };
+    const auto vanishing = static_cast<std::size_t>(std::lround(evidence.vanishing * rate_hz));
+    for (const BlowOut& blow_out : evidence.blow_outs) {
+      const std::size_t went_out = std::max(begin, blow_out.gone - std::min(blow_out.gone, vanishing));
+      const std::size_t after = std::min(blow_out.back, blow_out.gone + rows_of(kWatchedAfter, rate_hz));
+      add(blow_out.blown ? went_out : blow_out.gone, blow_out.blown ? after : blow_out.gone, blow_out.blown);
+      begin = blow_out.back;
+    }
+    if (begin < wind.size()) add(wind.size(), wind.size(), false);
+  }
+
+  void find_gusts(FlameLife& life, double least) {
+    const std::size_t apart = rows_of(kOneGust, life.rate_hz);
+    const std::size_t end = life.died ? life.watched : life.rows.end;
+    for (std::size_t row = life.rows.begin; row < end; ++row) {
+      if (!(least > 0) || life.rows.wind[row] < least) continue;
+      if (!life.gusts.empty() && row < life.gusts.back().end + apart) {
+        life.gusts.back().end = row + 1;
+      } else {
+        life.gusts.push_back({life.rows.wind, row, row + 1});
+      }
+    }
+    // The extinguishing gust begins before the watched rows; it was not survived.
+    if (life.died && !life.gusts.empty() && life.gusts.back().end + apart > life.watched) life.gusts.pop_back();
+    for (const WindSpan& gust : life.gusts) {
+      strongest_survived_ = std::max(strongest_survived_, strongest_mean(gust, rows_of(kAveraged, life.rate_hz)));
     }
   }
-  for (std::size_t k = 0; k < evidence.size(); ++k) add_lives(evidence[k], winds_[k]);
-  const double least = kGustShare * (weakest_death_ > 0 ? weakest_death_ : strongest);
-  for (FlameLife& life : lives_) find_gusts(life, least);
-}
 
-void FlameLives::add_lives(const ExtinctionEvidence& evidence, const std::vector<double>& wind) {
-  const double rate_hz = evidence.recording->rate_hz;
-  std::size_t begin = 0;
-  const auto add = [&](std::size_t end, std::size_t until, bool died) {
-    const std::size_t before = rows_of(kWatchedBefore, rate_hz);
-    const std::size_t watched = died ? std::max(begin, end - std::min(end, before)) : end;
-    lives_.push_back({{wind.data(), begin, end}, rate_hz, died, watched, until});
-  };
-  const auto vanishing = static_cast<std::size_t>(std::lround(evidence.vanishing * rate_hz));
-  for (const BlowOut& blow_out : evidence.blow_outs) {
-    const std::size_t went_out = std::max(begin, blow_out.gone - std::min(blow_out.gone, vanishing));
-    const std::size_t after = std::min(blow_out.back, blow_out.gone + rows_of(kWatchedAfter, rate_hz));
-    add(blow_out.blown ? went_out : blow_out.gone, blow_out.blown ? after : blow_out.gone, blow_out.blown);
-    begin = blow_out.back;
-  }
-  if (begin < wind.size()) add(wind.size(), wind.size(), false);
-}
-
-void FlameLives::find_gusts(FlameLife& life, double least) {
-  const std::size_t apart = rows_of(kOneGust, life.rate_hz);
-  const std::size_t end = life.died ? life.watched : life.rows.end;
-  for (std::size_t row = life.rows.begin; row < end; ++row) {
-    if (!(least > 0) || life.rows.wind[row] < least) continue;
-    if (!life.gusts.empty() && row < life.gusts.back().end + apart) {
-      life.gusts.back().end = row + 1;
-    } else {
-      life.gusts.push_back({life.rows.wind, row, row + 1});
-    }
-  }
-  // The extinguishing gust begins before the watched rows; it was not survived.
-  if (life.died && !life.gusts.empty() && life.gusts.back().end + apart > life.watched) life.gusts.pop_back();
-  for (const WindSpan& gust : life.gusts) {
-    strongest_survived_ = std::max(strongest_survived_, strongest_mean(gust, rows_of(kAveraged, life.rate_hz)));
-  }
-}
-
-std::size_t FlameLives::deaths() const {
-  return static_cast<std::size_t>(
-      std::count_if(lives_.begin(), lives_.end(), [](const FlameLife& life) { return life.died; }));
-}
-
-std::size_t FlameLives::gusts() const {
-  std::size_t count = 0;
-  for (const FlameLife& life : lives_) count += life.gusts.size();
-  return count;
-}
+  std::vector<std::vector<double>> winds_;
+  std::vector<FlameLife> lives_;
+  double weakest_death_ = 0;
+  double strongest_survived_ = 0;
+};
 
 // Search grid. Steps of 6 % (level) and 12 % (duration) are finer than recordings resolve.
 constexpr int kLevels = 40;
@@ -305,7 +294,7 @@ void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& 
 double ExtinctionAgreement::median_off() const {
   std::vector<double> off;
   for (double late : late_seconds) off.push_back(std::abs(late));
-  return off.empty() ? 0 : median(std::move(off));
+  return median(std::move(off));
 }
 
 ExtinctionAgreement agreement(const Extinction& rule, std::span<const ExtinctionEvidence> evidence) {

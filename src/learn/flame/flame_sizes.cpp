@@ -163,7 +163,7 @@ Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evide
     }
   }
   return RecordedEvents{stored_events(dying, 0), stored_events(catching, catching.empty() ? 0 : view.shape.count()),
-                        vanishing.empty() ? 0 : median(std::move(vanishing))};
+                        median(std::move(vanishing))};
 }
 
 void make_room(const FlameEvents& events, ShapeComponents& shape) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <limits>
 #include <random>
 
 #include "base/statistics.hpp"
@@ -76,7 +75,7 @@ std::array<double, kWhiteningOrder> predictor(const Series& series) {
 }
 
 Series whitened(const Series& series, const std::array<double, kWhiteningOrder>& a) {
-  Series out(series.size(), std::numeric_limits<double>::quiet_NaN());
+  Series out(series.size(), kMissing);
   for (std::size_t t = kWhiteningOrder; t < series.size(); ++t) {
     out[t] = series[t];
     for (std::size_t i = 0; i < kWhiteningOrder; ++i) out[t] -= a[i] * series[t - 1 - i];
@@ -153,12 +152,8 @@ double chance_level(const Series& wind, const Series& motion, std::size_t lags, 
   return z * std::sqrt(std::max(sum, 1.0) / pairs);
 }
 
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
-
-Interval bootstrap(const BlockSums& sums) {
+/// Ends of the interval of the peak's index.
+std::array<double, 2> bootstrap(const BlockSums& sums) {
   std::mt19937_64 random(1);
   Series peaks;
   for (int i = 0; i < kResamples; ++i) {
@@ -166,11 +161,7 @@ Interval bootstrap(const BlockSums& sums) {
     for (std::size_t b = 0; b < sums.blocks; ++b) weights[random() % sums.blocks] += 1;
     peaks.push_back(peak_of(sums.means(weights)));
   }
-  std::sort(peaks.begin(), peaks.end());
-  const auto at = [&](double share) {
-    return peaks[static_cast<std::size_t>(std::lround(share * static_cast<double>(peaks.size() - 1)))];
-  };
-  return {at(kTail), at(1 - kTail)};
+  return {quantile(peaks, kTail), quantile(peaks, 1 - kTail)};
 }
 
 void judge(Alignment& found, double max_seconds) {
@@ -261,11 +252,11 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   const double scale = std::sqrt(covariance(white_wind, white_wind, 0) * covariance(white_motion, white_motion, 0));
   const double peak = peak_of(all);
   const auto seconds = [&](double place) { return (place - static_cast<double>(most)) / options.rate_hz; };
-  const Interval interval = bootstrap(sums);
+  const auto [low, high] = bootstrap(sums);
   Alignment found;
   found.offset_seconds = seconds(peak);
-  found.low_seconds = seconds(std::min(interval.low, peak));
-  found.high_seconds = seconds(std::max(interval.high, peak));
+  found.low_seconds = seconds(std::min(low, peak));
+  found.high_seconds = seconds(std::max(high, peak));
   found.correlation = scale > 0 ? all[static_cast<std::size_t>(std::lround(peak))] / scale : 0;
   found.chance = chance_level(white_wind, white_motion, all.size(), pairs);
   judge(found, options.max_seconds);
@@ -287,10 +278,8 @@ TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout) {
 
 std::string InputAlignment::note() const {
   if (frames_moved == 0) return input + ": " + found.reason;
-  char moved[96];
-  std::snprintf(moved, sizeof moved, "; it was moved %d frames earlier, since nothing moves before it is blown at",
-                frames_moved);
-  return input + ": " + found.reason + moved;
+  return input + ": " + found.reason + "; it was moved " + std::to_string(frames_moved) +
+         " frames earlier, since nothing moves before it is blown at";
 }
 
 Result<AlignedOutline> align_outline(const Recording& recording, const std::vector<std::string>& inputs) {

@@ -146,9 +146,6 @@ class RowsOf {
     for (const std::string& name : prepared.channels.inputs) inputs_.push_back(&samples_of(moved, name));
   }
 
-  // Number of regressors after the past components, for either symmetry, including the constant.
-  std::size_t functions() const { return inputs_.size() / 2 * kInputLags + 1; }
-
   bool fill(std::size_t row, bool symmetric, Eigen::VectorXd& x, Eigen::VectorXd& y) const {
     const std::size_t first = symmetric ? 0 : shape_.symmetric, end = symmetric ? shape_.symmetric : shape_.count();
     Eigen::Index at = 0;
@@ -300,6 +297,7 @@ Result<OutlineDynamics> fit_shape(std::span<const Recording> recordings, const P
   }
   OutlineDynamics out{{}, *std::move(shape), kRidge};
   const std::size_t regressors = prepared.channels.inputs.size();
+  // Number of regressors after the past components, for either symmetry, including the constant.
   const auto functions = static_cast<Eigen::Index>(regressors / 2 * kInputLags + 1);
   const auto even_count = static_cast<Eigen::Index>(out.shape.symmetric);
   const auto odd_count = static_cast<Eigen::Index>(out.shape.antisymmetric);

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "base/statistics.hpp"
-#include "learn/judge/prediction.hpp"
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_shape.hpp"
 
 namespace wisp {
@@ -139,18 +137,16 @@ double at_steps(const std::vector<int>& steps, const std::vector<double>& values
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
     if (steps[k] == wanted) return values[k];
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return kMissing;
 }
 
 double fit_percent(std::span<const double> measured, std::span<const double> predicted) {
   assert(measured.size() == predicted.size());
-  if (measured.empty()) return 0;
-  const double mean = std::accumulate(measured.begin(), measured.end(), 0.0) / static_cast<double>(measured.size());
-  double error = 0;
-  double spread = 0;
+  const double middle = mean(measured);
+  double error = 0, spread = 0;
   for (std::size_t t = 0; t < measured.size(); ++t) {
     error += (measured[t] - predicted[t]) * (measured[t] - predicted[t]);
-    spread += (measured[t] - mean) * (measured[t] - mean);
+    spread += (measured[t] - middle) * (measured[t] - middle);
   }
   return spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0;
 }

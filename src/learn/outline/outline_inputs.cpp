@@ -37,15 +37,6 @@ Result<std::vector<Loudest>> loudest_inputs(std::span<const Recording> recording
   return out;
 }
 
-// Factor for the first of these inputs, per recording.
-std::vector<double> factors_of(std::span<const Recording> recordings, const Loudest& loudest) {
-  std::vector<double> out;
-  for (const Recording& recording : recordings) {
-    out.push_back(*factor_at(recording, loudest.input, loudest.rms));  // present in all: see loudest_inputs()
-  }
-  return out;
-}
-
 // The channel's value that equals 1 in the model's input; 1 where neither model nor recording says.
 Result<double> value_of_one(const Model& model, std::size_t input, const Recording& recording, const Channel& heard,
                             bool own_gain) {
@@ -147,7 +138,11 @@ Result<std::vector<double>> common_gain_factors(std::span<const Recording> recor
   const auto inputs = loudest_inputs(recordings);
   if (!inputs) return inputs.error();
   if (inputs->empty()) return std::vector<double>();
-  std::vector<double> factors = factors_of(recordings, inputs->front());
+  std::vector<double> factors;
+  for (const Recording& recording : recordings) {
+    // Its loudness is stated in all recordings: see loudest_inputs().
+    factors.push_back(*factor_at(recording, inputs->front().input, inputs->front().rms));
+  }
   if (*std::min_element(factors.begin(), factors.end()) > 1 - kSame) factors.clear();
   return factors;
 }
@@ -239,7 +234,7 @@ std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span
 double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
                              std::span<const OutlineInput> inputs) {
   const auto rows = undisturbed_rows(recording, inputs);
-  if (inputs.empty() || rows.empty()) return mean_height_pixels(recording, layout, rows);
+  if (inputs.empty() || rows.empty()) return mean(heights_pixels(recording, layout, rows));
   return quantile(heights_pixels(recording, layout, rows), 0.5);
 }
 
@@ -258,9 +253,7 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
     const std::vector<double>& samples = recording.channels[*find_channel(recording, input.name)].samples;
     for (const Form& form : forms_of(shape)) {
       Channel channel{input.name + form.suffix, "", Role::kInput, {}};
-      for (double u : samples) {
-        channel.samples.push_back(form.of(u / input.scale));
-      }
+      for (double u : samples) channel.samples.push_back(form.of(u / input.scale));
       out.channels.push_back(std::move(channel));
     }
   }

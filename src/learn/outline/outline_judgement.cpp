@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 
+#include "learn/arx/plain_model.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_preparation.hpp"
@@ -60,12 +60,6 @@ Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording&
     inputs.push_back(std::move(scaled));
   }
   return inputs;
-}
-
-std::vector<std::string> input_names(const Model& model) {
-  std::vector<std::string> names;
-  for (const Input& input : model.inputs) names.push_back(input.name);
-  return names;
 }
 
 RegressorShape shape_of(const Model& model) {
@@ -171,7 +165,7 @@ Result<OutlineJudgement> judge_outline(const Model& model, const Recording& give
   if (auto ok = check_match(*outline, given); !ok) return ok.error();
   auto heard = options.own_input_scale ? Result<Recording>(given) : at_trained_gain(model, given);
   if (!heard) return heard.error();
-  auto in_step = align_outline(*heard, options.align ? input_names(model) : std::vector<std::string>());
+  auto in_step = align_outline(*heard, options.align ? arx::channels_of(model).inputs : std::vector<std::string>());
   if (!in_step) return in_step.error();
   const Recording& recording = in_step->recording;
   auto inputs = inputs_of(model, recording, options.own_input_scale);

@@ -199,23 +199,19 @@ Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::
   return prepared;
 }
 
-std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels) {
-  const auto samples = samples_of(recording, channels);
-  std::size_t count = 0;
-  for (std::size_t row = 0; row < recording.rows(); ++row) count += complete(samples, row) ? 1 : 0;
-  return count;
-}
-
 std::size_t complete_rows(std::span<const Recording> recordings, const ChannelChoice& channels) {
-  std::size_t rows = 0;
-  for (const Recording& recording : recordings) rows += complete_rows(recording, channels);
-  return rows;
+  std::size_t count = 0;
+  for (const Recording& recording : recordings) {
+    const auto samples = samples_of(recording, channels);
+    for (std::size_t row = 0; row < recording.rows(); ++row) count += complete(samples, row) ? 1 : 0;
+  }
+  return count;
 }
 
 OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share) {
   OutlineParts parts;
   for (const Recording& recording : recordings) {
-    const auto kept = (1 - share) * static_cast<double>(complete_rows(recording, channels));
+    const auto kept = (1 - share) * static_cast<double>(complete_rows({&recording, 1}, channels));
     const std::size_t in_time = row_after(recording, channels, static_cast<std::size_t>(std::lround(kept)));
     const std::size_t cut = share > 0 ? near_episode_boundary(recording, in_time) : recording.rows();
     parts.learned.push_back(slice(recording, 0, cut));

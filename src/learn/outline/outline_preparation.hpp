@@ -55,9 +55,6 @@ Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::
                                          double pixels_per_unit);
 
 /// Number of rows with all outputs and all regressors.
-std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels);
-
-/// Number of such rows in several recordings.
 std::size_t complete_rows(std::span<const Recording> recordings, const ChannelChoice& channels);
 
 /// Recordings divided into a training and a held-out part.

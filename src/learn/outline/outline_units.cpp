@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
 
 #include "learn/outline/outline_shape.hpp"
 #include "model/bspline.hpp"
@@ -140,12 +138,6 @@ std::vector<double> heights_pixels(const Recording& recording, const OutlineLayo
     if (!control.empty()) out.push_back(height_of(curve.polyline(control)));
   }
   return out;
-}
-
-double mean_height_pixels(const Recording& recording, const OutlineLayout& layout, std::span<const std::uint8_t> rows) {
-  const std::vector<double> heights = heights_pixels(recording, layout, rows);
-  const double sum = std::accumulate(heights.begin(), heights.end(), 0.0);
-  return heights.empty() ? 0 : sum / static_cast<double>(heights.size());
 }
 
 Recording to_model_units(const Recording& recording, const OutlineLayout& layout, double pixels_per_unit) {

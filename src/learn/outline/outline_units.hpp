@@ -59,9 +59,6 @@ std::optional<bool> follows_underside(const Recording& recording);
 std::vector<double> heights_pixels(const Recording& recording, const OutlineLayout& layout,
                                    std::span<const std::uint8_t> rows);
 
-/// Mean of heights_pixels(); 0 without such rows.
-double mean_height_pixels(const Recording& recording, const OutlineLayout& layout, std::span<const std::uint8_t> rows);
-
 /// Converts a whole recording to the model's units: changes its outputs, adds base.x and base.y (motion, pixels), the
 /// middle between the first and last control point, and sets the attribute `pixels_per_unit`. Other channels stay
 /// unchanged.

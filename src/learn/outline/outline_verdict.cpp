@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/statistics.hpp"
 #include "base/verdict.hpp"
+#include "learn/numeric/constants.hpp"
 #include "record/loudness.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
-
-constexpr double kAbstains = std::numeric_limits<double>::quiet_NaN();
 
 // Median fit over channels for the number of steps of index `k`.
 double typical_fit(const OutlineFigures& figures, std::size_t k) {
@@ -27,7 +25,7 @@ const OutlineFigures& judged_of(const OutlineSummary& summary) {
 
 // Position of a distance between its floor (0) and its ceiling (1); NaN where those do not differ.
 double share_of_way(const std::optional<Bounded>& distance) {
-  if (!distance || !(distance->ceiling > distance->floor)) return kAbstains;
+  if (!distance || !(distance->ceiling > distance->floor)) return kMissing;
   return (distance->value - distance->floor) / (distance->ceiling - distance->floor);
 }
 
@@ -98,7 +96,7 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
 }  // namespace
 
 double followed_percent(const OutlineSummary& summary) {
-  if (summary.inputs.empty()) return kAbstains;
+  if (summary.inputs.empty()) return kMissing;
   return at_steps(judged_of(summary).steps, judged_of(summary).tip_fit_percent, kFreeRun);
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "base/statistics.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_synthesis.hpp"
@@ -83,7 +84,7 @@ TEST(Outline, MeanHeightIsOneInTheModelsUnits) {
   const Recording recording = made::outline_recording(recipe);
   const OutlineLayout layout = *outline_layout(recording);
   const double unit = std::get<OutlineView>(fit.model.view).pixels_per_unit;
-  EXPECT_NEAR(mean_height_pixels(recording, layout, {}), unit, 1e-9);
+  EXPECT_NEAR(mean(heights_pixels(recording, layout, {})), unit, 1e-9);
 }
 
 TEST(Outline, AScaleThatIsGivenIsTaken) {

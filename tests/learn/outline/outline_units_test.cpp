@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "model/bspline.hpp"
 
 namespace wisp::outline_units_test {
@@ -132,11 +133,11 @@ TEST(OutlineUnits, HeightIsThatOfTheChosenRows) {
   Recording recording = captured();
   for (const char* name : {"p1.y", "p2.y"}) recording.channels[*find_channel(recording, name)].samples[2] -= 100;
   const auto layout = *outline_layout(recording);
-  const double low = mean_height_pixels(recording, layout, std::vector<std::uint8_t>{1, 1, 0});
-  const double high = mean_height_pixels(recording, layout, std::vector<std::uint8_t>{0, 0, 1});
+  const double low = mean(heights_pixels(recording, layout, std::vector<std::uint8_t>{1, 1, 0}));
+  const double high = mean(heights_pixels(recording, layout, std::vector<std::uint8_t>{0, 0, 1}));
   EXPECT_GT(high, low + 50);
-  EXPECT_NEAR(mean_height_pixels(recording, layout, {}), (2 * low + high) / 3, 1e-9);
-  EXPECT_EQ(mean_height_pixels(recording, layout, std::vector<std::uint8_t>{0, 0, 0}), 0);
+  EXPECT_NEAR(mean(heights_pixels(recording, layout, {})), (2 * low + high) / 3, 1e-9);
+  EXPECT_EQ(mean(heights_pixels(recording, layout, std::vector<std::uint8_t>{0, 0, 0})), 0);
 }
 
 }  // namespace

@@ -1,17 +1,13 @@
 #include "learn/outline/report/outline_report.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "base/statistics.hpp"
 #include "learn/judge/prediction.hpp"
 #include "learn/outline/outline_alignment.hpp"
 #include "learn/report/fit_report.hpp"
 #include "learn/report/report_values.hpp"
-#include "wisp/base/report.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
@@ -82,16 +78,15 @@ ReportSection structure_section(const OutlineSummary& summary) {
                                      std::to_string(shape.antisymmetric) + " antisymmetric components of the shape";
   const std::string noise =
       summary.resampled_rows > 0 ? std::to_string(summary.resampled_rows) + " resampled residuals" : "Gaussian";
-  return {"Structure",
-          {{"na", arx::list_of(dynamics.arx.orders.na), "", ""},
-           {"nb", arx::list_of(dynamics.arx.orders.nb), "", ""},
-           {"nk", arx::list_of(dynamics.arx.orders.nk), "", ""},
-           {"", text, "dynamics", ""},
-           {"components.symmetric", shape.symmetric, "", ""},
-           {"components.antisymmetric", shape.antisymmetric, "", ""},
-           {"ridge", dynamics.ridge, "", ""},
-           {"noise.rows", summary.resampled_rows, "", ""},
-           {"", noise, "noise", ""}}};
+  ReportSection section{"Structure"};
+  arx::add_orders(dynamics.arx.orders, "", section);
+  arx::add_line(section, "dynamics", text);
+  arx::add(section, "components.symmetric", shape.symmetric);
+  arx::add(section, "components.antisymmetric", shape.antisymmetric);
+  arx::add(section, "ridge", dynamics.ridge);
+  arx::add(section, "noise.rows", summary.resampled_rows);
+  arx::add_line(section, "noise", noise);
+  return section;
 }
 
 // Section on the accuracy of predictions.
@@ -113,6 +108,13 @@ ReportSection fit_section(const OutlineFit& fit) {
   return section;
 }
 
+void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
+                 const std::string& meaning, ReportSection& section) {
+  arx::add(section, id + ".value", measure.value, label, unit, meaning);
+  arx::add(section, id + ".floor", measure.floor);
+  arx::add(section, id + ".ceiling", measure.ceiling);
+}
+
 // Section on free play.
 ReportSection play_section(const OutlineSummary& summary) {
   const OutlineTrial& trial = summary.trial;
@@ -125,14 +127,12 @@ ReportSection play_section(const OutlineSummary& summary) {
        {"crossed_share", trial.crossed, "outlines that cross themselves", ""},
        {"crossed_share_recorded", trial.crossed_recorded, "", ""},
        {"held_share", trial.held_share, "share of steps clamped", "", {}, "at most 0.001 is good"}}};
-  const auto add = [&](const char* id, const char* label, const std::optional<Bounded>& distance) {
-    if (!distance) return;
-    section.entries.push_back({std::string(id) + ".value", distance->value, label, ""});
-    section.entries.push_back({std::string(id) + ".floor", distance->floor, "", ""});
-    section.entries.push_back({std::string(id) + ".ceiling", distance->ceiling, "", ""});
-  };
-  add("play.half_second", "energy distance over half a second", trial.half_second);
-  add("play.two_seconds", "energy distance over two seconds", trial.two_seconds);
+  if (trial.half_second) {
+    add_bounded("play.half_second", *trial.half_second, "energy distance over half a second", "", "", section);
+  }
+  if (trial.two_seconds) {
+    add_bounded("play.two_seconds", *trial.two_seconds, "energy distance over two seconds", "", "", section);
+  }
   return section;
 }
 
@@ -147,18 +147,10 @@ ReportSection fit_section(const OutlineJudgement& found) {
   return section;
 }
 
-void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
-                 ReportSection& section) {
-  const auto bound = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return std::isfinite(value) ? std::string(text) : std::string("too short to tell");
-  };
-  const std::string meaning =
-      "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
-  section.entries.push_back({id + ".value", measure.value, label, unit, {}, meaning});
-  section.entries.push_back({id + ".floor", measure.floor, "", ""});
-  section.entries.push_back({id + ".ceiling", measure.ceiling, "", ""});
+// Bounds of a measure in words.
+std::string between(const Bounded& measure) {
+  const auto bound = [](double value) { return std::isfinite(value) ? number_text(value, 3) : "too short to tell"; };
+  return "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
 }
 
 ReportSection fidelity_section(const OutlineJudgement& found) {
@@ -167,14 +159,14 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     section.entries.push_back({"fidelity", {}, "", ""});
   } else {
     const Fidelity& figures = *found.fidelity;
-    add_bounded("fidelity.log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB",
-                section);
-    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance over half a second",
-                "", section);
-    add_bounded("fidelity.two_seconds.energy_distance", figures.long_motion, "the same over two seconds", "", section);
-    add_bounded("fidelity.two_seconds.spectral_distance", figures.long_spectra, "of log spectra over two seconds", "",
-                section);
-    add_bounded("fidelity.tails", figures.tails, "violence of the rarest motion, |ln| of its ratio", "", section);
+    const auto add = [&](const char* id, const Bounded& measure, const char* label, const char* unit = "") {
+      add_bounded(std::string("fidelity.") + id, measure, label, unit, between(measure), section);
+    };
+    add("log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB");
+    add("energy_distance", figures.energy_distance, "normalised energy distance over half a second");
+    add("two_seconds.energy_distance", figures.long_motion, "the same over two seconds");
+    add("two_seconds.spectral_distance", figures.long_spectra, "of log spectra over two seconds");
+    add("tails", figures.tails, "violence of the rarest motion, |ln| of its ratio");
     section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
   }
   section.entries.push_back({"held_share", found.held_share, "share of steps clamped", ""});
