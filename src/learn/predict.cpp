@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "learn/arx/plain_model.hpp"
 #include "learn/judge/prediction.hpp"
@@ -23,8 +22,7 @@ constexpr int kSettled = 2000;  // steps after which the noise of free simulatio
 // Half width of the 95 % interval of every prediction. A free run starts from known samples, so after n steps its
 // uncertainty is that of an n-step prediction.
 Series half_widths(const Series& sd, const Recording& recording, const Series& predicted, int steps) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  Series widths(predicted.size(), std::vector<double>(recording.rows(), none));
+  Series widths(predicted.size(), std::vector<double>(recording.rows(), kMissing));
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     for (const Episode& episode : episodes(recording)) {
       std::size_t run = 0;
@@ -111,16 +109,11 @@ Result<Recording> predict_outline(const Model& model, const Recording& recording
   if (!heard) return heard.error();
   const auto found = judge_outline(model, *heard, {.steps = {options.steps}, .play_seconds = 0, .fidelity = false});
   if (!found) return found.error();
-  ChannelChoice channels;
-  for (std::size_t channel : channels_with_role(*heard, Role::kInput)) {
-    channels.inputs.push_back(heard->channels[channel].name);
-  }
+  ChannelChoice channels{input_names(*heard), {}};
   for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
   const Recording& said = found->predicted.front().recording;
   Series predicted;
-  for (const std::string& name : channels.outputs) {
-    predicted.push_back(said.channels[*find_channel(said, name)].samples);
-  }
+  for (const std::string& name : channels.outputs) predicted.push_back(samples_of(said, name));
   const OutlineDynamics dynamics{std::get<ArxModel>(model.dynamics), std::get<OutlineView>(model.view).shape};
   Series sd = outline_prediction_sd(dynamics, options.steps == kFreeRun ? kSettled : options.steps);
   for (auto& one : sd) {

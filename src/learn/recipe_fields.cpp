@@ -1,7 +1,6 @@
 #include "wisp/learn/recipe_fields.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "record/number_text.hpp"
 #include "wisp/learn/chain_recipe.hpp"

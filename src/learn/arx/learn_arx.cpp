@@ -1,7 +1,6 @@
 #include "learn/arx/learn_arx.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "learn/choose/focus.hpp"
@@ -12,7 +11,6 @@
 #include "learn/judge/residual_tests.hpp"
 #include "learn/report/fit_report.hpp"
 #include "learn/report/report_values.hpp"
-#include "learn/report/response_report.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/advice.hpp"
 #include "wisp/learn/prepare.hpp"

@@ -8,7 +8,6 @@
 
 #include "base/hash.hpp"
 #include "learn/fit/arx_fit.hpp"
-#include "learn/rows/arx_design.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "learn/fit/arx_fit.hpp"
-#include "learn/rows/arx_design.hpp"
 #include "learn/rows/arx_rows.hpp"
 #include "record/number_text.hpp"
 

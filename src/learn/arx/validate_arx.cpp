@@ -11,7 +11,6 @@
 #include "learn/numeric/constants.hpp"
 #include "learn/report/fit_report.hpp"
 #include "learn/report/report_values.hpp"
-#include "learn/report/response_report.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <utility>
 
 #include "base/statistics.hpp"
-#include "learn/fidelity/fidelity_distance.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"

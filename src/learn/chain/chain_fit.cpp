@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <filesystem>
-#include <span>
 
 #include "learn/chain/motion/segmentation.hpp"
 #include "learn/chain/segments/modes.hpp"

@@ -1,7 +1,5 @@
 // Learns and judges a chain from recordings: sorting, fit, fidelity, gusts, verdict.
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 

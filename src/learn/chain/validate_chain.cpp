@@ -1,6 +1,5 @@
 // Validation of a chain on unseen recordings: falls, or gusts with their calm twins.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <string>

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 #include "learn/choose/search_fit.hpp"
-#include "learn/fit/arx_fit.hpp"
 #include "learn/fit/arx_report.hpp"
 #include "learn/judge/prediction.hpp"
-#include "learn/rows/arx_design.hpp"
 #include "learn/rows/arx_rows.hpp"
 
 namespace wisp {
@@ -187,31 +184,22 @@ class Search {
 };
 
 // Criteria that are sums over rows are divided by the number of rows, as candidates may have different windows.
+double value_of(const Criteria& criteria, OrderCriterion by, std::size_t rows) {
+  constexpr double Criteria::*kFigures[] = {&Criteria::fpe, &Criteria::aic, &Criteria::aicc, &Criteria::bic};
+  const double value = criteria.*kFigures[static_cast<std::size_t>(by)];
+  return by == OrderCriterion::kFpe ? value : value / static_cast<double>(rows);
+}
+
 double value_of(const OrderCandidate& candidate, OrderCriterion by) {
-  const double n = static_cast<double>(candidate.rows);
+  if (by != OrderCriterion::kValidation) return value_of(candidate, by, candidate.rows);
   double value = 0;
-  switch (by) {
-    case OrderCriterion::kFpe:
-      return candidate.fpe;
-    case OrderCriterion::kAic:
-      return candidate.aic / n;
-    case OrderCriterion::kAicc:
-      return candidate.aicc / n;
-    case OrderCriterion::kBic:
-      return candidate.bic / n;
-    case OrderCriterion::kValidation:
-      break;
-  }
   for (double loss : candidate.loss_validation) value += std::log(loss);
   return value;
 }
 
 double value_of_row(const OrderCandidate& candidate, OrderCriterion by, int i, double d) {
   if (by == OrderCriterion::kValidation) return candidate.loss_validation[i];
-  OrderCandidate row;
-  row.rows = candidate.rows;
-  static_cast<Criteria&>(row) = criteria_of({&candidate.loss[i], 1}, 1, static_cast<double>(candidate.rows), d);
-  return value_of(row, by);
+  return value_of(criteria_of({&candidate.loss[i], 1}, 1, static_cast<double>(candidate.rows), d), by, candidate.rows);
 }
 
 template <class Value>

@@ -2,7 +2,6 @@
 // One-step prediction errors of an ARX model, and how they accumulate over several steps.
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -43,14 +43,6 @@ struct SharedProblem {
 /// Solves with RᵀR = Gram, R the triangle of the whole regression.
 SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
 
-/// Solves with the Gram matrix of the whole regression. Returns nothing where the scaled condition number is above
-/// `max_condition` or the matrix is not positive definite.
-std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
-                                              double max_condition);
-
-/// Gives nine accurate digits in standard errors: condition² · 2.2e-16 = 1e-9.
-inline constexpr double kMaxConditionForGram = 2e3;
-
 /// Coefficients of every group of rows: regressors × rows, in scaled units, without A's sign.
 using GroupThetas = std::vector<Eigen::MatrixXd>;
 
@@ -68,6 +60,27 @@ struct ArxEstimate {
 
   GroupThetas thetas() const;
 };
+
+namespace arx {
+
+/// Adjacent columns of a regression that hold one channel's lags, in rising order.
+struct KernelBlock {
+  int first = 0;
+  int size = 0;
+};
+
+/// A regression of one target, as products: XᵀX, Xᵀy, yᵀy, and the number of rows.
+struct RegressionProducts {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd moment;
+  double square = 0;
+  double rows = 0;
+};
+
+/// Returns F such that |y − Xθ|² + |Fθ|² is least at the posterior mean. Columns outside all blocks have no prior.
+Eigen::MatrixXd kernel_factor(const RegressionProducts& products, const std::vector<KernelBlock>& blocks);
+
+}  // namespace arx
 
 /// Options of estimate_from_data.
 struct EstimateOptions {

@@ -6,9 +6,6 @@
 // a missing sample are left out one by one, and an unstable estimate is made stable (section 7.3 has no such step).
 // Equations and conventions: docs/explanation/identification.md.
 
-#include <cstddef>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -25,6 +25,9 @@ double log_determinant(std::span<const double> covariance, int outputs) {
   return log + Eigen::LDLT<Eigen::MatrixXd>(correlation).vectorD().array().log().sum();
 }
 
+// Inverse of a channel's scale; 0 for the scale 0 of a constant channel.
+double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
+
 double scale_of(const FitFacts& facts, const LaggedChannel& column) {
   return column.channel == kConstantChannel ? 1.0 : facts.scale[column.channel];
 }

@@ -35,9 +35,6 @@ std::vector<Eigen::Index> row_starts(const ArxModel& model);
 /// Information criteria of residuals with covariance Λ (ny × ny, row-major) over n rows.
 Criteria criteria_of(std::span<const double> covariance, int outputs, double rows, double coefficients);
 
-/// Inverse of a channel's scale; 0 for the scale 0 of a constant channel.
-inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
-
 /// Companion matrix of a set of outputs without coupling to other outputs: its eigenvalues are their poles.
 Eigen::MatrixXd companion_of(const ArxModel& model, const std::vector<int>& outputs);
 

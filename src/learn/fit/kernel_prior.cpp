@@ -1,9 +1,17 @@
-#include "learn/fit/kernel_prior.hpp"
+// Prior for impulse responses: they decay and are smooth. Marginal likelihood chooses the decay and the scale from the
+// data.
+//
+// Source: T. Chen, H. Ohlsson, L. Ljung, Automatica 48 (2012), the TC kernel; G. Pillonetto et al., Automatica 50
+// (2014), section 4.4 (empirical Bayes). With the kernel c·λ^max(i, j) the differences of neighbouring coefficients are
+// independent (F. Carli, European Control Conference 2014), so that the prior's factor has two diagonals. Departure:
+// the noise variance is maximised over in closed form instead of taken from another fit.
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "learn/fit/arx_estimate.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
-// Learns the extinction rule of a flame (wisp/model/extinction.hpp) from recorded extinctions.
+// Learns the extinction rule of a flame (wisp/model/extinction.hpp) from recorded extinctions, and keeps recorded time
+// courses of its size and shape for playback: decay when it is blown out, and re-ignition (flame_sizes.cpp).
 //
 // Survived gusts bound the rule from below, extinctions from above, and the time of extinction determines its speed.
 // All rules of a grid are tried on the whole recordings. The rule with the least error is chosen; the spread of rules
@@ -14,6 +15,7 @@
 #include "learn/flame/blow_outs.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/extinction.hpp"
+#include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -60,5 +62,25 @@ Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evide
 /// Rule for a flame that was never extinguished: the default with its level raised until every recorded gust is
 /// survived with a margin of a quarter.
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence);
+
+/// Size of the flame in every row, NaN without an outline: the square root of the control polygon's area, divided by
+/// its median while the flame burns. All NaN where the flame never burns undisturbed.
+/// Errors: not a recording of an outline.
+Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs);
+
+/// Recorded events, at most eight of a kind, equally spaced; empty where none was seen.
+struct RecordedEvents {
+  FlameEvents dying;             ///< from the beginning of decay, relative to the size before; then 0.05 s of glow
+                                 ///< without an outline
+  FlameEvents catching;          ///< up to 0.75 s
+  double vanishing_seconds = 0;  ///< median duration of visible decay
+};
+
+/// Extracts the events around the blow-outs. All recordings must have one rate. If the view has a shape, outlines of
+/// re-ignition are stored as its components. Errors: as flame_sizes().
+Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence, const OutlineView& view = {});
+
+/// Extends the ranges of a shape to those of the events: re-ignition is wider than any burning flame.
+void make_room(const FlameEvents& events, ShapeComponents& shape);
 
 }  // namespace wisp

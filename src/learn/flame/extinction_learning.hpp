@@ -2,12 +2,10 @@
 // Learns the burning of a flame and its extinction rule from recordings that may contain extinctions.
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "learn/flame/extinction.hpp"
-#include "learn/flame/flame_sizes.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/outline_recipe.hpp"

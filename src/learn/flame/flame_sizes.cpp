@@ -1,4 +1,4 @@
-#include "learn/flame/flame_sizes.hpp"
+#include "learn/flame/extinction.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "wisp/learn/validate.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "learn/flame/extinction_learning.hpp"
@@ -8,7 +7,7 @@
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/report/outline_report.hpp"
-#include "learn/report/response_report.hpp"
+#include "learn/report/fit_report.hpp"
 
 namespace wisp {
 namespace {
@@ -104,15 +103,13 @@ ReportSection gain_section(double factor) {
 }
 
 Result<void> add_outlines(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
-  auto captured = outline_rows(recording);
-  if (!captured) return captured.error();
-  auto simulated = outline_rows(shown(found).recording);
-  if (!simulated) return simulated.error();
-  auto played = outline_rows(found.played);
-  if (!played) return played.error();
-  out.captured = *std::move(captured);
-  out.simulated = *std::move(simulated);
-  out.played = *std::move(played);
+  for (const auto& [from, to] : {std::pair(&recording, &out.captured),
+                                 {&shown(found).recording, &out.simulated},
+                                 {&found.played, &out.played}}) {
+    auto rows = outline_rows(*from);
+    if (!rows) return rows.error();
+    *to = *std::move(rows);
+  }
   out.simulated_label = label_of(shown(found));
   out.pixels_per_unit = found.pixels_per_unit;
   return {};

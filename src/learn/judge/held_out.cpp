@@ -7,7 +7,6 @@
 #include "base/statistics.hpp"
 #include "learn/fit/arx_errors.hpp"
 #include "learn/judge/judged_fit.hpp"
-#include "learn/judge/prediction.hpp"
 
 namespace wisp::arx {
 namespace {

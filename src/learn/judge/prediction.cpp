@@ -1,10 +1,8 @@
 #include "learn/judge/prediction.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "learn/fit/arx_errors.hpp"
 #include "learn/numeric/decompositions.hpp"

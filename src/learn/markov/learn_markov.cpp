@@ -4,7 +4,6 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/learn_arx.hpp"
-#include "learn/markov/markov_fit.hpp"
 #include "learn/markov/markov_rows.hpp"
 #include "learn/report/fit_report.hpp"
 #include "learn/report/report_values.hpp"

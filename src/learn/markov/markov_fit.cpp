@@ -1,9 +1,7 @@
-#include "learn/markov/markov_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <random>
 
 #include "base/statistics.hpp"

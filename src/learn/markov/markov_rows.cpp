@@ -7,7 +7,6 @@
 
 #include "base/statistics.hpp"
 #include "learn/fit/arx_fit.hpp"
-#include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/decompositions.hpp"
 

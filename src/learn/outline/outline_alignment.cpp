@@ -221,6 +221,24 @@ void move_earlier(Recording& recording, std::size_t channel, int frames) {
   }
 }
 
+// Position of the tip relative to the middle of its base, per row; NaN where missing.
+struct TipMotion {
+  Series sway, height;
+};
+
+TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout) {
+  const OutlineCurve curve(layout.knots);
+  TipMotion out;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const std::vector<double> control = whole_row(recording, layout, row);
+    const OutlinePoint tip = control.empty() ? OutlinePoint{kMissing, kMissing} : tip_of(curve.polyline(control));
+    const std::size_t last = control.empty() ? 0 : control.size() - 2;
+    out.sway.push_back(control.empty() ? kMissing : tip[0] - (control[0] + control[last]) / 2);
+    out.height.push_back(control.empty() ? kMissing : tip[1] - (control[1] + control[last + 1]) / 2);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
@@ -261,19 +279,6 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   found.chance = chance_level(white_wind, white_motion, all.size(), pairs);
   judge(found, options.max_seconds);
   return found;
-}
-
-TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout) {
-  const OutlineCurve curve(layout.knots);
-  TipMotion out;
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
-    const std::vector<double> control = whole_row(recording, layout, row);
-    const OutlinePoint tip = control.empty() ? OutlinePoint{kMissing, kMissing} : tip_of(curve.polyline(control));
-    const std::size_t last = control.empty() ? 0 : control.size() - 2;
-    out.sway.push_back(control.empty() ? kMissing : tip[0] - (control[0] + control[last]) / 2);
-    out.height.push_back(control.empty() ? kMissing : tip[1] - (control[1] + control[last + 1]) / 2);
-  }
-  return out;
 }
 
 std::string InputAlignment::note() const {

@@ -41,13 +41,6 @@ struct Alignment {
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});
 
-/// Position of the tip relative to the middle of its base, per row; NaN where missing.
-struct TipMotion {
-  std::vector<double> sway;
-  std::vector<double> height;
-};
-TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout);
-
 /// Alignment of one input of one recording.
 struct InputAlignment {
   std::string source;        ///< name of the recording

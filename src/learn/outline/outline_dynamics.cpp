@@ -31,10 +31,6 @@ constexpr std::size_t kPowers = 3;    // powers of an input's size, then signed 
 // Whether a regressor is invariant under the mirror image.
 bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }
 
-const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
-  return recording.channels[*find_channel(recording, name)].samples;
-}
-
 // Mean of the recordings' calm shapes, or of all rows where no recording has calm rows.
 std::vector<double> shape_at_rest(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   const std::size_t outputs = prepared.layout.outputs.size();

@@ -20,15 +20,11 @@ constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlin
 constexpr std::size_t kMaxPlayed = 500;
 constexpr std::size_t kPlaces = 12;  // points per outline
 
-const std::vector<double>& channel_samples(const Recording& recording, const std::string& name) {
-  return recording.channels[*find_channel(recording, name)].samples;
-}
-
 double unsteadiness(const PreparedOutlines& prepared) {
   double neighbours = 0, any = 0;
   for (const Recording& recording : prepared.recordings) {
     for (const std::string& name : prepared.channels.outputs) {
-      const std::vector<double>& all = channel_samples(recording, name);
+      const std::vector<double>& all = samples_of(recording, name);
       std::vector<double> steps;
       for (std::size_t k = 1; k < all.size(); ++k) {
         if (!std::isnan(all[k] - all[k - 1])) steps.push_back((all[k] - all[k - 1]) * (all[k] - all[k - 1]));
@@ -45,8 +41,7 @@ std::size_t liveliest(const PreparedOutlines& prepared) {
   std::vector<double> motion;
   for (const Recording& recording : prepared.recordings) {
     double& sum = motion.emplace_back(0.0);
-    for (const std::string& name : prepared.channels.outputs)
-      sum += deviation(present(channel_samples(recording, name)));
+    for (const std::string& name : prepared.channels.outputs) sum += deviation(present(samples_of(recording, name)));
   }
   return static_cast<std::size_t>(std::max_element(motion.begin(), motion.end()) - motion.begin());
 }
@@ -120,8 +115,30 @@ Result<Synthesis> played_along(const Model& model, const PreparedOutlines& prepa
 std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Recording& real, const Recording& play) {
   std::vector<double> out;
   for (const std::string& name : prepared.channels.outputs) {
-    const double recorded = deviation(present(channel_samples(real, name)));
-    out.push_back(recorded > 0 ? deviation(channel_samples(play, name)) / recorded : 1);
+    const double recorded = deviation(present(samples_of(real, name)));
+    out.push_back(recorded > 0 ? deviation(samples_of(play, name)) / recorded : 1);
+  }
+  return out;
+}
+
+// `prepared` is in the model's units; `original` has the same recordings with their synchronised inputs.
+Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& prepared,
+                                 std::span<const Recording> original, std::uint64_t seed) {
+  OutlineTrial out;
+  out.unsteadiness = unsteadiness(prepared);
+  const std::size_t which = liveliest(prepared);
+  const Recording& real = prepared.recordings[which];
+  const auto play = played_along(model, prepared, original[which], seed);
+  if (!play) return play.error();
+  out.held_share = play->held_share;
+  out.sd_ratio = spread_ratios(prepared, real, play->recording);
+  std::vector<std::size_t> ends;
+  const auto recorded = outlines(prepared.recordings, prepared, kMaxRecorded, &out.crossed_recorded, &ends);
+  out.outside = outside_share(recorded, ends, outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
+  const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
+  if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
+    out.half_second = found->energy_distance;
+    out.two_seconds = found->long_motion;
   }
   return out;
 }
@@ -150,11 +167,7 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
                                        OutlineSummary& summary) {
   std::vector<Recording> out;
   for (const Recording& recording : recordings) {
-    std::vector<std::string> inputs;
-    if (recipe.inputs) inputs = *recipe.inputs;
-    for (std::size_t c : channels_with_role(recording, Role::kInput)) {
-      if (!recipe.inputs) inputs.push_back(recording.channels[c].name);
-    }
+    const auto inputs = recipe.inputs ? *recipe.inputs : input_names(recording);
     auto one = align_outline(recording, recipe.align ? inputs : std::vector<std::string>());
     if (!one) return one.error();
     for (InputAlignment& found : one->inputs) {
@@ -261,27 +274,6 @@ Result<Model> model_of(const PreparedOutlines& prepared, const OutlineRecipe& re
 }
 
 }  // namespace
-
-Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& prepared,
-                                 std::span<const Recording> original, std::uint64_t seed) {
-  OutlineTrial out;
-  out.unsteadiness = unsteadiness(prepared);
-  const std::size_t which = liveliest(prepared);
-  const Recording& real = prepared.recordings[which];
-  const auto play = played_along(model, prepared, original[which], seed);
-  if (!play) return play.error();
-  out.held_share = play->held_share;
-  out.sd_ratio = spread_ratios(prepared, real, play->recording);
-  std::vector<std::size_t> ends;
-  const auto recorded = outlines(prepared.recordings, prepared, kMaxRecorded, &out.crossed_recorded, &ends);
-  out.outside = outside_share(recorded, ends, outlines({&play->recording, 1}, prepared, kMaxPlayed, &out.crossed));
-  const FidelityOptions how{.channels = prepared.channels.outputs, .max_windows = kWindows};
-  if (const auto found = fidelity({&real, 1}, {&play->recording, 1}, how)) {
-    out.half_second = found->energy_distance;
-    out.two_seconds = found->long_motion;
-  }
-  return out;
-}
 
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                const Progress& progress) {

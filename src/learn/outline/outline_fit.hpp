@@ -33,12 +33,6 @@ struct OutlineTrial {
   std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
 };
 
-/// Plays a model along the inputs of the recording with the most motion. `prepared` is in the model's units; `original`
-/// has the same recordings with their synchronised inputs.
-/// Errors: as synthesize().
-Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& prepared,
-                                 std::span<const Recording> original, std::uint64_t seed);
-
 /// Quality of the model.
 struct OutlineSummary {
   double rate_hz = 0;

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/statistics.hpp"
 #include "record/loudness.hpp"
-#include "record/number_text.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp {
@@ -250,7 +248,7 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
   Recording out = recording;
   std::erase_if(out.channels, [](const Channel& channel) { return channel.role == Role::kInput; });
   for (const OutlineInput& input : inputs) {
-    const std::vector<double>& samples = recording.channels[*find_channel(recording, input.name)].samples;
+    const std::vector<double>& samples = samples_of(recording, input.name);
     for (const Form& form : forms_of(shape)) {
       Channel channel{input.name + form.suffix, "", Role::kInput, {}};
       for (double u : samples) channel.samples.push_back(form.of(u / input.scale));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "learn/arx/plain_model.hpp"
 #include "learn/numeric/constants.hpp"
@@ -76,7 +75,7 @@ Recording in_pixels(const PreparedOutlines& prepared, const Recording& original,
   const auto pixels = to_pixels(units);
   Recording out = original;
   for (const std::string& name : prepared.channels.outputs) {
-    out.channels[*find_channel(out, name)].samples = pixels->channels[*find_channel(*pixels, name)].samples;
+    out.channels[*find_channel(out, name)].samples = samples_of(*pixels, name);
   }
   out.attributes = pixels->attributes;
   return out;
@@ -128,7 +127,7 @@ double self_intersection_rate(const Recording& recording, const OutlineLayout& l
 // Sets play missing in rows where the recording has no outline; those frames are not compared.
 void hide_unseen(const Recording& recorded, const std::vector<std::string>& outputs, Recording& play) {
   for (const std::string& name : outputs) {
-    const auto& seen = recorded.channels[*find_channel(recorded, name)].samples;
+    const auto& seen = samples_of(recorded, name);
     auto& samples = play.channels[*find_channel(play, name)].samples;
     for (std::size_t row = 0; row < samples.size(); ++row) {
       if (std::isnan(seen[row % seen.size()])) samples[row] = kMissing;

@@ -40,12 +40,6 @@ Matrix change(const Matrix& from, const Matrix& to) {
   return out;
 }
 
-std::vector<std::string> input_names(const Recording& recording) {
-  std::vector<std::string> names;
-  for (std::size_t c : channels_with_role(recording, Role::kInput)) names.push_back(recording.channels[c].name);
-  return names;
-}
-
 ChannelChoice channel_choice(const PreparedOutlines& prepared) {
   return {regressor_names(prepared.inputs, prepared.shape), outline_outputs(prepared.layout.points)};
 }
@@ -110,7 +104,7 @@ OutlineLayout prepared_layout(const std::vector<double>& knots) {
 std::vector<const std::vector<double>*> samples_of(const Recording& recording, const ChannelChoice& channels) {
   std::vector<const std::vector<double>*> out;
   for (const auto* names : {&channels.outputs, &channels.inputs}) {
-    for (const std::string& name : *names) out.push_back(&recording.channels[*find_channel(recording, name)].samples);
+    for (const std::string& name : *names) out.push_back(&samples_of(recording, name));
   }
   return out;
 }

@@ -1,8 +1,6 @@
 #include "learn/outline/outline_synthesis.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "wisp/run/bank.hpp"
 

@@ -45,10 +45,11 @@ void set_row(Recording& recording, const OutlineLayout& layout, std::size_t row,
   for (std::size_t k = 0; k < control.size(); ++k) recording.channels[layout.outputs[k]].samples[row] = control[k];
 }
 
-std::vector<double>& motion(Recording& recording, const std::string& name) {
-  if (const auto index = find_channel(recording, name)) return recording.channels[*index].samples;
+// Index of a channel of the base's motion, which is added where it is missing.
+std::size_t motion(Recording& recording, const std::string& name) {
+  if (const auto index = find_channel(recording, name)) return *index;
   recording.channels.push_back({name, "px", Role::kMotion, std::vector<double>(recording.rows())});
-  return recording.channels.back().samples;
+  return recording.channels.size() - 1;
 }
 
 }  // namespace
@@ -60,6 +61,16 @@ std::vector<std::string> outline_outputs(std::size_t points) {
     names.push_back("p" + std::to_string(p) + ".y");
   }
   return names;
+}
+
+std::vector<std::string> input_names(const Recording& recording) {
+  std::vector<std::string> names;
+  for (std::size_t c : channels_with_role(recording, Role::kInput)) names.push_back(recording.channels[c].name);
+  return names;
+}
+
+const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
+  return recording.channels[*find_channel(recording, name)].samples;
 }
 
 Result<OutlineLayout> outline_layout(const Recording& recording) {
@@ -142,14 +153,11 @@ std::vector<double> heights_pixels(const Recording& recording, const OutlineLayo
 
 Recording to_model_units(const Recording& recording, const OutlineLayout& layout, double pixels_per_unit) {
   Recording out = recording;
-  std::vector<double>& base_x = motion(out, "base.x");
-  for (std::size_t row = 0; row < out.rows(); ++row) {
-    base_x[row] = frame_of(recording, layout, row, pixels_per_unit).base_x;
-  }
-  std::vector<double>& base_y = motion(out, "base.y");
+  const std::size_t base_x = motion(out, "base.x"), base_y = motion(out, "base.y");
   for (std::size_t row = 0; row < out.rows(); ++row) {
     const OutlineFrame frame = frame_of(recording, layout, row, pixels_per_unit);
-    base_y[row] = frame.base_y;
+    out.channels[base_x].samples[row] = frame.base_x;
+    out.channels[base_y].samples[row] = frame.base_y;
     set_row(out, layout, row, to_model_units(row_of(recording, layout, row), frame));
   }
   for (std::size_t c : layout.outputs) out.channels[c].unit.clear();

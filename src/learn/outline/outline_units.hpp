@@ -36,6 +36,12 @@ Result<OutlineLayout> common_layout(std::span<const Recording> recordings);
 /// Names of an outline's outputs: p0.x, p0.y, p1.x, …
 std::vector<std::string> outline_outputs(std::size_t points);
 
+/// Names of the inputs.
+std::vector<std::string> input_names(const Recording& recording);
+
+/// Samples of the channel of that name. Precondition: the recording has it.
+const std::vector<double>& samples_of(const Recording& recording, const std::string& name);
+
 /// Origin and unit of the model's frame, in pixels.
 struct OutlineFrame {
   double base_x = 0;  ///< pixels

@@ -1,7 +1,6 @@
 #include "learn/outline/outline_fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/statistics.hpp"
 #include "base/verdict.hpp"

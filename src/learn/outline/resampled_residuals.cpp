@@ -1,9 +1,7 @@
 #include "learn/outline/resampled_residuals.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "learn/judge/prediction.hpp"
 #include "learn/numeric/constants.hpp"
@@ -46,7 +44,7 @@ int steps_of(double seconds, double rate_hz) { return std::max(1, static_cast<in
 // Signed samples of the first input; zeros without inputs.
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
-  return recording.channels[*find_channel(recording, prepared.inputs.front().name)].samples;
+  return samples_of(recording, prepared.inputs.front().name);
 }
 
 // Whether wind begins after calm. A recorded calm ends there, so that a flame at rest in lasting calm is not moved by

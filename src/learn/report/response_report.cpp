@@ -1,4 +1,4 @@
-#include "learn/report/response_report.hpp"
+#include "learn/report/fit_report.hpp"
 
 #include <algorithm>
 #include <cmath>

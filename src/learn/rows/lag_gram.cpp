@@ -1,7 +1,6 @@
 #include "learn/rows/lag_gram.hpp"
 
 #include <Eigen/QR>
-#include <algorithm>
 
 #include "learn/numeric/stream_kernels.hpp"
 

@@ -11,7 +11,6 @@
 // rounding.
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "learn/rows/arx_rows.hpp"
 

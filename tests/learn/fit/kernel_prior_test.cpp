@@ -1,4 +1,4 @@
-#include "learn/fit/kernel_prior.hpp"
+#include "learn/fit/arx_estimate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "learn/markov/made_markov.hpp"
-#include "learn/markov/markov_fit.hpp"
+#include "learn/markov/markov_rows.hpp"
 
 namespace wisp::learn_switched_test {
 namespace {

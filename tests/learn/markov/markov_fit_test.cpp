@@ -1,4 +1,3 @@
-#include "learn/markov/markov_fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

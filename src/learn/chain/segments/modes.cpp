@@ -16,6 +16,12 @@ Triple line_of(const MotionPiece& piece, const Segment& segment) {
   return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 }
 
+// Direction over ground from a segment's start to its end, as an angle from x; 0 where the two coincide.
+double heading_of(const Motion& motion, const Segment& segment) {
+  const Triple line = line_of(motion.pieces[segment.piece], segment);
+  return std::hypot(line[0], line[1]) > kNoLength ? std::atan2(line[1], line[0]) : 0.0;
+}
+
 void add_features(const MotionPiece& piece, const Segment& segment, double heading, std::vector<double>& out) {
   const auto add = [&](const Triple& vector) {
     for (double x : turned_about_z(vector, -heading)) out.push_back(x);
@@ -76,11 +82,6 @@ void normalise(std::span<double> counts, std::span<const double> instead) {
 }
 
 }  // namespace
-
-double heading_of(const Motion& motion, const Segment& segment) {
-  const Triple line = line_of(motion.pieces[segment.piece], segment);
-  return std::hypot(line[0], line[1]) > kNoLength ? std::atan2(line[1], line[0]) : 0.0;
-}
 
 MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free) {
   const MotionPiece& from = motion.pieces[segment.piece];

@@ -24,9 +24,6 @@ struct FeatureTable {
   std::size_t rows() const { return features == 0 ? 0 : values.size() / features; }
 };
 
-/// Direction over ground from a segment's start to its end, as an angle from x; 0 where the two coincide.
-double heading_of(const Motion& motion, const Segment& segment);
-
 /// The whole rows of one segment as a separate piece of motion that begins at the origin and, where heading is free,
 /// leads along x.
 MotionPiece cut_out(const Motion& motion, const Segment& segment, bool heading_free);

@@ -1,7 +1,6 @@
 #pragma once
 // Reports on learning and validating an outline.
 
-#include <string>
 #include <vector>
 
 #include "learn/outline/outline_fit.hpp"
