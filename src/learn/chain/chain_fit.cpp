@@ -7,7 +7,6 @@
 
 #include "learn/chain/motion/segmentation.hpp"
 #include "learn/chain/segments/modes.hpp"
-#include "learn/chain/segments/segment_store.hpp"
 #include "wisp/model/chain.hpp"
 #include "wisp/model/file.hpp"
 

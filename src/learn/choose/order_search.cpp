@@ -17,18 +17,14 @@ namespace {
 constexpr int kMaxOrder = 4096;
 constexpr std::size_t kMaxCandidates = 1'000'000;
 
-Result<void> check_range(const OrderRange& range, const char* name) {
-  if (range.first >= 0 && range.first <= range.last && range.last <= kMaxOrder) return {};
-  return Error{std::string("the range of ") + name + " is " + std::to_string(range.first) + ":" +
-               std::to_string(range.last) + ", expected first <= last, both 0 to 4096"};
-}
-
 std::size_t length(const OrderRange& range) { return static_cast<std::size_t>(range.last - range.first) + 1; }
 
 Result<std::vector<OrderCandidate>> list_candidates(const ChannelChoice& channels, const SearchOptions& options) {
-  if (auto ok = check_range(options.na, "na"); !ok) return ok.error();
-  if (auto ok = check_range(options.nb, "nb"); !ok) return ok.error();
-  if (auto ok = check_range(options.nk, "nk"); !ok) return ok.error();
+  for (const auto& [range, name] : {std::pair(options.na, "na"), {options.nb, "nb"}, {options.nk, "nk"}}) {
+    if (range.first >= 0 && range.first <= range.last && range.last <= kMaxOrder) continue;
+    return Error{std::string("the range of ") + name + " is " + std::to_string(range.first) + ":" +
+                 std::to_string(range.last) + ", expected first <= last, both 0 to 4096"};
+  }
   if (length(options.na) * length(options.nb) * length(options.nk) > kMaxCandidates) {
     return Error{"the grid has more than a million candidates; search it in parts"};
   }

@@ -87,10 +87,7 @@ std::vector<Stretch> every(std::span<const Stretch> stretches, std::size_t step)
   std::vector<Stretch> out;
   for (const Stretch& stretch : stretches) {
     Stretch& thin = out.emplace_back(Stretch{stretch.channels, {}});
-    for (std::size_t t = 0; t < stretch.rows(); t += step) {
-      const auto row = stretch.row(t);
-      thin.values.insert(thin.values.end(), row.begin(), row.end());
-    }
+    for (std::size_t t = 0; t < stretch.rows(); t += step) thin.add(stretch.row(t));
   }
   return out;
 }
@@ -226,10 +223,7 @@ std::vector<Stretch> shuffled(std::span<const Stretch> stretches, std::uint64_t 
     shuffle(std::span(order), random);
     Stretch& mixed = out.emplace_back(Stretch{stretch.channels, {}});
     mixed.values.reserve(stretch.values.size());
-    for (std::size_t t : order) {
-      const auto row = stretch.row(t);
-      mixed.values.insert(mixed.values.end(), row.begin(), row.end());
-    }
+    for (std::size_t t : order) mixed.add(stretch.row(t));
   }
   return out;
 }

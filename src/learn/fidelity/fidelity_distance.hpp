@@ -34,6 +34,8 @@ struct Stretch {
   std::size_t rows() const { return channels == 0 ? 0 : values.size() / channels; }
   std::span<const double> row(std::size_t t) const { return std::span(values).subspan(t * channels, channels); }
   double operator()(std::size_t t, std::size_t channel) const { return values[t * channels + channel]; }
+
+  void add(std::span<const double> row) { values.insert(values.end(), row.begin(), row.end()); }
 };
 
 /// The maximal stretches of a recording over the named channels, in order.

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

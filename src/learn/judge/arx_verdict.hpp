@@ -12,25 +12,6 @@
 
 namespace wisp::arx {
 
-/// Percent: minimum free-run fit of an output over held-out rows for a model with inputs to be usable.
-inline constexpr double kMinSimulationFit = 40;
-
-/// Percent: minimum reduction of the squared error, against the better of last sample and mean as predictor, for a
-/// model without inputs to be usable.
-inline constexpr double kMinSkill = 5;
-
-/// Minimum number of rows per coefficient of an output.
-inline constexpr double kMinRowsACoefficient = 10;
-
-/// Maximum change of a coefficient by stabilisation, in standard errors.
-inline constexpr double kMaxMoved = 10;
-
-/// Minimum correlation of a residual with the input of its own sample that shows an input acting without delay.
-inline constexpr double kSameSample = 0.25;
-
-/// Percent: maximum loss of fit of the stored single-precision model against the estimate.
-inline constexpr double kMaxLostInPlay = 1;
-
 /// Mean squared difference of adjacent samples of every output; NaN where there are none.
 std::vector<double> persistence_errors(std::span<const Recording> recordings, const ChannelChoice& channels);
 
@@ -46,7 +27,7 @@ struct VerdictEvidence {
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
 };
 
-/// Marks a summary that is usable so far as not usable, with the reason, where one of the limits above is exceeded. For
+/// Marks a summary that is usable so far as not usable, with the reason, where a limit is exceeded. For
 /// a model that simulates badly, the first remark that explains it is named with its remedy. A model that remains
 /// usable gets the figure of its quality.
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);

@@ -78,19 +78,14 @@ std::string element(const char* list, std::size_t index, const char* field) {
 }
 
 ReportSection cost_section(const Cost& cost) {
-  return {"Cost",
-          {{.id = "cost.multiply_adds_per_frame",
-            .value = cost.multiply_adds_per_frame,
-            .label = "multiply-adds a frame",
-            .meaning = "by the paper's count"},
-           {.id = "cost.operations_per_frame",
-            .value = cost.operations_per_frame,
-            .label = "operations a frame",
-            .meaning = "all arithmetic, noise and view included"},
-           {.id = "cost.worst_operations_per_frame",
-            .value = cost.worst_operations,
-            .label = "operations in the worst frame"},
-           {.id = "cost.steered_operations_per_frame", .value = cost.steered_operations}}};
+  ReportSection section{"Cost"};
+  add(section, "cost.multiply_adds_per_frame", cost.multiply_adds_per_frame, "multiply-adds a frame", "",
+      "by the paper's count");
+  add(section, "cost.operations_per_frame", cost.operations_per_frame, "operations a frame", "",
+      "all arithmetic, noise and view included");
+  add(section, "cost.worst_operations_per_frame", cost.worst_operations, "operations in the worst frame");
+  add(section, "cost.steered_operations_per_frame", cost.steered_operations);
+  return section;
 }
 
 }  // namespace wisp::arx

@@ -1,4 +1,4 @@
-#include "learn/chain/gusts/gust_response.hpp"
+#include "learn/chain/gusts/gust_play.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

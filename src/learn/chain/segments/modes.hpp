@@ -1,10 +1,11 @@
 #pragma once
-// Modes of the paper: clusters of segments, transition probabilities given the one or two modes before, and
-// realisations.
+// Modes of the paper: clusters of segments, transition probabilities given the one or two modes before, realisations
+// (realisations.cpp), and segments as a chain stores them (segment_store.cpp).
 //
 // Source: sections 2.2 and 4.1.3 of the paper. Section 2.2 names splines, linear systems, differential equations and
 // chains besides segments as realisations. Learning converts each into segments, so that a model stores and plays
-// segments only (realisations.cpp).
+// segments only: each in its own frame, resampled to whole steps, as scaled 16-bit numbers, with the successors that
+// join it best.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include "learn/chain/motion/motion.hpp"
 #include "learn/chain/motion/segmentation.hpp"
 #include "wisp/base/result.hpp"
+#include "wisp/model/chain.hpp"
 
 namespace wisp::chain {
 
@@ -89,5 +91,24 @@ Result<RealisedSegments> system_segments(const SortedSegments& from, int degree,
 /// Halves of the segments, each half of a mode clustered into two: a mode then is a chain of four modes.
 /// Errors: more than 64 modes in total.
 Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
+
+struct SegmentStoreOptions {
+  bool heading_free = true;
+  std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: excess segments are dropped, from the most frequent
+                                      ///< modes first
+  bool bounded_height = false;        ///< segments keep their initial height and join others at a similar one
+  int breadth = 0;  ///< 0 … 256: number of best-joining successors per segment and mode; 0: any segment of the mode may
+                    ///< follow
+};
+
+struct SegmentStore {
+  ChainSegments segments;
+  std::vector<std::size_t> source;  ///< per stored segment: its index among the given ones
+};
+
+/// Stores segments.
+///
+/// Preconditions: each mode has a segment; orientation where breadth > 0.
+SegmentStore store_segments(const SortedSegments& found, const SegmentStoreOptions& options);
 
 }  // namespace wisp::chain

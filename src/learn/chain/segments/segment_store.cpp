@@ -1,4 +1,4 @@
-#include "learn/chain/segments/segment_store.hpp"
+#include "learn/chain/segments/modes.hpp"
 
 #include <algorithm>
 #include <cmath>

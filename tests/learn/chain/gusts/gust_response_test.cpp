@@ -1,4 +1,3 @@
-#include "learn/chain/gusts/gust_response.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
