@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "learn/flame/extinction.hpp"
-#include "learn/flame/flame_sizes.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "studies/verify_bounds.hpp"
 #include "wisp/record/csv.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "learn/chain/gusts/gust_play.hpp"
-#include "learn/chain/gusts/gust_response.hpp"
 #include "studies/falls/verify_falls.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/simulate/leaf_drops.hpp"

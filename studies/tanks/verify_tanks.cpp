@@ -17,7 +17,6 @@
 
 #include "learn/judge/judged_fit.hpp"
 #include "learn/judge/prediction.hpp"
-#include "learn/markov/markov_fit.hpp"
 #include "learn/markov/markov_rows.hpp"
 #include "learn/shared_files.hpp"
 #include "studies/value_or_abort.hpp"
