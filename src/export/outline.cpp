@@ -2,7 +2,6 @@
 
 #include "export/outline.hpp"
 
-#include <algorithm>
 
 #include "model/bspline.hpp"
 #include "wisp/export/export.hpp"

@@ -5,7 +5,6 @@
 // section 2.2. Only + − × ÷ is used, so that the weights are the same bits on every machine.
 
 #include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 

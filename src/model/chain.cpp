@@ -1,6 +1,5 @@
 #include "wisp/model/chain.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <span>

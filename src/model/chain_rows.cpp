@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <string>
 
 #include "model/payload.hpp"
 

@@ -1,6 +1,5 @@
 // Check of a model's content, on which every reader of a file, and every bank, relies.
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <set>

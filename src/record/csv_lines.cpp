@@ -1,7 +1,6 @@
 #include "record/csv_state.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <istream>
 
 #include "record/csv_cells.hpp"

@@ -1,7 +1,6 @@
 #include "record/loudness.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace wisp {
 namespace {

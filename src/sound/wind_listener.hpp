@@ -1,7 +1,6 @@
 #pragma once
 // The live estimator without its clock: takes samples, returns frames on request, over any number type.
 
-#include <cstdint>
 
 #include "sound/wind_background.hpp"
 #include "sound/wind_bridge.hpp"

@@ -1,7 +1,6 @@
 #include "sound/wind_spectrum.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sound/wind_filters.hpp"
 

@@ -1,7 +1,6 @@
 // `wisp learn chain` and its preset `wisp learn leaf`: learn a segment chain from recorded motion.
 
 #include <chrono>
-#include <filesystem>
 
 #include "commands/commands.hpp"
 #include "flags/motion_flags.hpp"

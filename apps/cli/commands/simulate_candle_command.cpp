@@ -1,6 +1,5 @@
 // `wisp simulate candle`: simulates a clip with sound from physics, with its ground truth.
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 

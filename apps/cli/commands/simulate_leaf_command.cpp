@@ -1,6 +1,5 @@
 // `wisp simulate leaf`: simulates many falls of one leaf as a recording, or gusts with their calm twins as two.
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

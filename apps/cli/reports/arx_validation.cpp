@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "flags/arx_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/arx_figures.hpp"
 #include "wisp/learn/validate.hpp"

@@ -4,7 +4,6 @@
 // opacity, as files for engines and browsers.
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 

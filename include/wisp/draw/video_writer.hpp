@@ -2,11 +2,9 @@
 // Writes pictures and sound to an MP4 file (H.264 video, AAC sound), or pictures with opacity to WebM (VP9) or APNG, by
 // the file's extension.
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <string>
 
 #include "wisp/base/result.hpp"
 #include "wisp/draw/image.hpp"

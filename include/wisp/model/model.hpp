@@ -4,7 +4,6 @@
 // A model is dynamics, a view that says what the outputs mean, optionally a rule of extinction, and a record of how it
 // was made. Every number is in the model's own units; design notes are in docs/architecture.md.
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>

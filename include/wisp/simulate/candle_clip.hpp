@@ -5,7 +5,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"

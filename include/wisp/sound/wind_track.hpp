@@ -3,7 +3,6 @@
 // background is the mean of all stretches without wind, the gain is exact, and under voices the wind is measured
 // between their harmonics.
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>

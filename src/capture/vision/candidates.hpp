@@ -6,7 +6,6 @@
 // and tapers upwards, so its tip moves more than its base. Its rim is steep, so another level gives nearly the same
 // region.
 
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "wisp/capture/vision/outline_capture.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "base/statistics.hpp"

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "capture/vision/edge_cloud.hpp"
 #include "capture/vision/region.hpp"
 #include "wisp/capture/vision/image.hpp"
 

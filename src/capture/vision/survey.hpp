@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "capture/vision/edge_cloud.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/capture/vision/image.hpp"
 #include "wisp/capture/vision/picture.hpp"

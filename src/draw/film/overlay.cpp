@@ -6,7 +6,6 @@
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "draw/cairo.hpp"
 

@@ -3,7 +3,6 @@
 #include <cairo-svg.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 

@@ -2,7 +2,6 @@
 // Operations of a step that are equal for all falling lanes of a block of chains, computed in parallel: each advances
 // in its segment, its offset is updated, and its pose is displayed.
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

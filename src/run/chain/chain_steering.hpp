@@ -4,7 +4,6 @@
 // latter is approximated by a normal distribution around the walk's expected displacement, wider the more time is left:
 // ChainDrift in wisp/model/chain.hpp.
 
-#include <algorithm>
 #include <span>
 
 #include "run/chain/chain_lane.hpp"

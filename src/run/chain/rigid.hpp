@@ -6,7 +6,6 @@
 // vectors, the axis times the tangent of half the angle: scaling them needs no trigonometry.
 
 #include <array>
-#include <cstdint>
 
 #include "run/lanes/lanes.hpp"
 

@@ -1,10 +1,8 @@
 #include "run/state/channels.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <string>
 
 #include "run/state/model_hash.hpp"

@@ -1,7 +1,6 @@
 #include "simulate/candle/candle_rig.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 

@@ -4,12 +4,10 @@
 // Source of the contours: W. Lorensen & H. Cline, Marching Cubes (SIGGRAPH 1987), in the plane; saddles are resolved by
 // the square's mean.
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "simulate/candle/candle_rig.hpp"
-#include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp {
 

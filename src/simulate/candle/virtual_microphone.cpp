@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <string>
 
 #include "simulate/candle/low_pass.hpp"
 #include "simulate/option_range.hpp"

@@ -4,7 +4,6 @@
 // Source: R. Raspet, G. Webster et al. on wind noise as stagnation pressure, and its account in Acoustics Today (2021):
 // pressure is proportional to the square of the wind, its spectrum is flat below a corner and falls steeply above.
 
-#include <cstdint>
 #include <memory>
 #include <span>
 

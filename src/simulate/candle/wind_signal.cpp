@@ -1,7 +1,6 @@
 #include "simulate/candle/wind_signal.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

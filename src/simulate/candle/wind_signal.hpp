@@ -1,8 +1,6 @@
 #pragma once
 // Wind as a function of time: calm, gusts with rests between them, or a recording's channel.
 
-#include <cstdint>
-#include <string>
 #include <vector>
 
 #include "wisp/base/result.hpp"

@@ -8,7 +8,6 @@
 
 #include <array>
 
-#include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 

@@ -5,8 +5,6 @@
 // processed at once, in the neighbourhood of the object, and released.
 
 #include <array>
-#include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
