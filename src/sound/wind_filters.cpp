@@ -8,12 +8,7 @@ namespace {
 
 /// sin and cos of x, |x| <= 4, by halving the angle eight times and doubling back; error below 1e-14. The C library's
 /// results may differ in the last bit between machines.
-struct SinCos {
-  double sin;
-  double cos;
-};
-
-SinCos sin_cos(double x) {
+Turn sin_cos(double x) {
   const double y = x / 256;
   const double y2 = y * y;
   double s = y * (1 - y2 / 6 * (1 - y2 / 20 * (1 - y2 / 42)));
@@ -39,7 +34,7 @@ struct Denominator {
 };
 
 Denominator denominator(double frequency_hz, double q, double rate_hz) {
-  const SinCos w = sin_cos(2 * kPi * frequency_hz / rate_hz);
+  const Turn w = sin_cos(2 * kPi * frequency_hz / rate_hz);
   return {w.sin, w.cos, w.sin / (2 * q)};
 }
 
@@ -83,8 +78,7 @@ std::vector<float> windowed_sinc(int taps, double cutoff) {
 }
 
 Turn turn_of(double share) {
-  const SinCos found = sin_cos((share > 0.5 ? share - 1 : share) * 2 * kPi);
-  return {found.sin, found.cos};
+  return sin_cos((share > 0.5 ? share - 1 : share) * 2 * kPi);
 }
 
 double power_of_zero(double zero, double frequency_hz, double rate_hz) {

@@ -10,13 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "sound/wind_bands.hpp"
-#include "sound/wind_decimator.hpp"
 #include "sound/wind_design.hpp"
+#include "sound/wind_features.hpp"
 #include "sound/wind_likeness_weights.hpp"
 #include "sound/wind_math.hpp"
-#include "sound/wind_sudden.hpp"
-#include "sound/wind_voicing.hpp"
 
 namespace wisp::wind {
 

@@ -8,14 +8,106 @@
 
 #include "base/statistics.hpp"
 #include "sound/wind_background.hpp"
-#include "sound/wind_bridge.hpp"
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
-#include "sound/wind_spectrum.hpp"
 #include "sound/wind_verdict.hpp"
 
 namespace wisp {
 namespace {
+
+// Wind of a recording during other sounds, from the bands between a voice's harmonics. A voice occupies few of the
+// narrow bands between 60 and 1000 Hz; wind occupies all of them, with exponentially distributed power: a quarter of
+// the bands are below 0.288 of their means. With S the spectrum of wind 1 and N the room's, the wind's power q is
+// therefore that for which a quarter of the bands are below 0.288 · (q S + N), whatever sounds in the others.
+constexpr double kWindowSeconds = 0.093;
+constexpr double kLowestHz = 60;
+constexpr double kHighestHz = 1000;
+constexpr double kQuarter = 0.2876820724517809;  // first quartile of an exponential distribution of mean 1
+
+/// One period of cosine and sine over the window's length, and the window.
+struct Tables {
+  explicit Tables(std::size_t length) : cosine(length), sine(length), window(length) {
+    for (std::size_t i = 0; i < length; ++i) {
+      const wind::Turn turn = wind::turn_of(static_cast<double>(i) / static_cast<double>(length));
+      cosine[i] = static_cast<float>(turn.cos);
+      sine[i] = static_cast<float>(turn.sin);
+      window[i] = static_cast<float>(0.5 - 0.5 * turn.cos);
+    }
+  }
+
+  std::vector<float> cosine, sine, window;
+};
+
+float power_at(std::size_t turns, const std::vector<float>& sound, const Tables& tables) {
+  float re = 0;
+  float im = 0;
+  std::size_t at = 0;
+  for (const float x : sound) {
+    re += x * tables.cosine[at];
+    im += x * tables.sine[at];
+    at += turns;
+    if (at >= sound.size()) at -= sound.size();
+  }
+  return re * re + im * im;
+}
+
+/// Powers of narrow bands, one row per frame.
+class Spectra {
+ public:
+  /// Computes powers in windows of 93 ms centred at `middles` (seconds). `channels`: levelled voice band of each
+  /// channel, at `rate_hz`.
+  Spectra(const std::vector<std::vector<float>>& channels, double rate_hz, const std::vector<double>& middles) {
+    const auto length = static_cast<std::size_t>(kWindowSeconds * rate_hz + 0.5);
+    const double width_hz = rate_hz / static_cast<double>(length);
+    const auto first = static_cast<std::size_t>(kLowestHz / width_hz + 1);
+    bands_ = static_cast<std::size_t>(kHighestHz / width_hz) + 1 - first;
+    powers_.assign(middles.size() * bands_, 0.0F);
+    const Tables tables(length);
+    std::vector<float> piece(length);
+    for (std::size_t k = 0; k < middles.size(); ++k) {
+      const auto begin = static_cast<std::ptrdiff_t>(middles[k] * rate_hz) - static_cast<std::ptrdiff_t>(length / 2);
+      for (const std::vector<float>& sound : channels) {
+        for (std::size_t i = 0; i < length; ++i) {
+          const std::ptrdiff_t at = begin + static_cast<std::ptrdiff_t>(i);
+          const bool there = at >= 0 && at < static_cast<std::ptrdiff_t>(sound.size());
+          piece[i] = there ? sound[static_cast<std::size_t>(at)] * tables.window[i] : 0.0F;
+        }
+        for (std::size_t b = 0; b < bands_; ++b) powers_[k * bands_ + b] += power_at(first + b, piece, tables);
+      }
+    }
+  }
+
+  const float* frame(std::size_t k) const { return powers_.data() + k * bands_; }
+
+  /// Adds `weight` times the powers of frame `k` to `sum`.
+  void add(std::size_t k, double weight, std::vector<double>& sum) const {
+    sum.resize(bands_, 0.0);
+    for (std::size_t b = 0; b < bands_; ++b) sum[b] += weight * static_cast<double>(frame(k)[b]);
+  }
+
+ private:
+  std::size_t bands_ = 0;
+  std::vector<float> powers_;
+};
+
+/// Mean spectra of wind and room in those bands.
+struct BandMeans {
+  std::vector<double> wind;  ///< at power 1, without the room's
+  std::vector<double> room;
+};
+
+/// Power of the wind in a frame, relative to wind 1.
+float power_between(const float* powers, const BandMeans& means) {
+  std::vector<double> needed;
+  for (std::size_t b = 0; b < means.wind.size(); ++b) {
+    if (means.wind[b] > 0)
+      needed.push_back((static_cast<double>(powers[b]) / kQuarter - means.room[b]) / means.wind[b]);
+  }
+  if (needed.empty()) return 0;
+  const auto quarter = needed.begin() + static_cast<std::ptrdiff_t>(needed.size() / 4);
+  std::nth_element(needed.begin(), quarter, needed.end());
+  return static_cast<float>(std::max(*quarter, 0.0));
+}
 
 using Seen = std::vector<wind::Observation<float>>;
 
@@ -97,9 +189,9 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
 }
 
 /// Mean spectra of wind and room, from frames with certain blowing and from quiet ones.
-wind::BandMeans band_means(const wind::Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
-                           const wind::Surroundings<float>& around) {
-  wind::BandMeans means;
+BandMeans band_means(const Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
+                     const wind::Surroundings<float>& around) {
+  BandMeans means;
   double blowing_power = 0;
   double blowing_frames = 0;
   double quiet_frames = 0;
@@ -130,13 +222,13 @@ float wind_of(float measured, bool foreign, float between) {
 }
 
 std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<float>& around, const wind::Design& d,
-                                 const wind::Spectra& spectra, const wind::BandMeans& means) {
+                                 const Spectra& spectra, const BandMeans& means) {
   std::vector<WindFrame> frames;
   for (std::size_t k = 0; k < seen.size(); ++k) {
     WindFrame frame = wind::verdict(seen[k], around, d.power_exponent);
     frame.index = static_cast<std::int64_t>(k);
     const bool foreign = around.floor_db + wind::kHeardDb < seen[k].loudness_db && !wind::sounds_like_blowing(seen[k]);
-    const float power = wind::power_between(spectra.frame(k), means);
+    const float power = power_between(spectra.frame(k), means);
     const float between = power > 0 ? wind::exp2_of(wind::log2_of(std::max(power, 1e-12F)) * d.power_exponent) : 0.0F;
     frame.wind = wind_of(wind::heard_speed(frame.speed, seen[k], around.floor_db), foreign, between);
     frames.push_back(frame);
@@ -238,7 +330,7 @@ struct WindTracker::State {
     return times.empty() ? static_cast<double>(k) / options.frame_rate_hz : times[k];
   }
 
-  wind::Spectra spectra() const {
+  Spectra spectra() const {
     std::vector<double> middles;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const double at = static_cast<double>(k);
@@ -304,7 +396,7 @@ Result<WindTrack> WindTracker::finish() const {
   const bool blows = find_gusts(seen, around, around.gust_db);
 
   track.one_rms = std::sqrt(wind::from_decibels(around.gust_db));
-  const wind::Spectra spectra = state_->spectra();
+  const Spectra spectra = state_->spectra();
   track.frames = frames_of(seen, around, state_->design, spectra, band_means(spectra, seen, stretches, around));
   const auto seconds_at = [&](std::ptrdiff_t k) { return state_->seconds_at(static_cast<std::size_t>(k)); };
   for (const Knock& knock : kKnocks) pass_over_knocks(track.frames, knock, seconds_at);

@@ -1,6 +1,6 @@
 // What is taken for the wind while something else is heard: live, and where the whole recording is known.
 
-#include "sound/wind_bridge.hpp"
+#include "sound/wind_verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
 #pragma once
-// Periodicity of sound in the range of a voice's pitch.
+// Parts of the wind estimator, over any number type: decimation to the analysis rate; bands that distinguish blowing
+// from speech; sudden onsets, as gusts begin within a few tenths of a second, while cars, the sea and trains swell over
+// seconds; periodicity in the range of a voice's pitch.
 
 #include <algorithm>
 #include <array>
@@ -10,6 +12,162 @@
 #include "sound/wind_math.hpp"
 
 namespace wisp::wind {
+
+/// One channel: the mean of `box` samples, a low-pass, decimation by `decimation`. All channels of a stream run in
+/// step.
+template <class T>
+class Decimator {
+ public:
+  explicit Decimator(const Design& d)
+      : box_(d.box),
+        decimation_(d.decimation),
+        taps_(d.taps.begin(), d.taps.end()),
+        history_(2 * taps_.size(), T(0.0F)) {}
+
+  /// Takes a sample; returns whether a value() is ready.
+  bool push(T x) {
+    sum_ = box_count_ == 0 ? x : sum_ + x;
+    if (++box_count_ < box_) return false;
+    box_count_ = 0;
+    if (taps_.empty()) return true;
+    // Stored twice, so that the window that starts after the newest value is contiguous.
+    history_[at_] = sum_;
+    history_[at_ + taps_.size()] = sum_;
+    at_ = at_ + 1 == taps_.size() ? 0 : at_ + 1;
+    if (++phase_ < decimation_) return false;
+    phase_ = 0;
+    return true;
+  }
+
+  T value() const {
+    if (taps_.empty()) return sum_;
+    const std::size_t n = taps_.size();
+    const T* window = history_.data() + at_;
+    T sum = n % 2 == 1 ? taps_[n / 2] * window[n / 2] : T(0.0F);
+    for (std::size_t i = 0; i < n / 2; ++i) sum = sum + taps_[i] * (window[i] + window[n - 1 - i]);
+    return sum;
+  }
+
+ private:
+  int box_;
+  int decimation_;
+  std::vector<T> taps_;
+  std::vector<T> history_;
+  std::size_t at_ = 0;
+  int box_count_ = 0;
+  int phase_ = 0;
+  T sum_ = T(0.0F);
+};
+
+/// Sums over one hop, without the filters' gains.
+template <class T>
+struct BandSums {
+  T total = T(0.0F);
+  T low = T(0.0F);
+  T high = T(0.0F);
+  T voice = T(0.0F);
+  T voice_fourth = T(0.0F);
+
+  void add(const BandSums& other) {
+    total = total + other.total;
+    low = low + other.low;
+    high = high + other.high;
+    voice = voice + other.voice;
+    voice_fourth = voice_fourth + other.voice_fourth;
+  }
+};
+
+/// Filters of one channel.
+template <class T>
+class Bands {
+ public:
+  explicit Bands(const Design& d) : high_pass_(d.high_pass), low_pass_(d.low_pass), low_(d.low), high_(d.high) {}
+
+  /// Filters a sample at the analysis rate; returns the voice band's sample.
+  T push(T x) {
+    const T total = high_pass_.high(x);
+    const T voice = low_pass_.low(total);
+    const T low = low_.band(x);
+    const T high = high_.band(x);
+    sums_.total = sums_.total + total * total;
+    sums_.low = sums_.low + low * low;
+    sums_.high = sums_.high + high * high;
+    const T square = voice * voice;
+    sums_.voice = sums_.voice + square;
+    sums_.voice_fourth = sums_.voice_fourth + square * square;
+    return voice;
+  }
+
+  const BandSums<T>& sums() const { return sums_; }
+
+  /// Ends the hop. Sets inaudible filter state to 0, as some machines flush denormal numbers and others do not.
+  void end_hop() {
+    sums_ = {};
+    high_pass_.hush();
+    low_pass_.hush();
+    low_.hush();
+    high_.hush();
+  }
+
+ private:
+  Filter<T> high_pass_, low_pass_, low_, high_;
+  BandSums<T> sums_;
+};
+
+constexpr float kNothingDb = -110;  ///< loudness below which there is no sound at all (a muted or starting stream)
+constexpr int kWarmHops = 15;       ///< hops until the 50 ms mean is settled
+
+/// Whether the current sound began suddenly, whatever it is, including sound that began during a voice and outlasts it.
+template <class T>
+class Sudden {
+ public:
+  /// Begins in an unknown situation: the first sound heard is taken for the room. A stream that is silent for half a
+  /// second comes from a gated microphone, whose room is silent.
+  void begin_unknown() {
+    heard_hops_ = 0;
+    nothing_hops_ = 0;
+  }
+
+  /// Takes a hop's loudness. Returns whether the sound began suddenly and has not ended since.
+  bool end_hop(T loudness_db, const Design& d) {
+    if (heard_hops_ < kWarmHops) {
+      begin(loudness_db);
+      return false;
+    }
+    if (sounding_ && loudness_db < before_db_ + T(kEndDb)) sounding_ = false;
+    if (!sounding_ && slow_db_ + T(kStartDb) < loudness_db) {
+      sounding_ = true;
+      before_db_ = slow_db_;
+    }
+    const float share = loudness_db < slow_db_ ? d.slow_fall : d.slow_rise;
+    slow_db_ = slow_db_ + T(share) * (loudness_db - slow_db_);
+    return sounding_;
+  }
+
+ private:
+  void begin(T loudness_db) {
+    sounding_ = false;
+    slow_db_ = T(kRoomDb);
+    if (loudness_db < T(kNothingDb)) {
+      if (++nothing_hops_ == kGatedHops) heard_hops_ = kWarmHops;
+      return;
+    }
+    ++heard_hops_;
+    slow_db_ = loudness_db;
+  }
+
+  // Maximum initial loudness of a recording's room, so that a gust at its beginning counts as sudden.
+  static constexpr float kRoomDb = -73;
+  static constexpr int kGatedHops = 50;
+  static constexpr float kStartDb = 6.5F;  ///< rise over the loudness of the last third of a second
+  static constexpr float kEndDb = 3;       ///< margin over the loudness before the sound
+
+  T slow_db_ = T(kRoomDb);
+  T before_db_ = T(kRoomDb);
+  bool sounding_ = false;
+  int heard_hops_ = kWarmHops;
+  int nothing_hops_ = 0;
+};
 
 /// Buffer of one channel's voice band at a lower rate (near 4 kHz), differenced to equalise a voice's harmonics: this
 /// hop's samples, and before them as many as the longest period has.
