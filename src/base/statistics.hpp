@@ -10,21 +10,15 @@
 
 namespace wisp {
 
-/// Returns the nearest-rank sample at `share` (0 smallest, 0.5 median, 1 largest), reordering `values`; 0 for none.
+/// Returns the nearest-rank sample at `share` (0 smallest, 0.5 median, 1 largest); 0 for none.
 ///
 /// `share` in [0, 1]; no sample is NaN.
 template <class T>
-T quantile_in_place(std::span<T> values, double share) {
+T quantile(std::vector<T> values, double share) {
   if (values.empty()) return T(0);
   const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
-}
-
-/// Like quantile_in_place(), on a copy.
-template <class T>
-T quantile(std::vector<T> values, double share) {
-  return quantile_in_place(std::span<T>(values), share);
 }
 
 /// Returns the middle sample, the upper one of an even number of samples; 0 for none.

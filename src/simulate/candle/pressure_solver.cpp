@@ -13,15 +13,15 @@ constexpr float kWeightLow = 0.5617F;
 constexpr float kWeightHigh = 1.3895F;
 constexpr int kCoarsestPairs = 4;  // number of pairs of sweeps on the coarsest grid, which has few cells
 
-void sweep(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, const Plane& inverse_diagonal,
-           const Plane& right_side, float weight, const Plane& from, Plane& to) {
+void sweep(const PressureLevel& level, float weight, const Plane& from, Plane& to) {
+  const FlowGrid& grid = level.grid;
   const int stride = grid.stride();
   for (int j = 0; j < grid.ny; ++j) {
     const int row = grid.at(0, j);
-    const float* __restrict west = beta_x.data() + row;
-    const float* __restrict south = beta_y.data() + row;
-    const float* __restrict inverse = inverse_diagonal.data() + row;
-    const float* __restrict b = right_side.data() + row;
+    const float* __restrict west = level.beta_x.data() + row;
+    const float* __restrict south = level.beta_y.data() + row;
+    const float* __restrict inverse = level.inverse_diagonal.data() + row;
+    const float* __restrict b = level.right_side.data() + row;
     const float* __restrict x = from.data() + row;
     float* __restrict out = to.data() + row;
     for (int i = 0; i < grid.nx; ++i) {
@@ -68,15 +68,15 @@ void new_direction(const FlowGrid& grid, Plane& direction, float factor, const P
 
 // out = A x, or out = b − A x if a right side is given.
 template <bool kResidual>
-void apply(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, const Plane& diagonal, const Plane& from,
-           const Plane& right_side, Plane& to) {
+void apply(const PressureLevel& level, const Plane& from, Plane& to) {
+  const FlowGrid& grid = level.grid;
   const int stride = grid.stride();
   for (int j = 0; j < grid.ny; ++j) {
     const int row = grid.at(0, j);
-    const float* __restrict west = beta_x.data() + row;
-    const float* __restrict south = beta_y.data() + row;
-    const float* __restrict centre = diagonal.data() + row;
-    const float* __restrict b = right_side.data() + row;
+    const float* __restrict west = level.beta_x.data() + row;
+    const float* __restrict south = level.beta_y.data() + row;
+    const float* __restrict centre = level.diagonal.data() + row;
+    const float* __restrict b = level.right_side.data() + row;
     const float* __restrict x = from.data() + row;
     float* __restrict out = to.data() + row;
     for (int i = 0; i < grid.nx; ++i) {
@@ -88,15 +88,15 @@ void apply(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, const
   }
 }
 
-void set_diagonal(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y, Plane& diagonal, Plane& inverse) {
-  const int stride = grid.stride();
-  for (int j = 0; j < grid.ny; ++j) {
-    const int row = grid.at(0, j);
-    const float* __restrict west = beta_x.data() + row;
-    const float* __restrict south = beta_y.data() + row;
-    float* __restrict sum = diagonal.data() + row;
-    float* __restrict reciprocal = inverse.data() + row;
-    for (int i = 0; i < grid.nx; ++i) {
+void set_diagonal(PressureLevel& level) {
+  const int stride = level.grid.stride();
+  for (int j = 0; j < level.grid.ny; ++j) {
+    const int row = level.grid.at(0, j);
+    const float* __restrict west = level.beta_x.data() + row;
+    const float* __restrict south = level.beta_y.data() + row;
+    float* __restrict sum = level.diagonal.data() + row;
+    float* __restrict reciprocal = level.inverse_diagonal.data() + row;
+    for (int i = 0; i < level.grid.nx; ++i) {
       const float d = (west[i] + west[i + 1]) + (south[i] + south[i + stride]);
       sum[i] = d;
       reciprocal[i] = d > 0.0F ? 1.0F / d : 0.0F;
@@ -104,14 +104,37 @@ void set_diagonal(const FlowGrid& grid, const Plane& beta_x, const Plane& beta_y
   }
 }
 
-void coarsen(const FlowGrid& fine, const Plane& fine_x, const Plane& fine_y, const FlowGrid& coarse, Plane& coarse_x,
-             Plane& coarse_y) {
-  for (int j = 0; j <= coarse.ny; ++j)
-    for (int i = 0; i <= coarse.nx; ++i) {
-      const int child = fine.at(2 * i, 2 * j);
-      const int cell = coarse.at(i, j);
-      if (j < coarse.ny) coarse_x[cell] = 0.5F * (fine_x[child] + fine_x[child + fine.stride()]);
-      if (i < coarse.nx) coarse_y[cell] = 0.5F * (fine_y[child] + fine_y[child + 1]);
+void coarsen(const PressureLevel& fine, PressureLevel& coarse) {
+  const FlowGrid& grid = coarse.grid;
+  for (int j = 0; j <= grid.ny; ++j)
+    for (int i = 0; i <= grid.nx; ++i) {
+      const int child = fine.grid.at(2 * i, 2 * j), up = fine.grid.stride(), cell = grid.at(i, j);
+      if (j < grid.ny) coarse.beta_x[cell] = 0.5F * (fine.beta_x[child] + fine.beta_x[child + up]);
+      if (i < grid.nx) coarse.beta_y[cell] = 0.5F * (fine.beta_y[child] + fine.beta_y[child + 1]);
+    }
+}
+
+void smooth_from_zero(PressureLevel& level) {
+  for (int j = 0; j < level.grid.ny; ++j) {
+    const int row = level.grid.at(0, j);
+    const float* __restrict inverse = level.inverse_diagonal.data() + row;
+    const float* __restrict b = level.right_side.data() + row;
+    float* __restrict out = level.other.data() + row;
+    for (int i = 0; i < level.grid.nx; ++i) out[i] = kWeightLow * (inverse[i] * b[i]);
+  }
+  sweep(level, kWeightHigh, level.other, level.x);
+}
+
+void correct(const PressureLevel& coarse, PressureLevel& fine) {
+  for (int j = 0; j < coarse.grid.ny; ++j)
+    for (int i = 0; i < coarse.grid.nx; ++i) {
+      float* x = fine.x.data() + fine.grid.at(2 * i, 2 * j);
+      const int up = fine.grid.stride();
+      const float correction = coarse.x[coarse.grid.at(i, j)];
+      x[0] += correction;
+      x[1] += correction;
+      x[up] += correction;
+      x[up + 1] += correction;
     }
 }
 
@@ -132,29 +155,13 @@ void PressureSolver::reset() { std::fill(phi_.begin(), phi_.end(), 0.0F); }
 
 void PressureSolver::prepare() {
   for (std::size_t l = 0; l < levels_.size(); ++l) {
-    Level& level = levels_[l];
-    if (l > 0) {
-      const Level& fine = levels_[l - 1];
-      coarsen(fine.grid, fine.beta_x, fine.beta_y, level.grid, level.beta_x, level.beta_y);
-    }
-    set_diagonal(level.grid, level.beta_x, level.beta_y, level.diagonal, level.inverse_diagonal);
+    if (l > 0) coarsen(levels_[l - 1], levels_[l]);
+    set_diagonal(levels_[l]);
   }
 }
 
-void PressureSolver::smooth_from_zero(Level& level) {
-  for (int j = 0; j < level.grid.ny; ++j) {
-    const int row = level.grid.at(0, j);
-    const float* __restrict inverse = level.inverse_diagonal.data() + row;
-    const float* __restrict b = level.right_side.data() + row;
-    float* __restrict out = level.other.data() + row;
-    for (int i = 0; i < level.grid.nx; ++i) out[i] = kWeightLow * (inverse[i] * b[i]);
-  }
-  sweep(level.grid, level.beta_x, level.beta_y, level.inverse_diagonal, level.right_side, kWeightHigh, level.other,
-        level.x);
-}
-
-void PressureSolver::restrict_residual(const Level& fine, Level& coarse) {
-  apply<true>(fine.grid, fine.beta_x, fine.beta_y, fine.diagonal, fine.x, fine.right_side, product_);
+void PressureSolver::restrict_residual(const PressureLevel& fine, PressureLevel& coarse) {
+  apply<true>(fine, fine.x, product_);
   for (int j = 0; j < coarse.grid.ny; ++j)
     for (int i = 0; i < coarse.grid.nx; ++i) {
       const float* r = product_.data() + fine.grid.at(2 * i, 2 * j);
@@ -163,21 +170,8 @@ void PressureSolver::restrict_residual(const Level& fine, Level& coarse) {
     }
 }
 
-void PressureSolver::correct(const Level& coarse, Level& fine) {
-  for (int j = 0; j < coarse.grid.ny; ++j)
-    for (int i = 0; i < coarse.grid.nx; ++i) {
-      float* x = fine.x.data() + fine.grid.at(2 * i, 2 * j);
-      const int up = fine.grid.stride();
-      const float correction = coarse.x[coarse.grid.at(i, j)];
-      x[0] += correction;
-      x[1] += correction;
-      x[up] += correction;
-      x[up + 1] += correction;
-    }
-}
-
 void PressureSolver::v_cycle(std::size_t index) {
-  Level& level = levels_[index];
+  PressureLevel& level = levels_[index];
   smooth_from_zero(level);
   const bool coarsest = index + 1 == levels_.size();
   if (!coarsest) {
@@ -186,18 +180,16 @@ void PressureSolver::v_cycle(std::size_t index) {
     correct(levels_[index + 1], level);
   }
   for (int pair = 0; pair < (coarsest ? kCoarsestPairs : 1); ++pair) {
-    sweep(level.grid, level.beta_x, level.beta_y, level.inverse_diagonal, level.right_side, kWeightLow, level.x,
-          level.other);
-    sweep(level.grid, level.beta_x, level.beta_y, level.inverse_diagonal, level.right_side, kWeightHigh, level.other,
-          level.x);
+    sweep(level, kWeightLow, level.x, level.other);
+    sweep(level, kWeightHigh, level.other, level.x);
   }
 }
 
 PressureSolve PressureSolver::solve(float tolerance, int most) {
-  Level& top = levels_.front();
+  PressureLevel& top = levels_.front();
   const FlowGrid& grid = top.grid;
   const double cells = static_cast<double>(grid.nx) * grid.ny;
-  apply<true>(grid, top.beta_x, top.beta_y, top.diagonal, phi_, top.right_side, residual_);
+  apply<true>(top, phi_, residual_);
   PressureSolve result;
   double rz_before = 0;
   while (true) {
@@ -209,7 +201,7 @@ PressureSolve PressureSolver::solve(float tolerance, int most) {
     const double rz = dot(grid, residual_, top.x);
     new_direction(grid, direction_, result.iterations == 0 ? 0.0F : static_cast<float>(rz / rz_before), top.x);
     rz_before = rz;
-    apply<false>(grid, top.beta_x, top.beta_y, top.diagonal, direction_, top.right_side, product_);
+    apply<false>(top, direction_, product_);
     const double curvature = dot(grid, direction_, product_);
     if (!(curvature > 0)) break;
     const auto step = static_cast<float>(rz / curvature);

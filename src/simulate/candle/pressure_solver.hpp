@@ -19,6 +19,12 @@ struct PressureSolve {
   float residual = 0;  ///< root mean square over cells, in the unit of the right side
 };
 
+/// The equation on one of the grids, with its coefficients.
+struct PressureLevel {
+  FlowGrid grid;
+  Plane beta_x, beta_y, diagonal, inverse_diagonal, right_side, x, other;
+};
+
 class PressureSolver {
  public:
   explicit PressureSolver(const FlowGrid& grid);
@@ -44,17 +50,10 @@ class PressureSolver {
   void reset();
 
  private:
-  struct Level {
-    FlowGrid grid;
-    Plane beta_x, beta_y, diagonal, inverse_diagonal, right_side, x, other;
-  };
-
   void v_cycle(std::size_t level);
-  void smooth_from_zero(Level& level);
-  void restrict_residual(const Level& fine, Level& coarse);
-  void correct(const Level& coarse, Level& fine);
+  void restrict_residual(const PressureLevel& fine, PressureLevel& coarse);
 
-  std::vector<Level> levels_;
+  std::vector<PressureLevel> levels_;
   Plane phi_, residual_, direction_, product_;
 };
 

@@ -1,10 +1,37 @@
 #pragma once
-// The fall of one leaf, by Runge-Kutta steps of fourth order. docs/studies/leaf.md compares step lengths.
+// The fall of one leaf: its equations of motion, written out in docs/explanation/leaf.md, solved by Runge-Kutta steps
+// of fourth order. docs/studies/leaf.md compares step lengths.
 
 #include <vector>
 
-#include "simulate/leaf/leaf_equations.hpp"
+#include "simulate/leaf/leaf.hpp"
+#include "simulate/leaf/leaf_vector.hpp"
+#include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/base/result.hpp"
+
+namespace wisp::leaf {
+
+/// Constants of a leaf, with products precomputed.
+struct Constants {
+  Vec carried{};       // added mass
+  Vec inverse_mass{};  // 1 / (m + added mass)
+  Vec moment{};        // including the added one
+  Vec inverse_moment{};
+  double mass = 0;
+  double weight = 0;                 // m g
+  double lift = 0;                   // ρ S C_T
+  double drag = 0, drag_normal = 0;  // ½ ρ S C_D0 and ½ ρ S (C_D90 − C_D0)
+  double swirl_x = 0, swirl_y = 0;   // coefficient of rotational lift about each axis
+  Vec damping_spin{}, damping_speed{};
+};
+
+/// Precondition: check(leaf) succeeds.
+Constants constants_of(const Leaf& leaf);
+
+/// Returns the time derivative of a state, in the same layout. The attitude may have any nonzero norm.
+LeafState rate_of(const Constants& c, const LeafState& s, const WindSample& wind);
+
+}  // namespace wisp::leaf
 
 namespace wisp {
 

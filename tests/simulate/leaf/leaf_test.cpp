@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/leaf/leaf_equations.hpp"
+#include "simulate/leaf/leaf_flight.hpp"
 #include "simulate/random_numbers.hpp"
 
 namespace wisp::leaf_test {
