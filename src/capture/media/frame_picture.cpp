@@ -1,4 +1,4 @@
-#include "capture/media/frame_picture.hpp"
+#include "capture/media/video_sources.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "capture/media/image_folder.hpp"
+#include "capture/media/video_sources.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,7 @@
 
 #include <variant>
 
-#include "capture/media/image_folder.hpp"
-#include "capture/media/video_file.hpp"
+#include "capture/media/video_sources.hpp"
 
 namespace wisp {
 

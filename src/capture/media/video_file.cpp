@@ -1,4 +1,4 @@
-#include "capture/media/video_file.hpp"
+#include "capture/media/video_sources.hpp"
 
 #include <algorithm>
 #include <array>

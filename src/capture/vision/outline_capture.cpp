@@ -11,7 +11,6 @@
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
-#include "capture/vision/outline_verdict.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -1,9 +1,12 @@
 #pragma once
-// Findings of each frame, and their assembly to the rows of a recording.
+// Findings of each frame, their assembly to the rows of a recording, and the verdict whether its outline is a usable
+// flame's, and if not, why: two logistic models of the facts, monotone in every fact, fitted by tools/fit_verdict.py to
+// films and scenes with human labels.
 
 #include <cstdint>
 #include <vector>
 
+#include "capture/vision/spline_table.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
 
 namespace wisp {
@@ -29,5 +32,15 @@ struct FrameFindings {
 /// With all frames known, identifies duplicates and fades, fills single gaps, cuts episodes, and writes the recording's
 /// channels, flag and episodes and the report's counts.
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report);
+
+/// Computes the report's facts and `out_at` from the recording's outlines; facts of still pictures (light, contrast,
+/// clipped, steadiness) come from the survey. Returns whether there is any outline.
+///
+/// Precondition: the recording's first channels are the outline's control points, x and y alternating.
+bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
+
+/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is the heaviest fact
+/// without which the verdict would be yes; absence of a flame is tested first.
+void judge_outline(CaptureReport& report);
 
 }  // namespace wisp

@@ -1,4 +1,4 @@
-#include "capture/vision/outline_verdict.hpp"
+#include "capture/vision/outline_rows.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "capture/clip/fall/fall_report.hpp"
-#include "capture/clip/fall/fall_scene.hpp"
-#include "capture/clip/fall/fall_tracks.hpp"
+#include "capture/clip/fall/falls.hpp"
 #include "record/number_text.hpp"
 #include "record/verdict.hpp"
 #include "wisp/capture/clip/clip_capture.hpp"

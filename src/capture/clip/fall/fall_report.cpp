@@ -1,4 +1,4 @@
-#include "capture/clip/fall/fall_report.hpp"
+#include "capture/clip/fall/falls.hpp"
 
 #include <algorithm>
 #include <array>
@@ -164,8 +164,7 @@ std::optional<std::string> filled_warning(const Facts& facts) {
          " of the rows were interpolated: the film repeats or loses frames, or the thing is as bright as the wall";
 }
 
-ReportSection frames_section(const std::vector<std::vector<std::uint8_t>>& frames, std::size_t repeated,
-                             const Wall& wall, double rate_hz) {
+ReportSection frames_section(const std::vector<Frame>& frames, std::size_t repeated, const Wall& wall, double rate_hz) {
   const auto lost =
       static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& f) { return f.empty(); }));
   return {"Frames",

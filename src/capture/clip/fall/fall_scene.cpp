@@ -1,4 +1,4 @@
-#include "capture/clip/fall/fall_scene.hpp"
+#include "capture/clip/fall/falls.hpp"
 
 #include <algorithm>
 #include <cmath>

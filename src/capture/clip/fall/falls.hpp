@@ -1,0 +1,118 @@
+#pragma once
+// Falls in a film: objects before a wall in one frame, the wall estimated from the film's other frames; falls among the
+// tracks of objects over frames; the report: whether they are usable for learning, why there are none, their figures.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/report.hpp"
+#include "wisp/base/result.hpp"
+
+namespace wisp::fall {
+
+/// A reduced luma picture, row by row; empty: the frame is lost.
+using Frame = std::vector<std::uint8_t>;
+
+/// The static background, and its variation.
+struct Wall {
+  int width = 0;
+  int height = 0;
+  std::vector<float> brightness;  ///< median over the film
+  std::vector<float> tolerance;   ///< maximum difference of the background; a larger one is an object
+  double noise = 0;               ///< standard deviation of the median pixel, grey levels
+  double shake = 0;               ///< RMS shift in reduced pixels; 0 also for a wall without texture
+  double unsteady = 0;            ///< share of pixels that change in most frames, which shows a moving camera
+};
+
+/// Estimates the wall. Precondition: at least one frame is not empty, and each such has width × height pixels.
+Wall wall_of(std::span<const Frame> frames, int width, int height);
+
+/// An object before the wall. Units: pixels of the reduced picture, y down.
+struct Thing {
+  double x = 0;         ///< centroid
+  double y = 0;         ///<
+  double area = 0;      ///< covered area in pixels
+  double contrast = 0;  ///< difference from the wall, grey levels
+  double angle = 0;     ///< of its long axis to the horizontal, anticlockwise, −π/2 to π/2
+  double aspect = 1;    ///< length / width
+  double left = 0;      ///< bounding box
+  double right = 0;     ///<
+  double bottom = 0;    ///<
+};
+
+/// Objects seen in a frame.
+struct Seen {
+  std::vector<Thing> things{};  ///< objects that touch no border of the picture
+  bool at_border = false;       ///< whether another object touches the border
+};
+
+/// Finds the objects of a frame. Precondition: the frame has the wall's size.
+Seen seen_in(const Frame& frame, const Wall& wall);
+
+/// Picture size and frame rate of the tracking.
+struct Scale {
+  double rate_hz = 0;
+  double width = 0;   ///< picture width, reduced pixels
+  double height = 0;  ///<
+};
+
+/// Reason why a fall was not followed from its release to its end.
+enum class Cut {
+  kNo,
+  kSide,    ///< it leaves or enters the picture at a side
+  kLost,    ///< it disappears in the air
+  kPasses,  ///< it comes so near to another object that the two may be confused
+  kQuick,   ///< it lasts less than 0.3 s or 8 frames
+};
+
+/// A falling object: one row per frame from its release until it lies or leaves the picture.
+struct Fall {
+  std::size_t first = 0;             ///< frame of the first row
+  std::vector<Thing> rows;           ///< `angle` is unwrapped, beyond ±π/2
+  std::vector<std::uint8_t> filled;  ///< per row, 1: not seen, interpolated
+  Cut cut = Cut::kNo;
+};
+
+struct Falls {
+  std::vector<Fall> falls;  ///< in order of their first frames
+  std::vector<Cut> missed;  ///< sinking tracks that are too short to be falls, or pass another object
+};
+
+/// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of
+/// the picture's height.
+Falls falls_in(std::span<const Seen> frames, const Scale& scale);
+
+/// Summary of all falls.
+struct Facts {
+  std::size_t rows = 0;
+  std::size_t filled = 0;  ///< number of rows interpolated between frames in which it was seen
+  double aspect = 0;       ///< median of length / width
+  double short_share = 0;  ///< share of rows in which it is too short to measure attitude
+  double jerks = 0;        ///< share of rows in which its axis jumps
+
+  /// Whether it is long enough in view to measure attitude; with the reason.
+  bool tilt() const;
+  const char* tilt_reason() const;
+};
+
+/// Precondition: there are falls, each with rows.
+Facts facts_of(const std::vector<Fall>& falls);
+
+/// The reason why a film contains no fall.
+Error no_fall(const std::string& source, const Wall& wall, const std::vector<Seen>& frames, const Falls& found);
+
+ReportVerdict verdict_on(const Falls& found, const Wall& wall);
+
+/// Warning where too many rows were interpolated.
+std::optional<std::string> filled_warning(const Facts& facts);
+
+/// `frames`: empty for lost frames; `repeated` of them equal the frame before.
+ReportSection frames_section(const std::vector<Frame>& frames, std::size_t repeated, const Wall& wall, double rate_hz);
+
+ReportSection falls_section(const Falls& found, const Facts& facts, double metres_per_pixel, double rate_hz);
+
+}  // namespace wisp::fall
