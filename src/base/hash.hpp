@@ -9,6 +9,10 @@ namespace wisp {
 
 /// Returns the hash of `bytes`; with `before`, the hash of a previous piece, that of the two concatenated. A change of
 /// any single byte changes it.
-std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325U);
+inline std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325U) {
+  std::uint64_t hash = before;
+  for (std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3U;
+  return hash;
+}
 
 }  // namespace wisp

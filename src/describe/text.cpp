@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <ostream>
 
-#include "describe/values.hpp"
-
 namespace wisp {
 namespace {
 
@@ -27,6 +25,26 @@ bool diverges(const ReportValue& value, const std::string& unit) {
   constexpr double kRunsAway = -1000;
   const auto* number = std::get_if<double>(static_cast<const ReportValue::Base*>(&value));
   return unit == "%" && number && *number < kRunsAway;
+}
+
+// Returns the text followed by its unit, if any.
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+// Formats a value without its unit; "diverges" for percentages of a diverging simulation.
+std::string shown_in_unit(const ReportValue& value, const std::string& unit) {
+  if (diverges(value, unit)) return "diverges";
+  const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));
+  if (!list) return shown(value);
+  std::string out;
+  for (const ReportValue& each : *list) out += (out.empty() ? "" : ", ") + shown_in_unit(each, unit);
+  return out;
+}
+
+std::string shown_with_unit(const ReportValue& value, const std::string& unit) {
+  const std::string text = shown_in_unit(value, unit);
+  return text == "diverges" ? text : with_unit(text, unit);
 }
 
 std::string line_of(const ReportEntry& entry, std::size_t label_width) {
@@ -74,25 +92,47 @@ std::string text_of(const ReportSection& section) {
   return body.empty() || section.title.empty() ? body : section.title + "\n" + body;
 }
 
+std::string element(const char* name, std::string_view text) {
+  return "<" + std::string(name) + ">" + html_escaped(text) + "</" + name + ">";
+}
+
+std::string row_of(const ReportEntry& entry) {
+  std::string value = shown_with_unit(entry.value, entry.unit);
+  if (entry.interval) value += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
+  return "<tr>" + element("th", entry.label) + element("td", value) + element("td", entry.meaning) + "</tr>\n";
+}
+
+std::string html_of(const ReportTable& table) {
+  std::string head, body;
+  for (const ReportColumn& column : table.columns) {
+    if (!column.label.empty()) head += element("th", with_unit(column.label, column.unit));
+  }
+  for (const auto& row : table.rows) {
+    body += "<tr>";
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      const ReportColumn& column = table.columns[k];
+      if (!column.label.empty()) body += element("td", shown_in_unit(row[k], column.unit));
+    }
+    body += "</tr>\n";
+  }
+  return "<table><caption>" + html_escaped(table.label) + "</caption>\n<tr>" + head + "</tr>\n" + body + "</table>\n";
+}
+
+std::string html_of(const ReportSection& section) {
+  std::string rows, tables;
+  for (const ReportEntry& entry : section.entries) {
+    if (!entry.label.empty()) rows += row_of(entry);
+  }
+  for (const ReportTable& table : section.tables) {
+    if (!table.label.empty()) tables += html_of(table);
+  }
+  if (rows.empty() && tables.empty()) return "";
+  std::string out = section.title.empty() ? "" : element("h3", section.title) + "\n";
+  if (!rows.empty()) out += "<table class=\"figures\">\n" + rows + "</table>\n";
+  return out + tables;
+}
+
 }  // namespace
-
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit.empty() ? text : text + " " + unit;
-}
-
-std::string shown_in_unit(const ReportValue& value, const std::string& unit) {
-  if (diverges(value, unit)) return "diverges";
-  const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));
-  if (!list) return shown(value);
-  std::string out;
-  for (const ReportValue& each : *list) out += (out.empty() ? "" : ", ") + shown_in_unit(each, unit);
-  return out;
-}
-
-std::string shown_with_unit(const ReportValue& value, const std::string& unit) {
-  const std::string text = shown_in_unit(value, unit);
-  return text == "diverges" ? text : with_unit(text, unit);
-}
 
 std::string shown(const ReportValue& value, int digits) {
   struct Words {
@@ -125,5 +165,37 @@ std::string to_text(const Report& report) {
 }
 
 std::ostream& operator<<(std::ostream& out, const Report& report) { return out << to_text(report); }
+
+std::string html_escaped(std::string_view text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string to_html(const Report& report) {
+  std::string out;
+  if (const auto& verdict = report.verdict) {
+    out += std::string("<p class=\"verdict ") + (verdict->usable ? "usable" : "refused") + "\">" +
+           (verdict->usable ? "usable: " : "not usable: ") + html_escaped(verdict->reason) + "</p>\n";
+  }
+  if (!report.warnings.empty()) {
+    out += "<ul class=\"warnings\">\n";
+    for (const std::string& warning : report.warnings) out += element("li", warning) + "\n";
+    out += "</ul>\n";
+  }
+  for (const ReportSection& section : report.sections) out += html_of(section);
+  return out;
+}
 
 }  // namespace wisp

@@ -31,7 +31,7 @@ list(FILTER computing EXCLUDE REGEX "/(cost)[^/]*$")
 list(APPEND computing model/bspline.cpp)
 file(GLOB ground RELATIVE ${SOURCE}/src ${SOURCE}/src/model/*.cpp)
 list(FILTER ground EXCLUDE REGEX "/(bspline|file|chain_rows|payload)\\.cpp$")  # on the path; not needed
-list(APPEND ground base/hash.cpp base/result.cpp)
+list(APPEND ground base/result.cpp)
 
 # One translation unit a folder, as the library has them: most of a small source's compilation is reading headers.
 function(units name sources)
