@@ -69,15 +69,16 @@ SampleRange Arguments::samples(std::string_view flag) const {
   return {std::strtoull(range.c_str(), nullptr, 10), std::strtoull(range.c_str() + colon + 1, nullptr, 10)};
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : separator) + word;
+  return all;
+}
+
 std::string help_of(const Flag& flag) {
-  std::string words, signs;
-  for (const std::string& word : flag.words) {
-    words += (words.empty() ? "" : ", ") + word;
-    signs += (signs.empty() ? "" : "|") + word;
-  }
   // The words of some flags are listed in `value`.
-  if (words.empty() || flag.value == signs || flag.kind != Kind::kChoice) return flag.help;
-  return flag.help + " (one of " + words + ")";
+  if (flag.words.empty() || flag.value == joined(flag.words, "|") || flag.kind != Kind::kChoice) return flag.help;
+  return flag.help + " (one of " + joined(flag.words, ", ") + ")";
 }
 
 Flag ranged(Flag flag, double lowest, double highest) {

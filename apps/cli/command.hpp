@@ -51,6 +51,9 @@ struct Flag {
 /// A flag with a numeric range, which its help states.
 Flag ranged(Flag flag, double lowest, double highest);
 
+/// Words with a separator between them.
+std::string joined(const std::vector<std::string>& words, const std::string& separator);
+
 /// The flag's help, with the accepted words.
 std::string help_of(const Flag& flag);
 

@@ -33,12 +33,6 @@ bool is_word(const Flag& flag, const std::string& text) {
   return std::find(flag.words.begin(), flag.words.end(), text) != flag.words.end();
 }
 
-std::string words_of(const Flag& flag) {
-  std::string all;
-  for (const std::string& word : flag.words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
 // Describes what is wrong with the type of a flag's value; empty if nothing.
 std::string complaint_of_kind(const Flag& flag, const std::string& text) {
   const std::string found = "found \"" + text + "\", expected ";
@@ -55,10 +49,10 @@ std::string complaint_of_kind(const Flag& flag, const std::string& text) {
     case Kind::kNumber:
       return is_number(text) ? std::string() : found + "a number";
     case Kind::kChoice:
-      return is_word(flag, text) ? std::string() : found + "one of " + words_of(flag);
+      return is_word(flag, text) ? std::string() : found + "one of " + joined(flag.words, ", ");
     case Kind::kIntegerOrWord:
       return is_whole(text) || is_word(flag, text) ? std::string()
-                                                   : found + "a whole number from 0, or " + words_of(flag);
+                                                   : found + "a whole number from 0, or " + joined(flag.words, ", ");
     case Kind::kSamples:
       return is_sample_range(text) ? std::string() : found + "a range A:B of samples with 1 <= A <= B, such as 1:300";
   }
@@ -190,12 +184,8 @@ int run_command(const Wired& wired) {
 
 // Words before the first flag, joined.
 std::string leading(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) {
-    if (word.starts_with('-')) break;
-    all += (all.empty() ? "" : " ") + word;
-  }
-  return all;
+  const auto flag = std::find_if(words.begin(), words.end(), [](const auto& word) { return word.starts_with('-'); });
+  return joined({words.begin(), flag}, " ");
 }
 
 // The command or group of commands named by the first words.

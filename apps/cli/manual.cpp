@@ -124,9 +124,17 @@ std::string man_page() {
   return text;
 }
 
-std::vector<std::string> first_words() {
-  std::vector<std::string> words{"help"};
-  for (const Command& command : commands()) words.push_back(command.name.substr(0, command.name.find(' ')));
+// Words allowed in first place, or in second place after `first`.
+std::vector<std::string> next_words(const std::string& first) {
+  std::vector<std::string> words;
+  for (const Command& command : commands()) {
+    const std::size_t space = command.name.find(' ');
+    if (first.empty()) {
+      words.push_back(command.name.substr(0, space));
+    } else if (command.name.substr(0, space) == first && space != std::string::npos) {
+      words.push_back(command.name.substr(space + 1));
+    }
+  }
   words.erase(std::unique(words.begin(), words.end()), words.end());
   return words;
 }
@@ -136,12 +144,9 @@ std::string bash_completion() {
       "_wisp() {\n  local now=${COMP_WORDS[COMP_CWORD]} line=\"${COMP_WORDS[*]:1} \" words=\n"
       "  case $line in\n";
   std::string groups;
-  for (const std::string& word : first_words()) {
-    std::string second;
-    for (const Command& command : commands()) {
-      if (command.name.starts_with(word + " ")) second += command.name.substr(word.size() + 1) + " ";
-    }
-    if (!second.empty()) groups += "    " + word + ") words='" + second + "' ;;\n";
+  for (const std::string& word : next_words("")) {
+    const std::vector<std::string> second = next_words(word);
+    if (!second.empty()) groups += "    " + word + ") words='" + joined(second, " ") + " ' ;;\n";
   }
   for (const Command& command : commands()) {
     text += "    '" + command.name + " '*) words='";
@@ -150,8 +155,8 @@ std::string bash_completion() {
     text += "--help' ;;\n";
   }
   text += "  esac\n  if [ \"$COMP_CWORD\" = 1 ]; then words='";
-  for (const std::string& word : first_words()) text += word + " ";
-  text += "--help --version'; fi\n  if [ \"$COMP_CWORD\" = 2 ]; then case ${COMP_WORDS[1]} in\n" + groups +
+  text += "help " + joined(next_words(""), " ") +
+          " --help --version'; fi\n  if [ \"$COMP_CWORD\" = 2 ]; then case ${COMP_WORDS[1]} in\n" + groups +
           "  esac; fi\n"
           "  COMPREPLY=($(compgen -W \"$words\" -- \"$now\"))\n"
           "  case $now in -*) ;; *) [ -n \"${COMPREPLY[*]}\" ] && [ \"$COMP_CWORD\" -lt 3 ] ||\n"
@@ -268,37 +273,18 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return "; did you mean " + before + *best + "?";
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
-// Words allowed in first place, or in second place after `first`.
-std::vector<std::string> next_words(const std::string& first) {
-  std::vector<std::string> words;
-  for (const Command& command : commands()) {
-    const std::size_t space = command.name.find(' ');
-    if (first.empty()) {
-      words.push_back(command.name.substr(0, space));
-    } else if (command.name.substr(0, space) == first && space != std::string::npos) {
-      words.push_back(command.name.substr(space + 1));
-    }
-  }
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  return words;
-}
-
 std::string wrong_command(std::span<const std::string> words) {
   const std::vector<std::string> second = next_words(words[0]);
   if (second.empty()) {
     const std::vector<std::string> first = next_words("");
-    return "wisp: there is no command " + words[0] + nearest(words[0], first, "") + " There are: " + listed(first);
+    return "wisp: there is no command " + words[0] + nearest(words[0], first, "") +
+           " There are: " + joined(first, ", ");
   }
   const std::string given = "wisp " + words[0];
-  if (words.size() < 2 || words[1].starts_with('-')) return given + ": expected one of " + listed(second) + " after it";
+  if (words.size() < 2 || words[1].starts_with('-'))
+    return given + ": expected one of " + joined(second, ", ") + " after it";
   return given + ": there is no " + words[1] + nearest(words[1], second, words[0] + " ") +
-         " There are: " + listed(second);
+         " There are: " + joined(second, ", ");
 }
 
 std::string wrong_flag(const Command& command, std::span<const std::string> words) {

@@ -207,7 +207,6 @@ class Window {
   std::string error(const char* what) const { return std::string(what) + ": " + SDL_GetError(); }
 
   // Fits the picture to the window, within what can be drawn in time.
-
   void fit_picture() {
     int width = 0, height = 0;
     if (SDL_GetRendererOutputSize(renderer_.get(), &width, &height) != 0 || width < 1 || height < 1) return;
@@ -291,7 +290,6 @@ class Window {
   }
 
   // A script's events pass through SDL's queue, like a person's.
-
   void push(const Event& event) const {
     SDL_Event sdl{};
     int width = 1, height = 1;
@@ -326,7 +324,6 @@ class Window {
   }
 
   // Sleeps while the window is hidden. Returns whether it slept.
-
   bool wait_while_hidden() {
     if (!hidden_ || course_.scripted()) return false;
     SDL_Event event;
@@ -358,7 +355,6 @@ class Window {
   }
 
   // Saves the rendered picture before it is presented.
-
   Result<void> keep(const std::vector<std::string>& names, int frame) {
     if (names.empty() || !options_.pictures) return {};
     int width = 0, height = 0;
@@ -376,7 +372,6 @@ class Window {
   }
 
   // Limits the frame rate where vertical sync does not.
-
   void hold_back(Uint64 began) const {
     if (course_.scripted()) return;
     const double per_ms = static_cast<double>(SDL_GetPerformanceFrequency()) / 1000;
@@ -386,7 +381,6 @@ class Window {
   }
 
   // Reduces the picture's size after about a second of slow frames.
-
   void draw_smaller(double milliseconds) {
     if (course_.scripted()) return;
     slow_ += (milliseconds - slow_) / 30;
