@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 
 #include "model/payload.hpp"
@@ -296,14 +295,6 @@ namespace {
 
 namespace fb = wisp_flatbuffers;
 
-// The verifier bounds a vector but does not align its elements beyond 4 bytes, so they are copied out as bytes.
-template <class Number>
-std::vector<Number> copied(const fb::Vector<Number>* values) {
-  std::vector<Number> out(values ? values->size() : 0);
-  if (!out.empty()) std::memcpy(out.data(), values->Data(), out.size() * sizeof(Number));
-  return out;
-}
-
 fb::Offset<file::GustResponse> write_gust(fb::FlatBufferBuilder& builder, const GustResponse& gust) {
   const auto stored = [](const GustResponse::Axis& axis) { return file::GustAxis(axis.change, axis.wind, axis.press); };
   const file::GustAxis ground = stored(gust.ground), vertical = stored(gust.vertical);
@@ -316,10 +307,9 @@ GustResponse read_gust(const file::GustResponse& stored) {
 }
 
 fb::Offset<file::ChainDrift> write_drift(fb::FlatBufferBuilder& builder, const ChainDrift& drift) {
-  const auto lead = builder.CreateVector(drift.lead);
-  const auto velocity = builder.CreateVector(std::vector<double>(drift.drift.begin(), drift.drift.end()));
-  return file::CreateChainDrift(builder, lead, drift.lead_scale, velocity, drift.spread_ground, drift.spread_height,
-                                drift.memory_seconds);
+  const std::vector<double> velocity(drift.drift.begin(), drift.drift.end());
+  return file::CreateChainDriftDirect(builder, &drift.lead, drift.lead_scale, &velocity, drift.spread_ground,
+                                      drift.spread_height, drift.memory_seconds);
 }
 
 Result<ChainDrift> read_drift(const file::ChainDrift& stored) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 namespace wisp {
@@ -10,21 +9,12 @@ namespace {
 
 namespace fb = wisp_flatbuffers;
 
-std::vector<std::uint16_t> flat(const OrderMatrix& matrix) {
-  std::vector<std::uint16_t> values;
-  for (int order : matrix.values()) values.push_back(static_cast<std::uint16_t>(order));
-  return values;
-}
+std::vector<std::uint16_t> flat(const OrderMatrix& matrix) { return {matrix.values().begin(), matrix.values().end()}; }
 
-std::vector<double> joined(const std::vector<std::vector<double>>& rows) {
+template <class Row>
+std::vector<double> joined(const std::vector<Row>& rows) {
   std::vector<double> all;
-  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
-  return all;
-}
-
-std::vector<double> joined(const std::vector<std::array<double, 2>>& pairs) {
-  std::vector<double> all;
-  for (const auto& pair : pairs) all.insert(all.end(), pair.begin(), pair.end());
+  for (const Row& row : rows) all.insert(all.end(), row.begin(), row.end());
   return all;
 }
 
@@ -67,27 +57,18 @@ fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
 }
 
 fb::Offset<file::ArxMode> write_mode(Builder& builder, const ArxMode& mode) {
-  const auto theta = builder.CreateVector(joined(mode.theta));
-  const auto std_error = optional_vector(builder, joined(mode.std_error));
-  const auto constant = builder.CreateVector(mode.constant);
-  const auto shock = builder.CreateVector(mode.shock);
-  return file::CreateArxMode(builder, theta, std_error, constant, shock);
+  const auto theta = joined(mode.theta), std_error = joined(mode.std_error);
+  return file::CreateArxModeDirect(builder, &theta, std_error.empty() ? nullptr : &std_error, &mode.constant,
+                                   &mode.shock);
 }
 
 fb::Offset<file::SwitchedArx> write_switched(Builder& builder, const SwitchedArxModel& model) {
   std::vector<fb::Offset<file::ArxMode>> modes;
   for (const ArxMode& mode : model.modes) modes.push_back(write_mode(builder, mode));
-  const auto na = builder.CreateVector(flat(model.orders.na));
-  const auto nb = builder.CreateVector(flat(model.orders.nb));
-  const auto nk = builder.CreateVector(flat(model.orders.nk));
-  const auto output_mean = builder.CreateVector(model.output_mean);
-  const auto input_mean = builder.CreateVector(model.input_mean);
-  const auto modes_at = builder.CreateVector(modes);
-  const auto initial = builder.CreateVector(model.initial);
-  const auto transitions = builder.CreateVector(model.transitions);
-  const auto quantiles = model.shock_quantiles.empty() ? 0 : builder.CreateVector(model.shock_quantiles);
-  return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, initial, transitions,
-                                 quantiles);
+  const auto na = flat(model.orders.na), nb = flat(model.orders.nb), nk = flat(model.orders.nk);
+  return file::CreateSwitchedArxDirect(builder, &na, &nb, &nk, &model.output_mean, &model.input_mean, &modes,
+                                       &model.initial, &model.transitions,
+                                       model.shock_quantiles.empty() ? nullptr : &model.shock_quantiles);
 }
 
 fb::Offset<file::ExtinctionTraining> write_extinction_training(Builder& builder,
@@ -154,16 +135,8 @@ fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optio
 
 std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
 
-// The verifier bounds a vector but does not align its elements beyond 4 bytes, so doubles are copied out as bytes.
-std::vector<double> numbers(const fb::Vector<double>* values) {
-  std::vector<double> out(values ? values->size() : 0);
-  if (!out.empty()) std::memcpy(out.data(), values->Data(), out.size() * sizeof(double));
-  return out;
-}
-
-Error wrong_size(const char* what, std::size_t found, std::size_t expected) {
-  return {std::string("is damaged: ") + what + " holds " + std::to_string(found) + " values, expected " +
-          std::to_string(expected)};
+Error wrong_size(const std::string& what, std::size_t found, std::size_t expected) {
+  return {"is damaged: " + what + " holds " + std::to_string(found) + " values, expected " + std::to_string(expected)};
 }
 
 Result<OrderMatrix> read_orders(const fb::Vector<std::uint16_t>& values, int rows, int columns, const char* name) {
@@ -178,8 +151,8 @@ Result<OrderMatrix> read_orders(const fb::Vector<std::uint16_t>& values, int row
 }
 
 Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& stored, const ArxOrders& orders,
-                                                   const char* name) {
-  const std::vector<double> values = numbers(&stored);
+                                                   const std::string& name) {
+  const std::vector<double> values = copied(&stored);
   std::size_t expected = 0;
   for (int i = 0; i < orders.outputs(); ++i) expected += orders.row_size(i);
   if (values.size() != expected) return wrong_size(name, values.size(), expected);
@@ -192,33 +165,28 @@ Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& sto
   return rows;
 }
 
-template <class T>
-std::vector<T> integers(const fb::Vector<T>* stored) {
-  return stored ? std::vector<T>(stored->begin(), stored->end()) : std::vector<T>();
-}
-
 ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
   constexpr std::uint32_t kLargest = 1U << 30;  // outside of every range, but an int
   ResampledResiduals resampled;
-  resampled.scale = numbers(stored.scale());
-  resampled.rows = integers(stored.rows());
-  resampled.ends = integers(stored.ends());
+  resampled.scale = copied(stored.scale());
+  resampled.rows = copied(stored.rows());
+  resampled.ends = copied(stored.ends());
   resampled.wind_scale = stored.wind_scale();
-  resampled.winds = integers(stored.winds());
+  resampled.winds = copied(stored.winds());
   resampled.toward = stored.toward();
-  for (std::uint16_t lag : integers(stored.lags())) resampled.lags.push_back(lag);
+  for (std::uint16_t lag : copied(stored.lags())) resampled.lags.push_back(lag);
   resampled.tolerance = stored.tolerance();
   resampled.margin = stored.margin();
   resampled.longest = static_cast<int>(std::min(stored.longest(), kLargest));
-  for (std::int16_t from : integers(stored.mirror())) resampled.mirror.push_back(from);
+  for (std::int16_t from : copied(stored.mirror())) resampled.mirror.push_back(from);
   resampled.across = stored.across();
   return resampled;
 }
 
 Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
-  noise.sd = numbers(stored.noise_sd());
+  noise.sd = copied(stored.noise_sd());
   if (stored.noise_resampled()) noise.resampled = read_resampled(*stored.noise_resampled());
-  const std::vector<double> ci = numbers(stored.noise_sd_ci95());
+  const std::vector<double> ci = copied(stored.noise_sd_ci95());
   if (!ci.empty() && ci.size() != 2 * noise.sd.size())
     return wrong_size("noise_sd_ci95", ci.size(), 2 * noise.sd.size());
   for (std::size_t k = 0; k + 1 < ci.size(); k += 2) noise.sd_ci95.push_back({ci[k], ci[k + 1]});
@@ -236,38 +204,37 @@ Result<ArxOrders> read_all_orders(const Stored& stored, int ny, int nu) {
   return ArxOrders{std::move(*na), std::move(*nb), std::move(*nk)};
 }
 
+// Reads the coefficients of a model or of a mode of one, and their standard errors if there are any.
+template <class Stored, class Arx>
+Result<void> read_coefficients(const Stored& stored, const ArxOrders& orders, const std::string& of, Arx& arx) {
+  auto theta = read_rows(*stored.theta(), orders, of + "theta");
+  if (!theta) return theta.error();
+  arx.theta = std::move(*theta);
+  if (!stored.std_error()) return {};
+  auto std_error = read_rows(*stored.std_error(), orders, of + "std_error");
+  if (!std_error) return std_error.error();
+  arx.std_error = std::move(*std_error);
+  return {};
+}
+
 Result<ArxModel> read_arx(const file::Arx& stored, int ny, int nu) {
   ArxModel arx;
   auto orders = read_all_orders(stored, ny, nu);
   if (!orders) return orders.error();
   arx.orders = std::move(*orders);
-  auto theta = read_rows(*stored.theta(), arx.orders, "theta");
-  if (!theta) return theta.error();
-  arx.theta = std::move(*theta);
-  if (stored.std_error()) {
-    auto std_error = read_rows(*stored.std_error(), arx.orders, "std_error");
-    if (!std_error) return std_error.error();
-    arx.std_error = std::move(*std_error);
-  }
-  arx.constant = numbers(stored.constant());
-  arx.output_mean = numbers(stored.output_mean());
-  arx.input_mean = numbers(stored.input_mean());
+  if (auto ok = read_coefficients(stored, arx.orders, "", arx); !ok) return ok.error();
+  arx.constant = copied(stored.constant());
+  arx.output_mean = copied(stored.output_mean());
+  arx.input_mean = copied(stored.input_mean());
   if (auto ok = read_noise(stored, arx.noise); !ok) return ok.error();
   return arx;
 }
 
 Result<ArxMode> read_mode(const file::ArxMode& stored, const ArxOrders& orders) {
   ArxMode mode;
-  auto theta = read_rows(*stored.theta(), orders, "a mode's theta");
-  if (!theta) return theta.error();
-  mode.theta = std::move(*theta);
-  if (stored.std_error()) {
-    auto std_error = read_rows(*stored.std_error(), orders, "a mode's std_error");
-    if (!std_error) return std_error.error();
-    mode.std_error = std::move(*std_error);
-  }
-  mode.constant = numbers(stored.constant());
-  mode.shock = numbers(stored.shock());
+  if (auto ok = read_coefficients(stored, orders, "a mode's ", mode); !ok) return ok.error();
+  mode.constant = copied(stored.constant());
+  mode.shock = copied(stored.shock());
   return mode;
 }
 
@@ -281,11 +248,11 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
     if (!mode) return mode.error();
     model.modes.push_back(std::move(*mode));
   }
-  model.output_mean = numbers(stored.output_mean());
-  model.input_mean = numbers(stored.input_mean());
-  model.initial = numbers(stored.initial());
-  model.transitions = numbers(stored.transitions());
-  model.shock_quantiles = numbers(stored.shock_quantiles());
+  model.output_mean = copied(stored.output_mean());
+  model.input_mean = copied(stored.input_mean());
+  model.initial = copied(stored.initial());
+  model.transitions = copied(stored.transitions());
+  model.shock_quantiles = copied(stored.shock_quantiles());
   return model;
 }
 
@@ -325,7 +292,7 @@ Training read_training(const file::Training& stored) {
   if (stored.inputs()) {
     for (const auto* input : *stored.inputs()) made.inputs.push_back({input->scale(), input->one_rms()});
   }
-  made.residual_sd = numbers(stored.residual_sd());
+  made.residual_sd = copied(stored.residual_sd());
   if (stored.underside() != file::Underside::Unknown) made.underside = stored.underside() == file::Underside::Yes;
   made.motion = read_motion(stored.motion());
   made.extinction = read_extinction_training(stored.extinction());
@@ -372,29 +339,21 @@ Result<void> read_channels(const file::Model& stored, Model& model) {
 }
 
 Result<void> read_dynamics(const file::Model& stored, Model& model) {
-  if (const auto* chain = stored.dynamics_as_Chain()) {
-    auto read = read_chain(*chain);
+  const auto take = [&](auto read) -> Result<void> {
     if (!read) return read.error();
     model.dynamics = std::move(*read);
     return {};
-  }
+  };
+  if (const auto* chain = stored.dynamics_as_Chain()) return take(read_chain(*chain));
   const auto* outline = stored.view_as_Outline();
   const auto* shape = outline ? outline->shape() : nullptr;
   const int ny =
       shape ? shape->symmetric() + shape->antisymmetric() + shape->across() : static_cast<int>(model.outputs.size());
   const int nu = static_cast<int>(regressor_count(model.inputs));
-  if (const auto* switched = stored.dynamics_as_SwitchedArx()) {
-    auto read = read_switched(*switched, ny, nu);
-    if (!read) return read.error();
-    model.dynamics = std::move(*read);
-    return {};
-  }
+  if (const auto* switched = stored.dynamics_as_SwitchedArx()) return take(read_switched(*switched, ny, nu));
   const auto* arx = stored.dynamics_as_Arx();
   if (!arx) return Error{"has a kind of dynamics that this program does not know; update Wisp"};
-  auto read = read_arx(*arx, ny, nu);
-  if (!read) return read.error();
-  model.dynamics = std::move(*read);
-  return {};
+  return take(read_arx(*arx, ny, nu));
 }
 
 std::vector<ValueRange> ranges(const fb::Vector<double>* stored) {
@@ -407,9 +366,8 @@ std::vector<ValueRange> ranges(const fb::Vector<double>* stored) {
 
 ShapeComponents read_shape(const file::ShapeComponents* stored) {
   if (!stored) return {};
-  return {stored->symmetric(),      stored->antisymmetric(),       numbers(stored->rest()),
-          numbers(stored->basis()), ranges(stored->coordinates()), ranges(stored->components()),
-          stored->across()};
+  return {stored->symmetric(),           stored->antisymmetric(),      copied(stored->rest()), copied(stored->basis()),
+          ranges(stored->coordinates()), ranges(stored->components()), stored->across()};
 }
 
 Result<void> read_view(const file::Model& stored, Model& model) {
@@ -424,14 +382,14 @@ Result<void> read_view(const file::Model& stored, Model& model) {
   }
   const auto* outline = stored.view_as_Outline();
   if (!outline) return Error{"has a view that this program does not know; update Wisp"};
-  model.view = OutlineView{numbers(outline->knots()), outline->metres_per_unit(), outline->pixels_per_unit(),
+  model.view = OutlineView{copied(outline->knots()), outline->metres_per_unit(), outline->pixels_per_unit(),
                            read_shape(outline->shape())};
   return {};
 }
 
 FlameEvents read_events(const file::FlameEvents* stored) {
   if (!stored) return {};
-  return {integers(stored->sizes()), integers(stored->ends()), numbers(stored->scale()), integers(stored->shapes())};
+  return {copied(stored->sizes()), copied(stored->ends()), copied(stored->scale()), copied(stored->shapes())};
 }
 
 std::optional<Extinction> read_extinction(const file::Model& stored) {
@@ -444,12 +402,6 @@ std::optional<Extinction> read_extinction(const file::Model& stored) {
                     rule->recovery(),
                     read_events(rule->dying()),
                     read_events(rule->catching())};
-}
-
-fb::Offset<file::Input> write_input(Builder& builder, const Input& input) {
-  const auto name = builder.CreateString(input.name);
-  const auto unit = builder.CreateString(input.unit);
-  return file::CreateInput(builder, name, unit, input.lowest, input.highest, stored_shape(input.shape));
 }
 
 // A member of a union: its kind and its offset.
@@ -508,7 +460,8 @@ std::vector<std::byte> write_payload(const Model& model) {
   Builder builder;
   std::vector<fb::Offset<file::Input>> inputs;
   for (const Input& input : model.inputs) {
-    inputs.push_back(write_input(builder, input));
+    inputs.push_back(file::CreateInputDirect(builder, input.name.c_str(), input.unit.c_str(), input.lowest,
+                                             input.highest, stored_shape(input.shape)));
   }
   std::vector<fb::Offset<file::Output>> outputs;
   for (const Output& output : model.outputs) {

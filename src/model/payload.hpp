@@ -2,6 +2,7 @@
 // A model as a FlatBuffer, and back. Shapes are checked here, contents in check().
 
 #include <cstddef>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include "wisp_generated.h"
 
 namespace wisp {
+
+/// The numbers of a stored vector; none if it is absent. The verifier bounds a vector but does not align its elements
+/// beyond 4 bytes, so they are copied out as bytes.
+template <class Number>
+std::vector<Number> copied(const wisp_flatbuffers::Vector<Number>* stored) {
+  std::vector<Number> out(stored ? stored->size() : 0);
+  if (!out.empty()) std::memcpy(out.data(), stored->Data(), out.size() * sizeof(Number));
+  return out;
+}
 
 std::vector<std::byte> write_payload(const Model& model);
 
