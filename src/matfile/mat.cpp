@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "matfile/level5.hpp"
-#include "record/csv_time.hpp"
+#include "record/csv_cells.hpp"
 #include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
 

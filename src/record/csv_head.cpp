@@ -2,8 +2,8 @@
 #include <cmath>
 #include <set>
 
+#include "record/csv_cells.hpp"
 #include "record/csv_state.hpp"
-#include "record/csv_time.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -9,7 +9,6 @@
 #include "base/path_text.hpp"
 #include "record/csv_cells.hpp"
 #include "record/csv_state.hpp"
-#include "record/csv_time.hpp"
 #include "record/number_text.hpp"
 #include "wisp/record/csv.hpp"
 

@@ -1,4 +1,3 @@
-#include "record/csv_time.hpp"
 
 #include <algorithm>
 #include <array>

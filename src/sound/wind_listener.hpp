@@ -1,10 +1,9 @@
 #pragma once
 // The live estimator without its clock: takes samples, returns frames on request, over any number type.
 
-#include "sound/wind_background.hpp"
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
-#include "sound/wind_reference.hpp"
+#include "sound/wind_levels.hpp"
 #include "sound/wind_verdict.hpp"
 
 namespace wisp::wind {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/statistics.hpp"
-#include "sound/wind_background.hpp"
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
+#include "sound/wind_levels.hpp"
 #include "sound/wind_verdict.hpp"
 
 namespace wisp {

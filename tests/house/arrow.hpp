@@ -39,7 +39,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"c", {{"base", "model", "run", "sound"}, {}, {"c/boundary.hpp"}}},
       {"c_learn", {{"base", "model", "record", "learn", "c"}, {}}},
       {"record",
-       {{"base"}, {}, {"record/csv_time.hpp", "record/loudness.hpp", "record/number_text.hpp", "record/verdict.hpp"}}},
+       {{"base"}, {}, {"record/csv_cells.hpp", "record/loudness.hpp", "record/number_text.hpp", "record/verdict.hpp"}}},
       {"matfile", {{"base", "record"}, {"zlib.h"}}},
       {"umbrella",
        {{"base", "model", "run", "sound", "record", "learn", "capture", "capture/vision", "capture/clip",

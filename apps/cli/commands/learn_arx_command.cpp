@@ -13,7 +13,7 @@
 #include "flags/arx_flags.hpp"
 #include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
-#include "reports/arx_figures.hpp"
+#include "reports/arx_validation.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"

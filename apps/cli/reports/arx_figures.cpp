@@ -1,4 +1,4 @@
-#include "reports/arx_figures.hpp"
+#include "reports/arx_validation.hpp"
 
 #include <algorithm>
 #include <cmath>

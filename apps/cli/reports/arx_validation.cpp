@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "flags/recordings.hpp"
-#include "reports/arx_figures.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp::cli {

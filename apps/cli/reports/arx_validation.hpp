@@ -1,14 +1,25 @@
 #pragma once
-// `wisp validate` for models whose outputs are plain channels.
+// `wisp validate` for models whose outputs are plain channels, and plots of an identification, drawn from the series of
+// a report: poles and zeros, step and frequency responses with their bands, residual correlations, predictions.
 
+#include <filesystem>
 #include <vector>
 
 #include "command.hpp"
 #include "terminal.hpp"
+#include "wisp/base/report.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::cli {
+
+/// Writes plots of the report's series into a folder (created if missing), each as PNG and SVG: `poles-zeros`, per
+/// output `step` and `frequency`, `residuals`, and for a validation `simulation`, `prediction` and `prediction-error`.
+/// For models of more than four outputs, only those of the first four, with a note.
+/// Errors: a file cannot be written.
+Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report,
+                               Terminal& terminal);
 
 /// Validates a model on a table: fit, J and errors per number of steps, coverage of the model's own intervals, and
 /// residual tests; with --figures also their plots.

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "capture/vision/shoulder.hpp"
+#include "capture/vision/region.hpp"
 #include "wisp/capture/vision/picture.hpp"
 
 namespace wisp {

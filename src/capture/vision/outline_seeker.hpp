@@ -6,7 +6,6 @@
 
 #include "capture/vision/edge_cloud.hpp"
 #include "capture/vision/region.hpp"
-#include "capture/vision/shoulder.hpp"
 #include "capture/vision/survey.hpp"
 #include "wisp/capture/vision/picture.hpp"
 

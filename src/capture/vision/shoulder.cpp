@@ -1,4 +1,4 @@
-#include "capture/vision/shoulder.hpp"
+#include "capture/vision/region.hpp"
 
 #include <algorithm>
 

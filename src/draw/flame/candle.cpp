@@ -4,7 +4,6 @@
 
 #include "draw/cairo.hpp"
 #include "draw/flame/flame_layers.hpp"
-#include "draw/random.hpp"
 #include "draw/tone.hpp"
 
 namespace wisp::drawing {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,14 @@ inline constexpr float kCandleHeight = 0.95F;  ///< the part below the picture i
 inline constexpr float kWickGap = 0.12F;       ///< distance from the candle's top to the flame's base
 inline constexpr float kWickHeight = 0.24F;    ///< distance from the candle's top to the wick's end
 inline constexpr float kAmbient = 0.06F;       ///< room light on the candle, which keeps it visible without a flame
+
+/// A number in [0, 1) for a seed and an index (the finaliser of SplitMix64; G. Steele, D. Lea, C. Flood 2014).
+inline float random_at(std::uint64_t seed, std::uint64_t index) {
+  std::uint64_t z = seed + 0x9E3779B97F4A7C15U * (index + 1);
+  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+  return static_cast<float>((z ^ z >> 31) >> 40) / 16777216.0F;
+}
 
 /// One channel of floats over a grid.
 struct Plane {

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "draw/flame/flame_layers.hpp"
-#include "draw/random.hpp"
 
 namespace wisp::drawing {
 namespace {

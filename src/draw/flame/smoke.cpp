@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "draw/flame/flame_layers.hpp"
-#include "draw/random.hpp"
 
 namespace wisp::drawing {
 namespace {

@@ -8,7 +8,6 @@
 #include "draw/cairo.hpp"
 #include "draw/flame/flame_layers.hpp"
 #include "draw/leaf/leaf_view.hpp"
-#include "draw/textured.hpp"
 
 namespace wisp {
 

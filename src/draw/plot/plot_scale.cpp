@@ -1,4 +1,4 @@
-#include "draw/plot/plot_scale.hpp"
+#include "draw/plot/plot_parts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-#include "run/arx/lookup_program.hpp"
+#include "run/arx/resampled_program.hpp"
 #include "run/lanes/lanes.hpp"
 #include "run/state/arena.hpp"
 

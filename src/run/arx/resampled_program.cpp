@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "run/arx/lookup_program.hpp"
 #include "run/arx/resampled_program.hpp"
 #include "run/state/channels.hpp"
 #include "run/state/model_hash.hpp"

@@ -12,7 +12,7 @@
 #include "base/hash.hpp"
 #include "run/bank/bank_state.hpp"
 #include "run/lanes/columns.hpp"
-#include "run/state/little_endian.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 namespace {

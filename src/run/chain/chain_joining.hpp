@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "run/chain/chain_block.hpp"
 #include "run/chain/chain_choice.hpp"
 #include "run/chain/chain_joins.hpp"
-#include "run/chain/chain_lives.hpp"
 #include "run/chain/chain_steering.hpp"
 #include "run/lanes/columns.hpp"
 #include "run/state/moment.hpp"

@@ -11,7 +11,6 @@
 #include "run/chain/chain_block.hpp"
 #include "run/chain/chain_joining.hpp"
 #include "run/chain/chain_lane.hpp"
-#include "run/chain/chain_lives.hpp"
 #include "run/chain/chain_steering.hpp"
 #include "run/chain/ground_lane.hpp"
 #include "run/chain/gust_lane.hpp"

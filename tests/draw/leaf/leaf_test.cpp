@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "draw/draw_test_pictures.hpp"
-#include "draw/textured.hpp"
+#include "draw/leaf/leaf_view.hpp"
 #include "wisp/draw/overlay.hpp"
 
 namespace wisp::leaf_test {

@@ -1,4 +1,4 @@
-#include "draw/textured.hpp"
+#include "draw/leaf/leaf_view.hpp"
 
 #include <algorithm>
 #include <array>
