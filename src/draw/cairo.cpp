@@ -49,8 +49,7 @@ void choose(cairo_t* context, Font font) {
   cairo_set_font_size(context, font.size);
 }
 
-}  // namespace
-
+// The text with every invalid UTF-8 byte replaced by '?': Cairo would stop drawing at it.
 std::string as_utf8(std::string_view text) {
   std::string clean;
   clean.reserve(text.size());
@@ -64,6 +63,8 @@ std::string as_utf8(std::string_view text) {
   }
   return clean;
 }
+
+}  // namespace
 
 double text_width(cairo_t* context, std::string_view text, Font font) {
   choose(context, font);

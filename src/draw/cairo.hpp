@@ -36,9 +36,6 @@ struct Font {
 
 enum class Align { kLeft, kCentre, kRight };
 
-/// The text with every invalid UTF-8 byte replaced by '?': Cairo would stop drawing at it.
-std::string as_utf8(std::string_view text);
-
 double text_width(cairo_t* context, std::string_view text, Font font);
 
 /// Draws a line of text; (x, y) is the left end, middle or right end of its base line.

@@ -260,6 +260,11 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   return {};
 }
 
+namespace {
+
+namespace fb = wisp_flatbuffers;
+
+// Serialises the successors of all segments: each as its index within its mode.
 std::vector<std::uint8_t> packed_successors(const ChainModel& chain) {
   const auto first = first_of_modes(chain);
   const auto breadth = static_cast<std::size_t>(chain.segments.breadth), modes = static_cast<std::size_t>(chain.modes);
@@ -272,6 +277,8 @@ std::vector<std::uint8_t> packed_successors(const ChainModel& chain) {
   return std::move(out).bytes();
 }
 
+// Reads them into a chain whose segments have their modes.
+// Errors: too few bytes, or too many; a successor that does not exist in its mode.
 Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& chain) {
   const Error damaged{"is damaged: the successors of its chain's segments are cut off or too long"};
   const auto first = first_of_modes(chain);
@@ -290,10 +297,6 @@ Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& 
   if (!in.is_done()) return damaged;
   return {};
 }
-
-namespace {
-
-namespace fb = wisp_flatbuffers;
 
 fb::Offset<file::GustResponse> write_gust(fb::FlatBufferBuilder& builder, const GustResponse& gust) {
   const auto stored = [](const GustResponse::Axis& axis) { return file::GustAxis(axis.change, axis.wind, axis.press); };

@@ -1,5 +1,5 @@
 #pragma once
-// Serialised rows, rates and successors of a chain's segments. Rows and rates are integers, stored as differences from
+// Serialised rows and rates of a chain's segments. Rows and rates are integers, stored as differences from
 // a prediction, in Rice codes. R. F. Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979.
 // Lossless.
 //
@@ -21,12 +21,5 @@ std::vector<std::uint8_t> packed_segments(const ChainModel& chain);
 /// Reads them into a chain whose other fields are set.
 /// Errors: bytes that are not of this code, too few or too many.
 Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& chain);
-
-/// Serialises the successors of all segments: each as its index within its mode.
-std::vector<std::uint8_t> packed_successors(const ChainModel& chain);
-
-/// Reads them into a chain whose segments have their modes.
-/// Errors: too few bytes, or too many; a successor that does not exist in its mode.
-Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& chain);
 
 }  // namespace wisp

@@ -10,6 +10,9 @@
 
 namespace wisp::cli {
 
+namespace {
+
+// Resamples a channel by linear interpolation; missing samples repeat the last one before them, 0 at the start.
 std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, double to_hz) {
   std::vector<double> held(samples.size());
   double last = 0;
@@ -27,8 +30,6 @@ std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, d
   }
   return out;
 }
-
-namespace {
 
 // Measure of the sound that drives an input, by the names used in captures; other names use the wind.
 WindMeasure measure_of(const Input& input) {

@@ -31,9 +31,4 @@ class InputTrack {
   std::size_t rows_ = 0;
 };
 
-/// Resamples a channel by linear interpolation; missing samples repeat the last one before them, 0 at the start.
-///
-/// Precondition: from_hz > 0 and to_hz > 0.
-std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, double to_hz);
-
 }  // namespace wisp::cli

@@ -137,6 +137,15 @@ double total(std::span<const float> numbers) {
   return sum;
 }
 
+// Returns the unit of each channel: outputs, then regressors.
+std::vector<double> channel_units(const Model& model) {
+  std::vector<double> units;
+  for (const ValueRange& range : moved_ranges(model)) units.push_back(channel_scale(range.lowest, range.highest));
+  const auto regressors = static_cast<int>(regressor_count(model.inputs));
+  for (int k = 0; k < regressors; ++k) units.push_back(regressor_scale(model, k));
+  return units;
+}
+
 }  // namespace
 
 float kept(double value) { return std::abs(value) < kMinCoefficient ? 0.0f : static_cast<float>(value); }
@@ -144,14 +153,6 @@ float kept(double value) { return std::abs(value) < kMinCoefficient ? 0.0f : sta
 void keep(std::vector<ModeWeights>& list, ModeWeights weights) {
   const auto counts = [](float weight) { return weight != 0; };
   if (std::any_of(weights.of_mode.begin(), weights.of_mode.end(), counts)) list.push_back(std::move(weights));
-}
-
-std::vector<double> channel_units(const Model& model) {
-  std::vector<double> units;
-  for (const ValueRange& range : moved_ranges(model)) units.push_back(channel_scale(range.lowest, range.highest));
-  const auto regressors = static_cast<int>(regressor_count(model.inputs));
-  for (int k = 0; k < regressors; ++k) units.push_back(regressor_scale(model, k));
-  return units;
 }
 
 Regression regression_of(const Model& model, const ArxModel& arx) {

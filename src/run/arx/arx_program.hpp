@@ -60,9 +60,6 @@ struct Regression {
 Regression regression_of(const Model& model, const ArxModel& arx);
 Regression regression_of(const Model& model, const SwitchedArxModel& switched);
 
-/// Returns the unit of each channel: outputs, then regressors.
-std::vector<double> channel_units(const Model& model);
-
 /// Returns a number as the kernels store it: 0 if negligible.
 float kept(double value);
 

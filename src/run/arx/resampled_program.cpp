@@ -193,70 +193,6 @@ void fill_sides(const Model& model, const ResampledResiduals& resampled, Resampl
   }
 }
 
-}  // namespace
-
-ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx, Arena& arena) {
-  const ResampledResiduals& resampled = arx.noise.resampled;
-  ResampledProgram program;
-  if (resampled.empty()) return program;
-  program.outputs = arx.orders.outputs();
-  program.across = resampled.across;
-  program.toward = resampled.toward;
-  program.longest = static_cast<std::uint32_t>(resampled.longest);
-  program.sides = resampled.mirror.empty() || !program.driven() ? 1 : 2;
-  program.depth = resampled.lags.empty() ? 1 : static_cast<int>(resampled.lags.back()) + 1;
-  const std::size_t rows = resampled.row_count(), past = program.driven() ? rows : 0;
-  const std::size_t targets = program.driven() ? count_targets(resampled) : 0;
-  program.lags = arena.take<std::uint32_t>(resampled.lags.size());
-  const std::size_t numbers = static_cast<std::size_t>(program.sides) * resampled.rows.size();
-  const auto padded = arena.take<float>(numbers + 3);  // rows are read four numbers at a time
-  program.rows = padded.first(padded.empty() ? 0 : numbers);
-  program.left = arena.take<std::uint32_t>(rows);
-  program.wind = arena.take<float>(resampled.winds.size());
-  program.now = arena.take<std::uint32_t>(past);
-  program.turned = arena.take<std::uint8_t>(past);
-  const std::size_t nodes = program.driven() ? count_nodes(targets) : 0, leaves = program.driven() ? nodes + 1 : 0;
-  program.nodes = arena.take<PastNode>(nodes);
-  program.leaves = arena.take<Candidates>(leaves);
-  program.leaf_wind = arena.take<float>(leaves * resampled.lags.size() * kCandidates);
-  program.order = arena.take<std::uint32_t>(targets);
-  program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.columns());
-  program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.columns());
-  program.unit = arena.take<float>(static_cast<std::size_t>(program.across));
-  if (!arena.measures()) fill_rows(model, resampled, program);
-  if (!program.driven()) {
-    program.lookup = make_lookup_program(model, arx, program.left, arena);
-    program.longest = program.lookup.longest;
-  }
-  if (arena.measures()) return program;
-  fill_sides(model, resampled, program);
-  if (!program.driven()) return program;
-  fill_winds(model, arx, resampled, program);
-  fill_tree(resampled, program);
-  return program;
-}
-
-// The tree is determined by the other fields, so it is not hashed.
-std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
-  if (program.empty()) return before;
-  std::uint64_t hash = before;
-  hash = hash_number(static_cast<std::uint32_t>(program.toward), hash);
-  hash = hash_number(program.longest, hash);
-  if (program.across > 0) hash = hash_number(static_cast<std::uint32_t>(program.across), hash);
-  for (std::uint32_t lag : program.lags) hash = hash_number(lag, hash);
-  for (std::uint32_t left : program.left) hash = hash_number(left, hash);
-  for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
-  const float bounds[] = {program.tolerance, program.margin};
-  for (const auto numbers :
-       {std::span<const float>(bounds), std::span<const float>(program.rows).first(program.rows.size() / program.sides),
-        std::span<const float>(program.wind), std::span<const float>(program.factor)}) {
-    hash = hash_floats(numbers, hash);
-  }
-  return hash;
-}
-
-namespace {
-
 // Chosen on four films (docs/studies/still-flames.md): shortest and longest time between jumps; number of rows excluded
 // as targets; time ahead over which usage is counted; and the weight of usage beside distances.
 constexpr double kShortestSeconds = 0.4;
@@ -377,8 +313,8 @@ void fill_places(const Model& model, std::span<const std::uint32_t> left, Lookup
   }
 }
 
-}  // namespace
-
+// Lays the program out for residuals without a driving input and, unless the arena measures, fills it. `left`: per row,
+// the number of rows that follow in its stretch; empty while measuring.
 LookupProgram make_lookup_program(const Model& model, const ArxModel& arx, std::span<const std::uint32_t> left,
                                   Arena& arena) {
   const ResampledResiduals& resampled = arx.noise.resampled;
@@ -403,6 +339,68 @@ LookupProgram make_lookup_program(const Model& model, const ArxModel& arx, std::
   fill_positions(model, arx, left, program);
   fill_places(model, left, program);
   return program;
+}
+
+}  // namespace
+
+ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx, Arena& arena) {
+  const ResampledResiduals& resampled = arx.noise.resampled;
+  ResampledProgram program;
+  if (resampled.empty()) return program;
+  program.outputs = arx.orders.outputs();
+  program.across = resampled.across;
+  program.toward = resampled.toward;
+  program.longest = static_cast<std::uint32_t>(resampled.longest);
+  program.sides = resampled.mirror.empty() || !program.driven() ? 1 : 2;
+  program.depth = resampled.lags.empty() ? 1 : static_cast<int>(resampled.lags.back()) + 1;
+  const std::size_t rows = resampled.row_count(), past = program.driven() ? rows : 0;
+  const std::size_t targets = program.driven() ? count_targets(resampled) : 0;
+  program.lags = arena.take<std::uint32_t>(resampled.lags.size());
+  const std::size_t numbers = static_cast<std::size_t>(program.sides) * resampled.rows.size();
+  const auto padded = arena.take<float>(numbers + 3);  // rows are read four numbers at a time
+  program.rows = padded.first(padded.empty() ? 0 : numbers);
+  program.left = arena.take<std::uint32_t>(rows);
+  program.wind = arena.take<float>(resampled.winds.size());
+  program.now = arena.take<std::uint32_t>(past);
+  program.turned = arena.take<std::uint8_t>(past);
+  const std::size_t nodes = program.driven() ? count_nodes(targets) : 0, leaves = program.driven() ? nodes + 1 : 0;
+  program.nodes = arena.take<PastNode>(nodes);
+  program.leaves = arena.take<Candidates>(leaves);
+  program.leaf_wind = arena.take<float>(leaves * resampled.lags.size() * kCandidates);
+  program.order = arena.take<std::uint32_t>(targets);
+  program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.columns());
+  program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.columns());
+  program.unit = arena.take<float>(static_cast<std::size_t>(program.across));
+  if (!arena.measures()) fill_rows(model, resampled, program);
+  if (!program.driven()) {
+    program.lookup = make_lookup_program(model, arx, program.left, arena);
+    program.longest = program.lookup.longest;
+  }
+  if (arena.measures()) return program;
+  fill_sides(model, resampled, program);
+  if (!program.driven()) return program;
+  fill_winds(model, arx, resampled, program);
+  fill_tree(resampled, program);
+  return program;
+}
+
+// The tree is determined by the other fields, so it is not hashed.
+std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
+  if (program.empty()) return before;
+  std::uint64_t hash = before;
+  hash = hash_number(static_cast<std::uint32_t>(program.toward), hash);
+  hash = hash_number(program.longest, hash);
+  if (program.across > 0) hash = hash_number(static_cast<std::uint32_t>(program.across), hash);
+  for (std::uint32_t lag : program.lags) hash = hash_number(lag, hash);
+  for (std::uint32_t left : program.left) hash = hash_number(left, hash);
+  for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
+  const float bounds[] = {program.tolerance, program.margin};
+  for (const auto numbers :
+       {std::span<const float>(bounds), std::span<const float>(program.rows).first(program.rows.size() / program.sides),
+        std::span<const float>(program.wind), std::span<const float>(program.factor)}) {
+    hash = hash_floats(numbers, hash);
+  }
+  return hash;
 }
 
 }  // namespace wisp

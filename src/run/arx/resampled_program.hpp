@@ -41,13 +41,6 @@ struct LookupProgram {
   std::uint32_t groups() const { return (places + kPlacesAtOnce - 1) / kPlacesAtOnce; }
 };
 
-/// Lays the program out for residuals without a driving input and, unless the arena measures, fills it. `left`: per
-/// row, the number of rows that follow in its stretch; empty while measuring.
-///
-/// Precondition: the model has passed check().
-LookupProgram make_lookup_program(const Model& model, const ArxModel& arx, std::span<const std::uint32_t> left,
-                                  Arena& arena);
-
 /// Largest number of rows in a leaf of the tree: the candidates of a jump.
 inline constexpr std::uint32_t kCandidates = 8;
 /// Number of best candidates among which a jump chooses at random.

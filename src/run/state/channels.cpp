@@ -11,6 +11,13 @@
 namespace wisp {
 namespace {
 
+// Returns the unit in which the deviations of a power of an input are measured.
+double regressor_unit(const Input& input, RegressorPower power) {
+  const double scale = channel_scale(input.lowest, input.highest);
+  if (power == RegressorPower::kRoot) return std::sqrt(scale);
+  return power == RegressorPower::kSquare ? scale * scale : scale;
+}
+
 constexpr double kLargest = 1e12;    // largest range or mean, in the model's units
 constexpr double kSmallest = 1e-12;  // smallest nonzero range
 
@@ -101,12 +108,6 @@ std::span<const RegressorForm> regressor_forms(InputShape shape) {
   if (shape == InputShape::kWindAcross) return std::span(kVector).last(3);
   if (has_powers(shape)) return kPowers;
   return kLinear;
-}
-
-double regressor_unit(const Input& input, RegressorPower power) {
-  const double scale = channel_scale(input.lowest, input.highest);
-  if (power == RegressorPower::kRoot) return std::sqrt(scale);
-  return power == RegressorPower::kSquare ? scale * scale : scale;
 }
 
 double regressor_scale(const Model& model, int regressor) {

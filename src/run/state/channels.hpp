@@ -63,9 +63,6 @@ struct Channels {
 /// Returns the power of two in which a channel's deviations are measured; 1 if its range is 1/128 to 128, or 0.
 double channel_scale(double lowest, double highest);
 
-/// Returns the unit in which the deviations of a power of an input are measured.
-double regressor_unit(const Input& input, RegressorPower power);
-
 /// Returns the unit of a regressor, by its index among all of a model's.
 double regressor_scale(const Model& model, int regressor);
 

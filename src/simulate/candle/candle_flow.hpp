@@ -28,8 +28,6 @@ struct CandleBody {
   float rim = 0;                ///< position of the candle's upper rim, metres from the lower edge
 };
 
-CandleBody candle_body(const FlowGrid& grid, const CandleRigOptions& options);
-
 /// Returns the number of simulation steps per frame.
 int steps_per_frame(const CandleRigOptions& options);
 

@@ -17,6 +17,51 @@ namespace {
 
 using Row = std::vector<double>;
 
+// Best offset of two series, by normalised cross-correlation over all offsets with enough overlap.
+struct TimeOffset {
+  double rows = 0;         ///< delay of the second series behind the first
+  double correlation = 0;  ///< correlation at that offset, −1 to 1
+  double next_best = 0;    ///< best correlation at offsets at least a second away
+  // Films of one flame correlate by at least 0.9, 0.3 above the next best; films of two flames by at most 0.3.
+  bool certain() const { return correlation >= 0.6 && correlation - next_best >= 0.15; }
+};
+
+// Normalised correlation of first[k + lag] and second[k]; −1 where there are too few rows or a series is constant.
+double correlation(std::span<const double> first, std::span<const double> second, std::ptrdiff_t lag, double least) {
+  double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  const auto end = std::min(std::ssize(second), std::ssize(first) - lag);
+  for (auto k = std::max<std::ptrdiff_t>(0, -lag); k < end; ++k) {
+    const double a = first[static_cast<std::size_t>(k + lag)], b = second[static_cast<std::size_t>(k)];
+    if (std::isnan(a + b)) continue;
+    count += 1, x += a, y += b, xx += a * a, yy += b * b, xy += a * b;
+  }
+  const double power = count < least ? 0 : (xx - x * x / count) * (yy - y * y / count);
+  return power > 1e-18 ? (xy - x * y / count) / std::sqrt(power) : -1;
+}
+
+// Offset of two series of equal rate; NaN marks missing values. Empty where no offset leaves an overlap of two
+// seconds, or a series is constant.
+std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz) {
+  // Minimum overlap, as a share of the shorter series: short overlaps correlate by chance.
+  const auto shorter = static_cast<double>(std::min(first.size(), second.size()));
+  const double least = std::max(2 * rate_hz, 0.3 * shorter);
+  std::vector<double> found;
+  for (auto lag = -std::ssize(second); lag <= std::ssize(first); ++lag)
+    found.push_back(correlation(first, second, lag, least));
+  const auto best = std::max_element(found.begin(), found.end());
+  if (*best <= -1) return std::nullopt;
+  const auto at = best - found.begin();
+  TimeOffset out{static_cast<double>(at - std::ssize(second)), *best, -1};
+  for (std::ptrdiff_t k = 0; k < std::ssize(found); ++k) {
+    if (std::abs(static_cast<double>(k - at)) >= rate_hz)
+      out.next_best = std::max(out.next_best, found[static_cast<std::size_t>(k)]);
+  }
+  // Refines the maximum between samples by a parabola through three; the correlation at both ends is −1.
+  const double before = best[-1], after = best[1], bend = before - 2 * *best + after;
+  if (bend < 0 && before > -1 && after > -1) out.rows += std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
+  return out;
+}
+
 // A view's rows in shape coordinates, y up, about the middle of the base at rest; empty without an outline.
 struct ViewRows {
   double right_x = 1, right_z = 0;  // the camera's direction to the right
@@ -250,19 +295,6 @@ ReportSection views_section(std::span<const FilmedView> views, const Joined& joi
           {std::move(table)}};
 }
 
-// Normalised correlation of first[k + lag] and second[k]; −1 where there are too few rows or a series is constant.
-double correlation(std::span<const double> first, std::span<const double> second, std::ptrdiff_t lag, double least) {
-  double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-  const auto end = std::min(std::ssize(second), std::ssize(first) - lag);
-  for (auto k = std::max<std::ptrdiff_t>(0, -lag); k < end; ++k) {
-    const double a = first[static_cast<std::size_t>(k + lag)], b = second[static_cast<std::size_t>(k)];
-    if (std::isnan(a + b)) continue;
-    count += 1, x += a, y += b, xx += a * a, yy += b * b, xy += a * b;
-  }
-  const double power = count < least ? 0 : (xx - x * x / count) * (yy - y * y / count);
-  return power > 1e-18 ? (xy - x * y / count) / std::sqrt(power) : -1;
-}
-
 }  // namespace
 
 Result<void> check_azimuths(std::span<const double> azimuths, std::span<const std::string> names) {
@@ -313,27 +345,6 @@ Result<Captured> join_views(std::span<const FilmedView> views) {
   out.report.verdict = verdict_on(joined);
   out.recording = std::move(joined.recording);
   set_verdict(out.recording, out.report.verdict->usable, out.report.verdict->reason);
-  return out;
-}
-
-std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz) {
-  // Minimum overlap, as a share of the shorter series: short overlaps correlate by chance.
-  const auto shorter = static_cast<double>(std::min(first.size(), second.size()));
-  const double least = std::max(2 * rate_hz, 0.3 * shorter);
-  std::vector<double> found;
-  for (auto lag = -std::ssize(second); lag <= std::ssize(first); ++lag)
-    found.push_back(correlation(first, second, lag, least));
-  const auto best = std::max_element(found.begin(), found.end());
-  if (*best <= -1) return std::nullopt;
-  const auto at = best - found.begin();
-  TimeOffset out{static_cast<double>(at - std::ssize(second)), *best, -1};
-  for (std::ptrdiff_t k = 0; k < std::ssize(found); ++k) {
-    if (std::abs(static_cast<double>(k - at)) >= rate_hz)
-      out.next_best = std::max(out.next_best, found[static_cast<std::size_t>(k)]);
-  }
-  // Refines the maximum between samples by a parabola through three; the correlation at both ends is −1.
-  const double before = best[-1], after = best[1], bend = before - 2 * *best + after;
-  if (bend < 0 && before > -1 && after > -1) out.rows += std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
   return out;
 }
 

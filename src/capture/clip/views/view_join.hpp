@@ -15,19 +15,6 @@
 
 namespace wisp {
 
-/// Best offset of two series, by normalised cross-correlation over all offsets with enough overlap.
-struct TimeOffset {
-  double rows = 0;         ///< delay of the second series behind the first
-  double correlation = 0;  ///< correlation at that offset, −1 to 1
-  double next_best = 0;    ///< best correlation at offsets at least a second away
-  /// Films of one flame correlate by at least 0.9, 0.3 above the next best; films of two flames by at most 0.3.
-  bool certain() const { return correlation >= 0.6 && correlation - next_best >= 0.15; }
-};
-
-/// Offset of two series of equal rate; NaN marks missing values. Empty where no offset leaves an overlap of two
-/// seconds, or a series is constant.
-std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz);
-
 /// One film, captured with the curve shape of the first one.
 struct FilmedView {
   double azimuth_degrees = 0;  ///< camera azimuth, anticlockwise from above
