@@ -77,6 +77,10 @@ void Terminal::verdict(const std::string& of, const Report& report) {
   say(of + ": " + (report.verdict->usable ? "usable: " : "not usable: ") + report.verdict->reason);
 }
 
+double Terminal::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
 void Terminal::clear_bar() {
   if (bar_shown_) std::fputs("\r\033[K", stderr);
   bar_shown_ = false;

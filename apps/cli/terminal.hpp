@@ -55,10 +55,14 @@ class Terminal {
 
   bool json() const { return options_.json; }
 
+  /// Returns the time since the command began.
+  double seconds() const;
+
  private:
   void clear_bar();
 
   Options options_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   bool terminal_ = false;
   bool bar_shown_ = false;
   int last_percent_ = -1;

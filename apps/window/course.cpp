@@ -1,4 +1,4 @@
-#include "course.hpp"
+#include "window.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include <memory>
 #include <string_view>
 
-#include "course.hpp"
+#include "window.hpp"
 
 namespace wisp::window {
 namespace {

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "simulate/candle/candle_rig.hpp"
-#include "simulate/candle/combustion.hpp"
-#include "simulate/candle/flow_grid.hpp"
+#include "simulate/candle/flow_equations.hpp"
 
 namespace wisp::flow {
 

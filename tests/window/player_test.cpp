@@ -1,6 +1,6 @@
 // What the window shows, without a window: scenes, sound, events and files, looked at as pictures.
 
-#include "window/course.hpp"
+#include "window/window.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

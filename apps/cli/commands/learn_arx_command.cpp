@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -328,7 +327,6 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
 }
 
 Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const auto recipe = recipe_of(arguments);
   if (!recipe) return recipe.error();
   if (arguments.has("partial")) return write_part(*recipe, arguments, terminal);
@@ -339,7 +337,7 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
     if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report, terminal); !ok) return ok;
   }
   const std::string output = model_path(arguments);
-  if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
+  if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, terminal);
   // Reached with --keep-unstable only: the report is complete, so the exit status is 0 although no model is written.
   terminal.show(fit->report);
   terminal.add("output", {});

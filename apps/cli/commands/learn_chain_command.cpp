@@ -1,7 +1,5 @@
 // `wisp learn chain` and its preset `wisp learn leaf`: learn a segment chain from recorded motion.
 
-#include <chrono>
-
 #include "commands/commands.hpp"
 #include "flags/motion_flags.hpp"
 #include "flags/recipe_flags.hpp"
@@ -37,7 +35,6 @@ Result<std::vector<Recording>> read_motions(const Arguments& arguments, Terminal
 }
 
 Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   ChainRecipe recipe;
   if (auto ok = read_recipe(arguments, recipe); !ok) return ok;
   recipe.name = model_name(arguments);
@@ -49,7 +46,7 @@ Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
   if (!recordings) return recordings.error();
   const auto fit = learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
-  return hand_over(*fit, output, start, terminal);
+  return hand_over(*fit, output, terminal);
 }
 
 std::vector<Flag> flags(const ChainRecipe& defaults) {

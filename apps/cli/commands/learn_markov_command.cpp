@@ -1,8 +1,6 @@
 // `wisp learn switched` learns several ARX modes switched by a Markov chain; `wisp learn flicker` learns such a model
 // of a flame's light, for lamps.
 
-#include <chrono>
-
 #include "commands/commands.hpp"
 #include "flags/arx_flags.hpp"
 #include "flags/recipe_flags.hpp"
@@ -32,7 +30,6 @@ Result<SwitchedRecipe> switched_recipe(const Arguments& arguments) {
 }
 
 Result<void> run_learn_switched(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const auto recipe = switched_recipe(arguments);
   if (!recipe) return recipe.error();
   auto whole = read_tables(arguments.positionals(), arguments, terminal);
@@ -42,7 +39,7 @@ Result<void> run_learn_switched(const Arguments& arguments, Terminal& terminal) 
   auto fit = learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
-  return hand_over(*fit, model_path(arguments), start, terminal);
+  return hand_over(*fit, model_path(arguments), terminal);
 }
 
 std::vector<Flag> switched_flags() {
@@ -59,7 +56,6 @@ std::vector<Flag> switched_flags() {
 }
 
 Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
   FlickerRecipe recipe;
@@ -67,7 +63,7 @@ Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
   recipe.name = model_name(arguments);
   const auto fit = learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
-  return hand_over(*fit, model_path(arguments), start, terminal);
+  return hand_over(*fit, model_path(arguments), terminal);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // `wisp learn outline` and its preset `wisp learn flame`: learn a model of an outline, from clips or recordings.
 
-#include <chrono>
 #include <cstdlib>
 
 #include "commands/commands.hpp"
@@ -33,7 +32,6 @@ Result<ExtinctionRecipe> extinction_recipe(const Arguments& arguments) {
 }
 
 Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const std::string path = model_path(arguments);
   const auto extinction = extinction_recipe(arguments);
   if (!extinction) return extinction.error();
@@ -44,7 +42,7 @@ Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   if (!recordings) return recordings.error();
   const auto fit = wisp::learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
-  return hand_over(*fit, path, start, terminal);
+  return hand_over(*fit, path, terminal);
 }
 
 // Properties in which the presets differ.

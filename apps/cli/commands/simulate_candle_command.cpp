@@ -1,6 +1,5 @@
 // `wisp simulate candle`: simulates a clip with sound from physics, with its ground truth.
 
-#include <chrono>
 #include <filesystem>
 
 #include "commands/commands.hpp"
@@ -59,14 +58,13 @@ Result<Recording> write_clip(const std::filesystem::path& path, const CandleClip
 }
 
 Result<void> run_simulate_candle(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const auto options = options_from(arguments);
   if (!options) return options.error();
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".mp4") return Error{"--output " + path.string() + ": expected a name that ends in .mp4"};
   const auto truth = write_clip(path, *options, terminal);
   if (!truth) return truth.error();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = terminal.seconds();
   terminal.add("frames", truth->rows());
   terminal.add("rate_hz", truth->rate_hz);
   terminal.add("seed", options->wind.seed);

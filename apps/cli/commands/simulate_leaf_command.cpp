@@ -1,7 +1,6 @@
 // `wisp simulate leaf`: simulates many falls of one leaf as a recording, or gusts with their calm twins as two.
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -127,7 +126,6 @@ Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairs
 }
 
 Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const auto found = options_from(arguments, terminal);
   if (!found) return found.error();
   const LeafPairsOptions& options = *found;
@@ -148,7 +146,7 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
     if (auto good = write_leaf_film(arguments.text("video"), *recording, film, terminal); !good) return good;
     terminal.add("video", arguments.text("video"));
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = terminal.seconds();
   terminal.add("episodes", episodes(*recording).size());
   terminal.add("rows", recording->rows());
   terminal.add("rate_hz", recording->rate_hz);

@@ -38,8 +38,7 @@ Result<void> check_writable(const std::string& path) {
   return Error{path + ": cannot be written: no file can be made in its folder"};
 }
 
-Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::steady_clock::time_point start,
-                       Terminal& terminal) {
+Result<void> hand_over(const Fit& fit, const std::string& path, Terminal& terminal) {
   if (!path.empty()) {
     if (auto ok = write_model(path, fit.model); !ok) return ok;
   }
@@ -48,7 +47,7 @@ Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::ste
     terminal.say("wrote " + path);
     terminal.add("output", path);
   }
-  terminal.add("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  terminal.add("seconds", terminal.seconds());
   return {};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // Output of the commands that learn.
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -22,9 +21,8 @@ std::string model_name(const Arguments& arguments);
 /// Checks before long work that a file of that name can be written; an empty name is accepted. Errors: as write_file().
 Result<void> check_writable(const std::string& path);
 
-/// Shows the report, and writes the model if `path` is not empty. Reports the path and the time since `start`.
-/// Errors: as write_model().
-Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::steady_clock::time_point start,
-                       Terminal& terminal);
+/// Shows the report, and writes the model if `path` is not empty. Reports the path and the time since the command
+/// began. Errors: as write_model().
+Result<void> hand_over(const Fit& fit, const std::string& path, Terminal& terminal);
 
 }  // namespace wisp::cli

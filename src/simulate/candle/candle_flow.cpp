@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/candle/transport.hpp"
+#include "simulate/candle/flow_equations.hpp"
 
 namespace wisp::flow {
 namespace {

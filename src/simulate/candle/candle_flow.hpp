@@ -3,9 +3,7 @@
 
 #include <vector>
 
-#include "simulate/candle/combustion.hpp"
-#include "simulate/candle/flow_grid.hpp"
-#include "simulate/candle/pressure_solver.hpp"
+#include "simulate/candle/flow_equations.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp::flow {

@@ -1,4 +1,4 @@
-#include "simulate/candle/pressure_solver.hpp"
+#include "simulate/candle/flow_equations.hpp"
 
 #include <algorithm>
 #include <array>

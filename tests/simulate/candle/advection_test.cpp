@@ -1,4 +1,4 @@
-#include "simulate/candle/transport.hpp"
+#include "simulate/candle/flow_equations.hpp"
 
 #include <gtest/gtest.h>
 
