@@ -11,7 +11,7 @@
 #include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/flame_outline.hpp"
 #include "simulate/candle/virtual_camera.hpp"
-#include "simulate/candle/virtual_microphone.hpp"
+#include "simulate/candle/wind_signal.hpp"
 
 namespace {
 

@@ -1,5 +1,13 @@
 #include "wisp/base/file.hpp"
 
+#include <fcntl.h>
+#ifdef _WIN32
+#include <io.h>
+#include <process.h>
+#else
+#include <unistd.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -10,12 +18,64 @@
 #include <memory>
 
 #include "base/path_text.hpp"
-#include "base/system.hpp"
 
 namespace wisp {
 namespace {
 
 namespace fs = std::filesystem;
+
+// File functions of the operating system beyond the C++ standard library: one interface, for POSIX and Windows.
+namespace system {
+
+#ifdef _WIN32
+
+// Like std::fopen(), for names in any script. `mode` is "rb" or "wb".
+std::FILE* open_file(const std::filesystem::path& path, const char* mode) {
+  return ::_wfopen(path.c_str(), *mode == 'r' ? L"rb" : L"wb");
+}
+
+// Returns the number of this process.
+long process_number() { return ::_getpid(); }
+
+// Returns whether files can be created in a folder; errno has the reason if not.
+bool may_write_into(const std::filesystem::path& folder) {
+  constexpr int kWrite = 2;
+  return ::_waccess(folder.c_str(), kWrite) == 0;
+}
+
+// Waits until a file is on the disk. Returns false, with the reason in errno, if that fails.
+bool bring_to_disk(const std::filesystem::path& path) {
+  const int file = ::_wopen(path.c_str(), _O_RDWR | _O_BINARY | _O_NOINHERIT);
+  if (file < 0) return false;
+  const bool done = ::_commit(file) == 0;
+  ::_close(file);
+  return done;
+}
+
+// Removes a file by its native name; safe in a signal handler.
+void remove_now(const std::filesystem::path::value_type* name) { ::_wunlink(name); }
+
+#else
+
+std::FILE* open_file(const std::filesystem::path& path, const char* mode) { return std::fopen(path.c_str(), mode); }
+
+long process_number() { return ::getpid(); }
+
+bool may_write_into(const std::filesystem::path& folder) { return ::access(folder.c_str(), W_OK) == 0; }
+
+bool bring_to_disk(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // not supported by every file system
+  ::close(file);
+  return done;
+}
+
+void remove_now(const std::filesystem::path::value_type* name) { ::unlink(name); }
+
+#endif
+
+}  // namespace system
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }

@@ -1,4 +1,3 @@
-#include "model/chain_rows.hpp"
 
 #include <algorithm>
 #include <array>

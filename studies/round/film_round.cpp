@@ -16,7 +16,6 @@
 #include "film_round.hpp"
 #include "round_flow.hpp"
 #include "simulate/candle/virtual_camera.hpp"
-#include "simulate/candle/virtual_microphone.hpp"
 #include "simulate/candle/wind_signal.hpp"
 #include "simulate/random_numbers.hpp"
 #include "studies/value_or_abort.hpp"

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "simulate/candle/virtual_microphone.hpp"
 #include "simulate/candle/wind_signal.hpp"
 #include "studies/verify_bounds.hpp"
 #include "wisp/sound/wind_level.hpp"

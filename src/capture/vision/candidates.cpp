@@ -1,4 +1,4 @@
-#include "capture/vision/candidates.hpp"
+#include "capture/vision/survey.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "capture/vision/candidates.hpp"
+#include "capture/vision/survey.hpp"
 
 namespace wisp {
 namespace {

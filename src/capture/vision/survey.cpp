@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/statistics.hpp"
-#include "capture/vision/candidates.hpp"
 
 namespace wisp {
 namespace {

@@ -2,8 +2,13 @@
 // Survey of a clip: identifies the object, and the channel and level at which it is tracked.
 //
 // Wax, the wick's holder and reflections are bright too. So bright regions at many levels of every channel are rated
-// over a few pictures by the properties of a flame (candidates.hpp), first in the whole picture on a coarse grid, then
-// around each flame on a finer one. Region, channel and level are chosen together.
+// over a few pictures by the properties of a flame, first in the whole picture on a coarse grid, then around each flame
+// on a finer one. Region, channel and level are chosen together. Candidates are those present in most pictures.
+//
+// Evidence for a flame: it emits light, so it is among the brightest regions. Its edges deform, whereas lit wax, glass
+// and tables keep their shape and only change in brightness, and a moving camera preserves shapes. It stands on a place
+// and tapers upwards, so its tip moves more than its base. Its rim is steep, so another level gives nearly the same
+// region.
 //
 // Section 3.1 of the paper instead uses one level between the histogram's two clusters, flame and background.
 
@@ -11,11 +16,79 @@
 #include <span>
 #include <vector>
 
+#include "capture/vision/region.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/capture/vision/image.hpp"
 #include "wisp/capture/vision/picture.hpp"
 
 namespace wisp {
+
+/// One channel of several pictures over one region, sampled at every `step`-th pixel.
+struct PictureGrid {
+  Region area;  ///< region in pixels of the picture
+  int step = 1;
+  int width = 0;
+  int height = 0;
+  std::vector<std::vector<std::uint8_t>> pictures;
+
+  ImageView view(std::size_t k) const { return {pictures[k].data(), width, height, width}; }
+  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
+  Region to_pixels(const Region& box) const;
+};
+
+/// An empty grid over `area`, at most `most` points wide and high.
+PictureGrid grid_over(const Region& area, int most);
+
+/// Samples a picture's `channel`, inverted if the object is dark.
+void add_picture(PictureGrid& grid, const Picture& picture, PixelChannel channel, bool dark);
+
+/// Samples several pictures on one grid.
+PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel, const Region& area, int most,
+                        bool dark);
+
+/// Kind of object that is searched for.
+struct Evidence {
+  bool flame = true;  ///< emits light, tapers and stands; false: only moves
+  BaseSide base = BaseSide::kBottom;
+  std::span<const double> brightest;  ///< luma of the brightest region in each picture; empty: ignored
+};
+
+/// A bright region present in most pictures.
+struct Candidate {
+  PixelChannel channel = PixelChannel::kLuma;
+  int level = 0;
+  std::vector<Region> seen;  ///< box in each picture with the region, pixels, without its stand
+  Region home;               ///< union of all of them
+  bool stands = false;       ///< whether it has merged with its stand
+  double presence = 0;       ///< share of the pictures with the region
+  double area = 0;           ///< median, pixels
+  double light = 1;          ///< its luma divided by the brightest region's
+  double change = 0;         ///< 1 − overlap of two of its aligned shapes: 0 never deforms
+  double taper = 0;          ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
+  double solidity = 0;       ///< its area divided by its convex hull's
+  double steadiness = 0;     ///< reduction of motion from tip to base: 0 only the base moves, 1 only the tip
+  double contrast = 255;     ///< brightness minus that of its surroundings, levels, once its level is final
+  double softness = 0;       ///< share of its area that changes with the level
+  double likeness = 0;       ///< combined evidence from still pictures: larger is likelier
+  double score = 0;          ///< … and from movement
+};
+
+/// Finds all candidates in one channel at one level.
+std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGrid& luma, int level,
+                                       const Evidence& evidence);
+
+/// Sets `softness` from the candidates of the next lower level (may be null) and the next higher level, then likeness
+/// and score.
+void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
+           const Evidence& evidence);
+
+/// Median left, upper, right and lower sides of some boxes, robust against occasional merging with other regions.
+///
+/// Precondition: there is a box.
+Region usual_place(std::span<const Region> seen);
+
+/// Intersection over union of two rectangles.
+double shared_share(const Region& a, const Region& b);
 
 /// Counts every `step`-th pixel of every `step`-th row.
 ///

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "model/bspline.hpp"
-#include "simulate/candle/light_sampling.hpp"
+#include "simulate/candle/virtual_camera.hpp"
 
 namespace wisp {
 

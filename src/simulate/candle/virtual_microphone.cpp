@@ -1,4 +1,3 @@
-#include "simulate/candle/virtual_microphone.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "simulate/candle/low_pass.hpp"
+#include "simulate/candle/wind_signal.hpp"
 #include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/candle/low_pass.hpp"
 #include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"
 

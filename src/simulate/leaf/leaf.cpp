@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/leaf/leaf_vector.hpp"
 #include "simulate/option_range.hpp"
 
 namespace wisp {

@@ -7,9 +7,63 @@
 // docs/explanation/leaf.md has the equations.
 
 #include <array>
+#include <cmath>
 
 #include "wisp/base/result.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
+
+// Vectors and quaternions.
+namespace wisp::leaf {
+
+using Vec = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  // w first
+
+inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// Elementwise product.
+inline Vec operator*(const Vec& a, const Vec& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
+
+inline double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A rotation matrix by rows.
+struct Rotation {
+  Vec row_x, row_y, row_z;
+
+  Vec operator()(const Vec& v) const { return {dot(row_x, v), dot(row_y, v), dot(row_z, v)}; }
+  Vec back(const Vec& v) const { return v[0] * row_x + v[1] * row_y + v[2] * row_z; }
+};
+
+/// Returns the rotation of a quaternion of any nonzero norm.
+inline Rotation rotation_of(const Quaternion& q) {
+  const auto& [w, x, y, z] = q;
+  const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, two = 2 / (ww + xx + yy + zz);
+  const double xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+  return {{1 - two * (yy + zz), two * (xy - wz), two * (xz + wy)},
+          {two * (xy + wz), 1 - two * (xx + zz), two * (yz - wx)},
+          {two * (xz - wy), two * (yz + wx), 1 - two * (xx + yy)}};
+}
+
+/// Returns ½ q ⊗ (0, ω): the time derivative of the attitude.
+inline Quaternion turning(const Quaternion& q, const Vec& spin) {
+  const auto& [w, x, y, z] = q;
+  const Vec h = 0.5 * spin;
+  return {-(x * h[0]) - y * h[1] - z * h[2], w * h[0] + y * h[2] - z * h[1], w * h[1] + z * h[0] - x * h[2],
+          w * h[2] + x * h[1] - y * h[0]};
+}
+
+/// Returns the quaternion normalised to length 1.
+///
+/// Precondition: not zero.
+inline Quaternion normalised(const Quaternion& q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+}
+
+}  // namespace wisp::leaf
 
 namespace wisp {
 

@@ -10,7 +10,6 @@
 
 #include "simulate/leaf/leaf.hpp"
 #include "simulate/leaf/leaf_flight.hpp"
-#include "simulate/leaf/leaf_vector.hpp"
 #include "simulate/leaf/leaf_wind.hpp"
 #include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "simulate/leaf/leaf.hpp"
-#include "simulate/leaf/leaf_vector.hpp"
 #include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/base/result.hpp"
 

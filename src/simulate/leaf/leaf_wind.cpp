@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulate/leaf/leaf_vector.hpp"
+#include "simulate/leaf/leaf.hpp"
 #include "simulate/random_numbers.hpp"
 
 namespace wisp {

@@ -1,4 +1,4 @@
-#include "capture/vision/knots.hpp"
+#include "capture/vision/edge_cloud.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulate/candle/light_sampling.hpp"
+#include "simulate/candle/virtual_camera.hpp"
 
 #include <gtest/gtest.h>
 

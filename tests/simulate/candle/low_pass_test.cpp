@@ -1,4 +1,4 @@
-#include "simulate/candle/low_pass.hpp"
+#include "simulate/candle/wind_signal.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "simulate/candle/virtual_microphone.hpp"
+#include "simulate/candle/wind_signal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
