@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "learn/chain/learn_chain.hpp"
-#include "simulate/leaf/leaf.hpp"
 #include "simulate/leaf/leaf_flight.hpp"
-#include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/simulate/leaf_drops.hpp"

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
 
+#include "base/statistics.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp::csv {
@@ -117,6 +123,216 @@ PlainNumber plain_number(std::string_view text) {
   const double size = static_cast<double>(whole);
   const double value = power < 0 ? size / kTens[-power] : size * kTens[power];
   return {minus ? -value : value, static_cast<std::size_t>(at - text.data()), point != nullptr};
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 8> kNames = {"t",       "time", "seconds", "timestamp",
+                                                    "elapsed", "zeit", "date",    "datetime"};
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+// Returns a name and its suffix in round brackets, or after an underscore.
+std::pair<std::string, std::string> taken_apart(std::string_view name) {
+  const std::string text = lower(trimmed(name));
+  const std::size_t bracket = text.find('('), line = text.find('_');
+  if (bracket != text.npos && text.back() == ')') {
+    return {std::string(trimmed(std::string_view(text).substr(0, bracket))),
+            text.substr(bracket + 1, text.size() - bracket - 2)};
+  }
+  if (line != text.npos) return {text.substr(0, line), text.substr(line + 1)};
+  return {text, ""};
+}
+
+double rounded(double value, int digits) {
+  double out = 0;
+  const std::string text = number_text(value, digits);
+  read_number(text.data(), text.data() + text.size(), out);
+  return out;
+}
+
+}  // namespace
+
+bool names_time(std::string_view name) {
+  const auto [word, unit] = taken_apart(name);
+  const bool time = std::find(kNames.begin(), kNames.end(), word) != kNames.end();
+  return time && (unit.empty() || name.find('(') != name.npos || seconds_of(unit));
+}
+
+std::string unit_in_time_name(std::string_view name) {
+  auto [word, unit] = taken_apart(name);
+  return unit.empty() && word == "seconds" ? "s" : unit;
+}
+
+std::optional<double> seconds_of(std::string_view unit) {
+  constexpr std::pair<double, std::array<std::string_view, 5>> kUnits[] = {
+      {1, {"s", "sec", "secs", "second", "seconds"}},
+      {1e-3, {"ms", "msec", "millis", "milliseconds", "millisecond"}},
+      {1e-6, {"us", "\xc2\xb5s", "\xce\xbcs", "usec", "microseconds"}},
+      {60, {"min", "mins", "minute", "minutes"}},
+      {3600, {"h", "hr", "hour", "hours", "hrs"}}};
+  const std::string word = lower(trimmed(unit));
+  for (const auto& [seconds, words] : kUnits) {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return seconds;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> seconds_of_date(std::string_view text) {
+  std::array<double, 6> part{};  // numbers in written order: three of a date, three of the time of day
+  std::array<char, 6> before{};  // the character before each
+  std::size_t count = 0;
+  const char *at = text.data(), *const end = at + text.size();
+  while (at < end && count < part.size()) {
+    const auto [rest, code] =
+        read_number(at, std::find_if(at, end, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) == 0; }),
+                    part[count]);
+    if (code != std::errc() || rest == at) return std::nullopt;
+    ++count, at = rest;
+    if (at < end && *at == '.' && count == part.size()) break;
+    if (at == end || *at == 'Z') break;
+    if (std::string_view("-/.: T").find(*at) == std::string_view::npos) return std::nullopt;
+    if (count < before.size()) before[count] = *at;
+    ++at;
+  }
+  double fraction = 0;
+  if (at < end && *at == '.') read_number(at, end, fraction);
+  if (count >= 2 && before[1] == ':') return 3600 * part[0] + 60 * part[1] + part[2] + fraction;
+  const bool dated =
+      count >= 3 && before[1] == before[2] && std::string_view("-/.").find(before[1]) != std::string_view::npos;
+  const bool year_first = part[0] > 31;
+  if (!dated || (!year_first && before[1] != '.') || (count > 3 && count < 5)) return std::nullopt;
+  const auto year = std::chrono::year(static_cast<int>(year_first ? part[0] : part[2]));
+  const auto month = std::chrono::month(static_cast<unsigned>(part[1]));
+  const auto day = std::chrono::day(static_cast<unsigned>(year_first ? part[2] : part[0]));
+  if (!(year / month / day).ok()) return std::nullopt;
+  const auto days = std::chrono::sys_days(year / month / day).time_since_epoch().count();
+  return 86400.0 * static_cast<double>(days) + 3600 * part[3] + 60 * part[4] + part[5] + fraction;
+}
+
+namespace {
+
+// Error estimate of linear interpolation, as a share of a channel's deviation: half the second difference times f (1 −
+// f), f the share of a step from the sample before.
+class LineError {
+ public:
+  void add(std::span<const double> samples, std::size_t row, double share) {
+    const double y = samples[row];
+    if (std::isnan(y)) return;
+    sum_ += y, square_ += y * y, ++rows_;
+    if (row == 0 || row + 1 >= samples.size()) return;
+    const double bend = samples[row + 1] - 2 * y + samples[row - 1];
+    if (!std::isnan(bend)) error_ += std::pow(0.5 * bend * share * (1 - share), 2);
+  }
+  double share() const {
+    const double variance = square_ - sum_ * sum_ / std::max(rows_, 1.0);
+    return variance > 0 ? std::sqrt(error_ / variance) : 0;
+  }
+
+ private:
+  double sum_ = 0, square_ = 0, error_ = 0, rows_ = 0;
+};
+
+// Returns whether a channel is constant over most steps, like an input that is set now and then. Linear interpolation
+// would give its jumps intermediate values.
+bool moves_in_steps(std::span<const double> samples) {
+  std::size_t still = 0;
+  for (std::size_t t = 1; t < samples.size(); ++t) still += samples[t] == samples[t - 1];
+  return 2 * still > samples.size();
+}
+
+}  // namespace
+
+Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
+  constexpr double kGap = 1.5, kUsual = 0.5;  // in steps
+  std::vector<double> steps;
+  for (std::size_t t = 1; t < times.size(); ++t) {
+    steps.push_back(times[t] - times[t - 1]);
+    if (!(steps.back() > 0)) {
+      return Error{recording.source + ": time does not go on after its row " + std::to_string(t) +
+                   " of numbers; sort the rows by time, or say --rate HZ or --dt S"};
+    }
+  }
+  const double middle = median(steps);
+  double square = 0, sum = 0, usual = 0;
+  for (double step : steps) {
+    if (std::abs(step - middle) > kUsual * middle) continue;
+    square += (step / middle - 1) * (step / middle - 1), sum += step, ++usual;
+  }
+  if (usual < 0.5 * static_cast<double>(steps.size())) {
+    return Error{
+        recording.source +
+        ": time goes on by steps of no usual length; resample the table to one rate, or say --rate HZ or --dt S"};
+  }
+  double step = sum / usual;
+  for (int digits = 1; digits < 4; ++digits) {
+    const double near = rounded(step, digits);
+    if (std::abs(near - step) < 0.01 * step) {
+      step = near;
+      break;
+    }
+  }
+  Recording out = slice(recording, 0, 0);
+  out.rate_hz = 1 / step;
+  const auto rows = static_cast<std::size_t>(std::floor((times.back() - times.front()) / step)) + 1;
+  std::vector<LineError> errors(recording.channels.size());
+  std::vector<bool> in_steps;
+  for (const Channel& channel : recording.channels) in_steps.push_back(moves_in_steps(channel.samples));
+  for (std::size_t row = 0, at = 0; row < rows; ++row) {
+    const double now = times.front() + static_cast<double>(row) * step;
+    while (at + 2 < times.size() && times[at + 1] <= now) ++at;
+    const double gap = times[at + 1] - times[at], share = std::clamp((now - times[at]) / gap, 0.0, 1.0);
+    const std::size_t nearest = share < 0.5 ? at : at + 1;
+    for (std::size_t c = 0; c < out.channels.size(); ++c) {
+      const auto& samples = recording.channels[c].samples;
+      const bool there = gap <= kGap * step || share == 0;
+      const double past = in_steps[c] && share < 1 ? 0 : share;
+      out.channels[c].samples.push_back(there ? samples[at] + past * (samples[at + 1] - samples[at])
+                                              : std::numeric_limits<double>::quiet_NaN());
+      if (there) errors[c].add(samples, nearest, past);
+    }
+    for (std::size_t f = 0; f < out.flags.size(); ++f) out.flags[f].rows.push_back(recording.flags[f].rows[nearest]);
+    if (!recording.episode_ids.empty()) out.episode_ids.push_back(recording.episode_ids[nearest]);
+  }
+  double worst = 0;
+  for (const LineError& one : errors) worst = std::max(worst, one.share());
+  out.rate_note = {"the clock is uneven by " + number_text(100 * std::sqrt(square / usual), 2) +
+                       " % of a step: resampled by straight lines, which may be wrong by " +
+                       number_text(100 * worst, 2) + " % of a channel's deviation",
+                   true};
+  return out;
+}
+
+std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds) {
+  constexpr double kMaxJitter = 0.01;
+  const double first = times[1] - times[0];
+  if (!(first > 0)) return std::nullopt;
+  resolution = std::max(resolution, 1e-12 * std::max(std::abs(times.front()), std::abs(times.back())));
+  const auto tolerance = [&](double step) {
+    return std::max(kMaxJitter * step, std::min(1.01 * resolution, step / 2));
+  };
+  std::size_t even = 1;
+  while (even + 1 < times.size() && std::abs(times[even + 1] - times[even] - first) <= tolerance(first)) ++even;
+  const double rows = static_cast<double>(even), mean = (times[even] - times[0]) / rows;
+  TimeStep out{mean, tolerance(mean)};
+  for (int digits = 1; digits < 12; ++digits) {
+    for (const double step : {rounded(mean, digits), 1 / (seconds * rounded(1 / (seconds * mean), digits))}) {
+      if (std::abs(step - mean) * rows > resolution) continue;
+      out.step = step;
+      return out;
+    }
+  }
+  return out;
+}
+
+double resolution_of(std::string_view number) {
+  if (number.find_first_of("eEdD") != number.npos) return 0;
+  const std::size_t mark = number.find_first_of(".,");
+  return mark == number.npos ? 1 : std::pow(10.0, -static_cast<double>(number.size() - mark - 1));
 }
 
 }  // namespace wisp::csv

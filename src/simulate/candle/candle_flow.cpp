@@ -1,4 +1,4 @@
-#include "simulate/candle/candle_flow.hpp"
+#include "simulate/candle/candle_rig.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,9 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "simulate/leaf/leaf.hpp"
 #include "simulate/leaf/leaf_flight.hpp"
-#include "simulate/leaf/leaf_wind.hpp"
 #include "simulate/option_range.hpp"
 #include "simulate/random_numbers.hpp"
 

@@ -1,12 +1,158 @@
 #pragma once
-// The fall of one leaf: its equations of motion, written out in docs/explanation/leaf.md, solved by Runge-Kutta steps
-// of fourth order. docs/studies/leaf.md compares step lengths.
+// A rigid leaf falling through air: a thin elliptic plate under quasi-steady aerodynamics, 13 state variables; the wind
+// around it; its fall, solved by Runge-Kutta steps of fourth order (docs/studies/leaf.md compares step lengths).
+//
+// Source: the thin plate of A. Andersen, U. Pesavento & Z. J. Wang, Unsteady aerodynamics of fluttering and tumbling
+// plates, J. Fluid Mech. 541 (2005), extended to three dimensions: added mass and inertia of an ellipsoid (H. Lamb,
+// Hydrodynamics, 1932, § 114), lift by translation and by rotation, drag, and damping of rotation.
+// docs/explanation/leaf.md has the equations.
 
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
-#include "simulate/leaf/leaf.hpp"
-#include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/base/result.hpp"
+#include "wisp/simulate/leaf_drops.hpp"
+
+namespace wisp::leaf {
+
+using Vec = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  // w first
+
+inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+/// Elementwise product.
+inline Vec operator*(const Vec& a, const Vec& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
+inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
+
+inline double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A rotation matrix by rows.
+struct Rotation {
+  Vec row_x, row_y, row_z;
+
+  Vec operator()(const Vec& v) const { return {dot(row_x, v), dot(row_y, v), dot(row_z, v)}; }
+  Vec back(const Vec& v) const { return v[0] * row_x + v[1] * row_y + v[2] * row_z; }
+};
+
+/// Returns the rotation of a quaternion of any nonzero norm.
+inline Rotation rotation_of(const Quaternion& q) {
+  const auto& [w, x, y, z] = q;
+  const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, two = 2 / (ww + xx + yy + zz);
+  const double xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
+  return {{1 - two * (yy + zz), two * (xy - wz), two * (xz + wy)},
+          {two * (xy + wz), 1 - two * (xx + zz), two * (yz - wx)},
+          {two * (xz - wy), two * (yz + wx), 1 - two * (xx + yy)}};
+}
+
+/// Returns ½ q ⊗ (0, ω): the time derivative of the attitude.
+inline Quaternion turning(const Quaternion& q, const Vec& spin) {
+  const auto& [w, x, y, z] = q;
+  const Vec h = 0.5 * spin;
+  return {-(x * h[0]) - y * h[1] - z * h[2], w * h[0] + y * h[2] - z * h[1], w * h[1] + z * h[0] - x * h[2],
+          w * h[2] + x * h[1] - y * h[0]};
+}
+
+/// Returns the quaternion normalised to length 1.
+///
+/// Precondition: not zero.
+inline Quaternion normalised(const Quaternion& q) {
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+}
+
+}  // namespace wisp::leaf
+
+namespace wisp {
+
+/// Errors: a field outside its range.
+Result<void> check(const Leaf& leaf);
+
+/// Pose and motion of the leaf. Body axes: x along the midrib, y across, z the leaf's upper side.
+struct LeafState {
+  std::array<double, 4> attitude{1, 0, 0, 0};  ///< unit quaternion, w first, leaf to world
+  std::array<double, 3> position{};            ///< metres, z up
+  std::array<double, 3> velocity{};            ///< velocity of the centre, in body axes, m/s
+  std::array<double, 3> spin{};                ///< angular velocity in body axes, rad/s
+};
+
+/// Inertia of the leaf and added inertia of the air, about the body axes.
+struct LeafInertia {
+  double mass = 0;                       ///< kg
+  std::array<double, 3> moment{};        ///< kg m²
+  std::array<double, 3> added_mass{};    ///< kg
+  std::array<double, 3> added_moment{};  ///< kg m²
+};
+
+/// Precondition: check(leaf) succeeds.
+LeafInertia leaf_inertia(const Leaf& leaf);
+
+/// Returns the energy of leaf and added mass, kinetic and potential above z = 0, joules. Never grows in still air.
+double leaf_energy(const Leaf& leaf, const LeafState& state);
+
+/// Returns the velocity in world axes, m/s.
+std::array<double, 3> leaf_world_velocity(const LeafState& state);
+
+/// Returns the normal of the leaf's upper side in world axes.
+std::array<double, 3> leaf_normal(const LeafState& state);
+
+/// The wind at a leaf, in world axes.
+struct WindSample {
+  std::array<double, 3> velocity{};  ///< m/s
+  std::array<double, 3> change{};    ///< m/s², along the leaf's path
+};
+
+/// One gust of a train: its front passes the origin at `start`.
+struct Gust {
+  double start = 0;                  ///< seconds
+  double seconds = 0;                ///< duration from start to end, edges included
+  double edge = 0;                   ///< duration of each edge, at most half of the length
+  std::array<double, 3> velocity{};  ///< velocity at the maximum, m/s
+  std::array<double, 3> slowness{};  ///< s/m: direction of travel / travel speed
+};
+
+/// The wind at any position and time.
+class LeafWind {
+ public:
+  /// Creates a calm.
+  LeafWind() = default;
+
+  static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts
+
+  /// Creates a train of random gusts for `seconds`, in random horizontal directions.
+  static LeafWind gusty(std::uint64_t seed, double seconds);
+
+  /// Creates a train of given gusts.
+  ///
+  /// Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
+  static LeafWind of_gusts(std::vector<Gust> gusts);
+
+  /// Creates a measured wind.
+  ///
+  /// Precondition: rate_hz > 0, all rows finite.
+  static LeafWind of_track(MeasuredWind track);
+
+  /// Returns the wind at a position and its rate of change for a leaf of that velocity (world axes).
+  WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
+
+  /// Returns whether there is no wind at any position and time.
+  bool calm() const { return gusts_.empty() && track_.rows.empty(); }
+
+  /// Returns the greatest speed of gusts and measured rows, m/s.
+  double fastest() const;
+
+  const std::vector<Gust>& gusts() const { return gusts_; }
+
+ private:
+  std::vector<Gust> gusts_;  // sorted by start
+  MeasuredWind track_;
+};
+
+}  // namespace wisp
 
 namespace wisp::leaf {
 

@@ -1,6 +1,5 @@
 // The leaf's equations: what carries air, what costs energy, what the wind does.
 
-#include "simulate/leaf/leaf.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Wind over place and time.
 
-#include "simulate/leaf/leaf_wind.hpp"
+#include "simulate/leaf/leaf_flight.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
