@@ -54,10 +54,6 @@ export interface ChainSettings {
   ground: number | null;
 }
 
-function three(data: DataView, p: number): [number, number, number] {
-  return [data.getFloat32(p, true), data.getFloat32(p + 4, true), data.getFloat32(p + 8, true)];
-}
-
 type Three = readonly [number, number, number];
 
 /** State of a body in world axes: metres, seconds, radians, z up. Omitted fields are zero or level. */
@@ -69,9 +65,6 @@ export interface Body {
   /** Angular velocity, world axes. */
   spin?: Three;
 }
-
-const never = 0x7fffffffffffffffn;
-const nanoseconds = (value: bigint) => (value === never ? Infinity : Number(value));
 
 // An array in the module's memory; its view is renewed when the memory has grown.
 class Room {
@@ -112,11 +105,7 @@ export class Bank {
   readonly polylinePoints: number;
   private pointer: number;
   private readonly scratch: number;
-  private readonly inputsRoom: Room;
-  private readonly outputsRoom: Room;
-  private readonly polylinesRoom: Room;
-  private readonly sizesRoom: Room;
-  private readonly ringsRoom: Room;
+  private readonly rooms: Record<'inputs' | 'outputs' | 'polylines' | 'sizes' | 'rings', Room>;
 
   /** @internal */
   constructor(
@@ -127,27 +116,20 @@ export class Bank {
   ) {
     this.pointer = native.allocating(() => Bank.create(native, model, options));
     this.scratch = native.allocate(64);
-    this.capacity = this.fact(at.bankFacts.capacity);
-    this.inputs = this.fact(at.bankFacts.inputs);
-    this.outputs = this.fact(at.bankFacts.outputs);
-    this.polylinePoints = this.fact(at.bankFacts.polylinePoints);
-    this.inputsRoom = new Room(native, this.capacity * this.inputs);
-    this.outputsRoom = new Room(native, this.capacity * this.outputs);
-    this.polylinesRoom = new Room(native, this.capacity * this.polylinePoints * 2);
-    this.sizesRoom = new Room(native, this.capacity);
-    this.ringsRoom = new Room(native, 6 * this.ringCount);
+    ({ capacity: this.capacity, inputs: this.inputs, outputs: this.outputs, polylinePoints: this.polylinePoints } = this.facts);
+    this.rooms = {
+      inputs: new Room(native, this.capacity * this.inputs),
+      outputs: new Room(native, this.capacity * this.outputs),
+      polylines: new Room(native, this.capacity * this.polylinePoints * 2),
+      sizes: new Room(native, this.capacity),
+      rings: new Room(native, 6 * this.ringCount),
+    };
   }
 
   private static create(native: Native, model: number, options: BankOptions): number {
     return native.withRoom(at.bankOptions.size + 4, (p) => {
       native.functions.wisp_bank_default_options!(p);
-      const data = native.data;
-      if (options.capacity !== undefined) data.setUint32(p + at.bankOptions.capacity, options.capacity, true);
-      if (options.polylinePoints !== undefined) {
-        data.setUint32(p + at.bankOptions.polylinePoints, options.polylinePoints, true);
-      }
-      if (options.longest !== undefined) data.setUint32(p + at.bankOptions.longest, options.longest, true);
-      if (options.seed !== undefined) data.setBigUint64(p + at.bankOptions.seed, BigInt(options.seed), true);
+      at.putAt(native, p, at.bankOptions, options);
       const made = p + at.bankOptions.size;
       native.check(native.functions.wisp_bank_create!(model, p, made));
       return native.data.getUint32(made, true);
@@ -156,12 +138,12 @@ export class Bank {
 
   /** Number of living instances. */
   get size(): number {
-    return this.fact(at.bankFacts.alive);
+    return this.facts.alive;
   }
 
   /** Number of rows of bulk arrays: one more than the highest slot in use. */
   get slots(): number {
-    return this.fact(at.bankFacts.slots);
+    return this.facts.slots;
   }
 
   /** Starts an instance. Its random stream is the count of spawns so far, or `stream`. Throws when the bank is full. */
@@ -190,22 +172,22 @@ export class Bank {
 
   /** Buffer of slots × inputs, to be filled and passed to `setInputs()`. */
   inputsView(): Float32Array<ArrayBuffer> {
-    return this.inputsRoom.first(this.slots * this.inputs);
+    return this.rooms.inputs.first(this.slots * this.inputs);
   }
 
   /** Sets all inputs from the next step on: slots × inputs. */
   setInputs(values: ArrayLike<number>): void {
-    this.give('wisp_bank_set_inputs', values, this.inputsRoom, this.capacity * this.inputs);
+    this.give('wisp_bank_set_inputs', values);
   }
 
   /** Sets the same inputs for all instances. */
   setCommonInputs(values: ArrayLike<number>): void {
-    this.give('wisp_bank_set_common_inputs', values, this.inputsRoom, this.capacity * this.inputs);
+    this.give('wisp_bank_set_common_inputs', values);
   }
 
   /** Sets the inputs of one instance. */
   setInstanceInputs(instance: Instance, values: ArrayLike<number>): void {
-    this.give('wisp_bank_set_instance_inputs', values, this.inputsRoom, this.capacity * this.inputs, instance);
+    this.give('wisp_bank_set_instance_inputs', values, instance);
   }
 
   /**
@@ -235,22 +217,22 @@ export class Bank {
 
   /** Outputs of all instances: slots × outputs. A view, valid until the next call. */
   outputsView(): Float32Array<ArrayBuffer> {
-    return this.take('wisp_bank_outputs', this.outputsRoom, this.slots * this.outputs);
+    return this.take('wisp_bank_outputs', this.rooms.outputs, this.slots * this.outputs);
   }
 
   /** Outputs of one instance, as a copy. */
   instanceOutputs(instance: Instance): Float32Array<ArrayBuffer> {
-    return this.take('wisp_bank_instance_outputs', this.outputsRoom, this.outputs, instance).slice();
+    return this.take('wisp_bank_instance_outputs', this.rooms.outputs, this.outputs, instance).slice();
   }
 
   /** Outlines of all instances, x and y alternating from the base's left over the tip: slots × points × 2. A view. */
   polylinesView(): Float32Array<ArrayBuffer> {
-    return this.take('wisp_bank_polylines', this.polylinesRoom, this.slots * this.polylinePoints * 2);
+    return this.take('wisp_bank_polylines', this.rooms.polylines, this.slots * this.polylinePoints * 2);
   }
 
   /** Outline of one instance: points × 2. A view, as above. */
   polyline(instance: Instance): Float32Array<ArrayBuffer> {
-    return this.take('wisp_bank_polyline', this.polylinesRoom, this.polylinePoints * 2, instance);
+    return this.take('wisp_bank_polyline', this.rooms.polylines, this.polylinePoints * 2, instance);
   }
 
   /** In the round: sets the level camera of outputs and outlines by its right direction, the unit vector (x, z). */
@@ -263,7 +245,7 @@ export class Bank {
    * the centre, the radius, and the rise of the rim towards +x and +z. A view, as above.
    */
   rings(instance: Instance): Float32Array<ArrayBuffer> {
-    return this.take('wisp_bank_rings', this.ringsRoom, 6 * this.ringCount, instance);
+    return this.take('wisp_bank_rings', this.rooms.rings, 6 * this.ringCount, instance);
   }
 
   /** In the round: surface of one instance, rings × segments vertices with position and normal, as a copy. */
@@ -271,7 +253,7 @@ export class Bank {
     this.rings(instance);
     return this.filled(6 * this.ringCount * segments, (room, count) => {
       const { wisp_ring_mesh } = this.native.functions;
-      this.native.check(wisp_ring_mesh!(this.ringsRoom.pointer, this.ringCount, segments, room.pointer, count, 6));
+      this.native.check(wisp_ring_mesh!(this.rooms.rings.pointer, this.ringCount, segments, room.pointer, count, 6));
       return room.first(count).slice();
     });
   }
@@ -287,22 +269,13 @@ export class Bank {
 
   /** State of a flame. */
   flameState(instance: Instance): FlameState {
-    return this.struct(at.flameState.size, 'wisp_bank_get_flame_state', instance, (data, p) => ({
-      lit: data.getUint32(p + at.flameState.lit, true) === 1,
-      flameSize: data.getFloat32(p + at.flameState.flameSize, true),
-      sinceLit: nanoseconds(data.getBigInt64(p + at.flameState.sinceLit, true)),
-      sinceOut: nanoseconds(data.getBigInt64(p + at.flameState.sinceOut, true)),
-      wentOut: (data.getUint32(p + at.flameState.events, true) & 1) !== 0,
-      relit: (data.getUint32(p + at.flameState.events, true) & 2) !== 0,
-      light: three(data, p + at.flameState.light),
-      intensity: data.getFloat32(p + at.flameState.intensity, true),
-      kelvin: data.getFloat32(p + at.flameState.kelvin, true),
-    }));
+    const { events, ...state } = this.struct(at.flameState, 'wisp_bank_get_flame_state', instance);
+    return { ...state, wentOut: (events & 1) !== 0, relit: (events & 2) !== 0 };
   }
 
   /** Flame sizes of all instances: slots. A view, as above. */
   flameSizes(): Float32Array<ArrayBuffer> {
-    return this.take('wisp_bank_flame_sizes', this.sizesRoom, this.slots);
+    return this.take('wisp_bank_flame_sizes', this.rooms.sizes, this.slots);
   }
 
   /** Lights an extinguished flame. Throws for a model whose `facts.blowOut` is null. */
@@ -319,13 +292,8 @@ export class Bank {
   place(instance: Instance, body: Body): void {
     const { native, scratch } = this;
     this.living();
-    const put = (field: number, values: readonly number[]) =>
-      values.forEach((value, k) => native.data.setFloat32(scratch + field + 4 * k, value, true));
     native.data.setUint32(scratch, at.body.size, true);
-    put(at.body.position, body.position);
-    put(at.body.orientation, body.orientation ?? [1, 0, 0, 0]);
-    put(at.body.velocity, body.velocity ?? [0, 0, 0]);
-    put(at.body.spin, body.spin ?? [0, 0, 0]);
+    at.putAt(native, scratch, at.body, { orientation: [1, 0, 0, 0], velocity: [0, 0, 0], spin: [0, 0, 0], ...body });
     this.call('wisp_bank_place', instance, scratch);
   }
 
@@ -337,27 +305,13 @@ export class Bank {
 
   /** The settings made by `setGround`. */
   get chainSettings(): ChainSettings {
-    const { native, scratch } = this;
-    this.living();
-    native.data.setUint32(scratch, at.chainSettings.size, true);
-    this.call('wisp_bank_get_chain_settings', scratch);
-    const { data } = native;
-    const has = data.getUint32(scratch + at.chainSettings.hasGround, true) === 1;
-    return { ground: has ? data.getFloat32(scratch + at.chainSettings.ground, true) : null };
+    const { hasGround, ground } = this.struct(at.chainSettings, 'wisp_bank_get_chain_settings');
+    return { ground: hasGround ? ground : null };
   }
 
   /** Position of an instance in its chain; null for other dynamics. */
   chainPlace(instance: Instance): ChainPlace | null {
-    if (!this.isChain) return null;
-    return this.struct(at.chainPlace.size, 'wisp_bank_get_chain_place', instance, (data, p) => ({
-      segment: data.getUint32(p + at.chainPlace.segment, true),
-      step: data.getUint32(p + at.chainPlace.step, true),
-      mode: data.getUint32(p + at.chainPlace.mode, true),
-      velocity: three(data, p + at.chainPlace.velocity),
-      spin: three(data, p + at.chainPlace.spin),
-      lies: data.getUint32(p + at.chainPlace.lies, true) === 1,
-      landed: data.getUint32(p + at.chainPlace.landed, true) === 1,
-    }));
+    return this.isChain ? this.struct(at.chainPlace, 'wisp_bank_get_chain_place', instance) : null;
   }
 
   /** Resets to the state at spawning, lit: one instance, or all and the bank's time. */
@@ -389,7 +343,8 @@ export class Bank {
 
   /** Number of steps of instances with an output clamped to its range, and of all such steps. */
   clamped(): { clamped: number; steps: number } {
-    return { clamped: this.longFact(at.bankFacts.clamped), steps: this.longFact(at.bankFacts.steps) };
+    const { clamped, steps } = this.facts;
+    return { clamped, steps };
   }
 
   /** Frees the bank's memory; may be called twice. */
@@ -398,7 +353,7 @@ export class Bank {
     this.native.functions.wisp_bank_free!(this.pointer);
     this.pointer = 0;
     this.native.free(this.scratch);
-    for (const room of [this.inputsRoom, this.outputsRoom, this.polylinesRoom, this.sizesRoom, this.ringsRoom]) room.free();
+    for (const room of Object.values(this.rooms)) room.free();
   }
 
   private call(name: string, ...values: (number | bigint)[]): void {
@@ -426,25 +381,14 @@ export class Bank {
     return (this.polylinePoints + 1) >> 1;
   }
 
-  private readFacts(): number {
+  private get facts() {
+    return this.struct(at.bankFacts, 'wisp_bank_get_facts');
+  }
+
+  private give(name: string, values: ArrayLike<number>, ...instance: bigint[]): void {
     this.living();
-    this.native.data.setUint32(this.scratch, at.bankFacts.size, true);
-    this.call('wisp_bank_get_facts', this.scratch);
-    return this.scratch;
-  }
-
-  private fact(field: number): number {
-    const p = this.readFacts();
-    return this.native.data.getUint32(p + field, true);
-  }
-
-  private longFact(field: number): number {
-    const p = this.readFacts();
-    return Number(this.native.data.getBigUint64(p + field, true));
-  }
-
-  private give(name: string, values: ArrayLike<number>, room: Room, most: number, ...instance: bigint[]): void {
-    this.living();
+    const room = this.rooms.inputs;
+    const most = this.capacity * this.inputs;
     // The count is passed unchanged, so that the ABI reports a wrong one.
     const target = room.first(most);
     if (!(values instanceof Float32Array && values.byteOffset === target.byteOffset && values.buffer === target.buffer)) {
@@ -459,10 +403,10 @@ export class Bank {
     return room.first(count);
   }
 
-  private struct<T>(size: number, name: string, instance: bigint, read: (data: DataView, p: number) => T): T {
+  private struct<F extends at.Fields>(layout: at.Struct<F>, name: string, ...instance: bigint[]): at.Values<F> {
     this.living();
-    this.native.data.setUint32(this.scratch, size, true);
-    this.call(name, instance, this.scratch);
-    return read(this.native.data, this.scratch);
+    this.native.data.setUint32(this.scratch, layout.size, true);
+    this.call(name, ...instance, this.scratch);
+    return at.valuesAt(this.native, this.scratch, layout);
   }
 }

@@ -125,12 +125,14 @@ export class Model {
   ) {
     this.pointer = typeof bytes === 'number' ? bytes : native.allocating(() => Model.read(native, bytes));
     this.name = native.text(native.functions.wisp_model_name!(this.pointer));
-    const { facts, kind, view, inputs, outputs } = this.readFacts();
-    this.facts = facts;
-    this.kind = kind;
-    this.view = view;
-    this.inputs = Array.from({ length: inputs }, (_, k) => this.readChannel('wisp_model_get_input', k));
-    this.outputs = Array.from({ length: outputs }, (_, k) => this.readChannel('wisp_model_get_output', k));
+    const { inputs, outputs, dynamics, view, blowOutInput, blowOutLevel, blowOutSeconds, blowOutHaste, blowOutRecoverySeconds, ...facts } =
+      this.read(at.modelFacts, 'wisp_model_get_facts');
+    const blowOut = { input: blowOutInput, level: blowOutLevel, seconds: blowOutSeconds, haste: blowOutHaste, recoverySeconds: blowOutRecoverySeconds };
+    this.facts = { ...facts, blowOut: blowOutLevel > 0 ? blowOut : null };
+    this.kind = dynamicsNames[dynamics]!;
+    this.view = viewNames[view]!;
+    this.inputs = Array.from({ length: inputs }, (_, k) => this.read(at.channel, 'wisp_model_get_input', k));
+    this.outputs = Array.from({ length: outputs }, (_, k) => this.read(at.channel, 'wisp_model_get_output', k));
   }
 
   /** Creates an empty bank of instances. */
@@ -156,14 +158,7 @@ export class Model {
   /** Origin and quality of the model. */
   get provenance(): Provenance {
     const { native, pointer } = this;
-    const made = this.read(at.provenance.size, 'wisp_model_get_provenance', (data, p) => ({
-      sources: data.getUint32(p + at.provenance.sources, true),
-      options: data.getUint32(p + at.provenance.options, true),
-      figures: data.getUint32(p + at.provenance.figures, true),
-      usable: data.getUint32(p + at.provenance.usable, true) === 1,
-      program: native.text(data.getUint32(p + at.provenance.program, true)),
-      reason: native.text(data.getUint32(p + at.provenance.reason, true)),
-    }));
+    const made = this.read(at.provenance, 'wisp_model_get_provenance');
     return {
       ...made,
       sources: Array.from({ length: made.sources }, (_, k) =>
@@ -172,56 +167,35 @@ export class Model {
           return native.text(native.data.getUint32(p, true));
         }),
       ),
-      options: Array.from({ length: made.options }, (_, k) =>
-        this.read(at.note.size, 'wisp_model_get_option', (data, p) => ({
-          name: native.text(data.getUint32(p + at.note.name, true)),
-          value: native.text(data.getUint32(p + at.note.value, true)),
-        }), k),
-      ),
-      figures: Array.from({ length: made.figures }, (_, k) =>
-        this.read(at.figure.size, 'wisp_model_get_figure', (data, p) => ({
-          name: native.text(data.getUint32(p + at.figure.name, true)),
-          value: data.getFloat64(p + at.figure.value, true),
-        }), k),
-      ),
+      options: Array.from({ length: made.options }, (_, k) => this.read(at.note, 'wisp_model_get_option', k)),
+      figures: Array.from({ length: made.figures }, (_, k) => this.read(at.figure, 'wisp_model_get_figure', k)),
     };
   }
 
   /** Orders and noise; null for a chain. */
   get arx(): ArxFacts | null {
     if (this.kind !== 'arx') return null;
-    const facts = this.read(at.arxFacts.size, 'wisp_model_get_arx', (data, p) => ({
-      outputs: data.getUint32(p + at.arxFacts.outputs, true),
-      regressors: data.getUint32(p + at.arxFacts.regressors, true),
-      history: data.getUint32(p + at.arxFacts.history, true),
-      resamples: data.getUint32(p + at.arxFacts.resamples, true) === 1,
-    }));
+    const facts = this.read(at.arxFacts, 'wisp_model_get_arx');
     const { outputs } = facts;
-    const orders = (name: string, columns: number) => rows(this.integers(name, outputs * columns), columns);
+    const orders = (name: string, columns: number) => rows(this.numbers(name, outputs * columns, Int32Array), columns);
     return {
       ...facts,
       na: orders('wisp_model_arx_na', outputs),
       nb: orders('wisp_model_arx_nb', facts.regressors),
       nk: orders('wisp_model_arx_nk', facts.regressors),
-      noise: this.doubles('wisp_model_arx_noise', outputs),
+      noise: this.numbers('wisp_model_arx_noise', outputs, Float64Array),
     };
   }
 
   /** Modes, segments and probabilities; null for other dynamics. */
   get chain(): ChainFacts | null {
     if (this.kind !== 'chain') return null;
-    const facts = this.read(at.chainFacts.size, 'wisp_model_get_chain', (data, p) => ({
-      modes: data.getUint32(p + at.chainFacts.modes, true),
-      segments: data.getUint32(p + at.chainFacts.segments, true),
-      history: data.getUint32(p + at.chainFacts.history, true),
-      gustOrder: data.getUint32(p + at.chainFacts.gustOrder, true),
-      headingFree: data.getUint32(p + at.chainFacts.headingFree, true) === 1,
-    }));
+    const facts = this.read(at.chainFacts, 'wisp_model_get_chain');
     return {
       ...facts,
       segments: this.segments(facts.segments),
-      initial: this.doubles('wisp_model_chain_initial', facts.modes),
-      transitions: rows(this.doubles('wisp_model_chain_transitions', facts.modes * facts.modes), facts.modes),
+      initial: this.numbers('wisp_model_chain_initial', facts.modes, Float64Array),
+      transitions: rows(this.numbers('wisp_model_chain_transitions', facts.modes * facts.modes, Float64Array), facts.modes),
     };
   }
 
@@ -243,77 +217,22 @@ export class Model {
     });
   }
 
-  private readFacts() {
-    return this.read(at.modelFacts.size, 'wisp_model_get_facts', (data, p) => {
-      const number = (field: number) => data.getFloat64(p + field, true);
-      const count = (field: number) => data.getUint32(p + field, true);
-      const long = (field: number) => Number(data.getBigInt64(p + field, true));
-      const f = at.modelFacts;
-      const level = number(f.blowOutLevel);
-      const facts: ModelFacts = {
-        rateHz: number(f.rateHz),
-        stepNanoseconds: long(f.stepNanoseconds),
-        controlPoints: count(f.controlPoints),
-        metresPerUnit: number(f.metresPerUnit),
-        halfWidth: number(f.halfWidth),
-        halfLength: number(f.halfLength),
-        multiplyAddsPerFrame: long(f.multiplyAddsPerFrame),
-        operationsPerFrame: long(f.operationsPerFrame),
-        blowOut:
-          level > 0
-            ? {
-                input: count(f.blowOutInput),
-                level,
-                seconds: number(f.blowOutSeconds),
-                haste: number(f.blowOutHaste),
-                recoverySeconds: number(f.blowOutRecoverySeconds),
-              }
-            : null,
-      };
-      return {
-        facts,
-        kind: dynamicsNames[count(f.dynamics)]!,
-        view: viewNames[count(f.view)]!,
-        inputs: count(f.inputs),
-        outputs: count(f.outputs),
-      };
-    });
-  }
-
-  private readChannel(name: string, index: number): Channel {
+  // Values of a struct that an ABI call fills.
+  private read<F extends at.Fields>(struct: at.Struct<F>, name: string, ...index: number[]): at.Values<F> {
     const { native } = this;
-    return this.read(at.channel.size, name, (data, p) => ({
-      name: native.text(data.getUint32(p + at.channel.name, true)),
-      unit: native.text(data.getUint32(p + at.channel.unit, true)),
-      lowest: data.getFloat64(p + at.channel.lowest, true),
-      highest: data.getFloat64(p + at.channel.highest, true),
-      evenOdd: data.getUint32(p + at.channel.evenOdd, true) === 1,
-    }), index);
-  }
-
-  // Fills a struct by an ABI call and extracts values from it.
-  private read<T>(size: number, name: string, take: (data: DataView, pointer: number) => T, ...index: number[]): T {
-    const { native } = this;
-    return native.withRoom(size, (p) => {
-      native.data.setUint32(p, size, true);
+    return native.withRoom(struct.size, (p) => {
+      native.data.setUint32(p, struct.size, true);
       native.check(native.functions[name]!(this.pointer, ...index, p));
-      return take(native.data, p);
+      return at.valuesAt(native, p, struct);
     });
   }
 
-  private integers(name: string, count: number): number[] {
+  // Numbers that an ABI call puts into an array.
+  private numbers(name: string, count: number, Kind: typeof Int32Array | typeof Float64Array): number[] {
     const { native } = this;
-    return native.withRoom(count * 4, (p) => {
+    return native.withRoom(count * Kind.BYTES_PER_ELEMENT, (p) => {
       native.check(native.functions[name]!(this.pointer, p, count));
-      return Array.from({ length: count }, (_, k) => native.data.getInt32(p + 4 * k, true));
-    });
-  }
-
-  private doubles(name: string, count: number): number[] {
-    const { native } = this;
-    return native.withRoom(count * 8, (p) => {
-      native.check(native.functions[name]!(this.pointer, p, count));
-      return Array.from(native.doubles(p, count));
+      return Array.from(new Kind(native.bytes.buffer, p, count));
     });
   }
 

@@ -132,10 +132,6 @@ export class Native {
     return new Float32Array(this.memory.buffer as ArrayBuffer, pointer, count);
   }
 
-  doubles(pointer: number, count: number): Float64Array<ArrayBuffer> {
-    return new Float64Array(this.memory.buffer as ArrayBuffer, pointer, count);
-  }
-
   /** Whether a view made earlier is still valid. */
   isCurrent(view: ArrayBufferView): boolean {
     return view.buffer === this.memory.buffer;

@@ -74,17 +74,7 @@ export class WindLevel {
   private static create(native: Native, options: WindOptions): number {
     return native.withRoom(at.windOptions.size + 8, (p) => {
       native.functions.wisp_wind_default_options!(p);
-      const data = native.data;
-      const put = (field: number, value: number | undefined) => {
-        if (value !== undefined) data.setFloat64(p + field, value, true);
-      };
-      if (options.channels !== undefined) data.setUint32(p + at.windOptions.channels, options.channels, true);
-      put(at.windOptions.rateHz, options.sampleRate);
-      put(at.windOptions.frameRateHz, options.frameRate);
-      put(at.windOptions.exponent, options.exponent);
-      put(at.windOptions.smoothingSeconds, options.smoothingSeconds);
-      put(at.windOptions.floorRiseDbPerSecond, options.floorRiseDbPerSecond);
-      put(at.windOptions.firstGustRms, options.firstGustRms);
+      at.putAt(native, p, at.windOptions, options);
       const made = p + at.windOptions.size;
       native.check(native.functions.wisp_wind_create!(p, made));
       return native.data.getUint32(made, true);
@@ -114,23 +104,23 @@ export class WindLevel {
     for (let taken = 0; taken < samples.length; ) {
       const from = this.samples + taken * bytes;
       const left = samples.length - taken;
-      this.check(feed(this.pointer, from, left, this.frames, framesAtOnce, this.counts, this.counts + 4));
+      native.check(feed(this.pointer, from, left, this.frames, framesAtOnce, this.counts, this.counts + 4));
       taken += native.data.getUint32(this.counts, true);
       const made = native.data.getUint32(this.counts + 4, true);
-      for (let k = 0; k < made; ++k) frames.push(this.frameAt(this.frames + k * at.windFrame.size));
+      for (let k = 0; k < made; ++k) frames.push(at.valuesAt(native, this.frames + k * at.windFrame.size, at.windFrame));
     }
   }
 
   /** The latest frame; all zero before the first. */
   get latest(): WindFrame {
     this.living();
-    this.check(this.native.functions.wisp_wind_latest!(this.pointer, this.frames));
-    return this.frameAt(this.frames);
+    this.native.check(this.native.functions.wisp_wind_latest!(this.pointer, this.frames));
+    return at.valuesAt(this.native, this.frames, at.windFrame);
   }
 
   /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. The room needs no calibration. */
   calibrate(ask: WindAsk | number, seconds = 3): void {
-    if (typeof ask === 'string') this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
+    if (typeof ask === 'string') this.native.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
   /** Whether a calibration is running. */
@@ -155,25 +145,16 @@ export class WindLevel {
     this.living();
     const { native, counts: p } = this;
     native.data.setUint32(p, at.windCalibration.size, true);
-    this.check(native.functions.wisp_wind_get_calibration!(this.pointer, p));
-    const number = (field: number) => native.data.getFloat32(p + field, true);
-    return {
-      backgroundRms: number(at.windCalibration.backgroundRms),
-      backgroundLevel: number(at.windCalibration.backgroundLevel),
-      floorDb: number(at.windCalibration.floorDb),
-      gustRms: number(at.windCalibration.gustRms),
-    };
+    native.check(native.functions.wisp_wind_get_calibration!(this.pointer, p));
+    return at.valuesAt(native, p, at.windCalibration);
   }
 
   set calibration(known: WindCalibration) {
     this.living();
     const { native, counts: p } = this;
     native.data.setUint32(p, at.windCalibration.size, true);
-    native.data.setFloat32(p + at.windCalibration.backgroundRms, known.backgroundRms, true);
-    native.data.setFloat32(p + at.windCalibration.backgroundLevel, known.backgroundLevel, true);
-    native.data.setFloat32(p + at.windCalibration.floorDb, known.floorDb, true);
-    native.data.setFloat32(p + at.windCalibration.gustRms, known.gustRms, true);
-    this.check(native.functions.wisp_wind_set_calibration!(this.pointer, p));
+    at.putAt(native, p, at.windCalibration, { ...known });
+    native.check(native.functions.wisp_wind_set_calibration!(this.pointer, p));
   }
 
   /** Seconds from wind to its frame, beyond the frame itself. */
@@ -183,7 +164,7 @@ export class WindLevel {
 
   /** Resets everything except the options. */
   reset(): void {
-    this.check(this.native.functions.wisp_wind_reset!(this.pointer));
+    this.native.check(this.native.functions.wisp_wind_reset!(this.pointer));
   }
 
   /** Frees its memory; may be called twice. */
@@ -194,28 +175,8 @@ export class WindLevel {
     for (const room of [this.samples, this.frames, this.counts]) this.native.free(room);
   }
 
-  private check(status: number): void {
-    this.native.check(status);
-  }
-
   // A freed estimator has no sample buffer either.
   private living(): void {
-    if (this.pointer === 0) this.check(this.native.functions.wisp_wind_reset!(0));
-  }
-
-  private frameAt(p: number): WindFrame {
-    const { data } = this.native;
-    const number = (field: number) => data.getFloat32(p + field, true);
-    return {
-      index: Number(data.getBigInt64(p + at.windFrame.index, true)),
-      rms: number(at.windFrame.rms),
-      rmsClean: number(at.windFrame.rmsClean),
-      level: number(at.windFrame.level),
-      speed: number(at.windFrame.speed),
-      wind: number(at.windFrame.wind),
-      confidence: number(at.windFrame.confidence),
-      background: number(at.windFrame.background),
-      clipped: number(at.windFrame.clipped),
-    };
+    if (this.pointer === 0) this.native.check(this.native.functions.wisp_wind_reset!(0));
   }
 }

@@ -1,7 +1,9 @@
 // The wind estimator off the main thread: an AudioWorklet processor with its own instance of the WebAssembly module.
 //
-// One file without imports, as bundlers copy the file of AudioWorklet.addModule() unchanged. Its numbers equal those of
-// layout.ts (a test compares them), which a compile-time check compares with the C ABI.
+// One file that imports types only, as bundlers copy the file of AudioWorklet.addModule() unchanged. Its numbers equal
+// those of layout.ts (a test compares them), which a compile-time check compares with the C ABI.
+
+import type { WindCalibration, WindFrame } from './wind.js';
 
 /** Options of the processor (`processorOptions`). */
 export interface WindProcessorOptions {
@@ -10,33 +12,21 @@ export interface WindProcessorOptions {
   /** Frames of wind per second. */
   frameRate: number;
   /** Earlier calibration of this microphone and room. */
-  calibration?: { backgroundRms: number; backgroundLevel: number; floorDb: number; gustRms: number };
+  calibration?: WindCalibration;
 }
 
 /** Messages: a frame of wind, the end of a calibration, a requested calibration, or an error. */
 export type WindMessage =
-  | {
+  | (Omit<WindFrame, 'rmsClean'> & {
       type: 'wind';
-      index: number;
-      wind: number;
-      speed: number;
-      level: number;
-      confidence: number;
-      rms: number;
-      background: number;
-      clipped: number;
       /** Rise of the room's level, dB. */
       roomRise: number;
       /** Audio time at the end of the block that completed the frame, seconds. */
       time: number;
-    }
-  | { type: 'calibration'; known: NonNullable<WindProcessorOptions['calibration']> }
-  | {
-      type: 'calibrated';
-      known: NonNullable<WindProcessorOptions['calibration']>;
-      /** Whether the requested sound was heard. */
-      heard: boolean;
-    }
+    })
+  | { type: 'calibration'; known: WindCalibration }
+  /** `heard`: whether the requested sound was heard. */
+  | { type: 'calibrated'; known: WindCalibration; heard: boolean }
   | { type: 'failed'; message: string };
 
 /** Commands to the processor. */
@@ -84,8 +74,14 @@ class Ears {
     if (options.calibration) this.know(options.calibration);
   }
 
-  get calibrating(): boolean {
-    return this.functions.wisp_wind_calibrating!(this.wind) === 1;
+  /** Value of a function of the estimator. */
+  ask(name: string): number {
+    return this.functions[name]!(this.wind);
+  }
+
+  /** Calls a function of the estimator; throws its sentence on failure. */
+  call(name: string, ...values: number[]): void {
+    this.check(this.functions[name]!(this.wind, ...values));
   }
 
   /** Feeds a block of one channel. Calls `each` with the position of every frame it completed. */
@@ -93,10 +89,7 @@ class Ears {
     new Float32Array(this.memory.buffer, this.samples, block.length).set(block);
     for (let taken = 0; taken < block.length; ) {
       const left = block.length - taken;
-      const from = this.samples + 4 * taken;
-      this.check(
-        this.functions.wisp_wind_feed!(this.wind, from, left, this.frames, maxFrames, this.scratch, this.scratch + 4),
-      );
+      this.call('wisp_wind_feed', this.samples + 4 * taken, left, this.frames, maxFrames, this.scratch, this.scratch + 4);
       const data = new DataView(this.memory.buffer);
       taken += data.getUint32(this.scratch, true);
       const made = data.getUint32(this.scratch + 4, true);
@@ -104,26 +97,10 @@ class Ears {
     }
   }
 
-  calibrate(seconds: number, ask: number): void {
-    this.check(this.functions.wisp_wind_calibrate!(this.wind, ask, seconds));
-  }
-
-  get calibrated(): boolean {
-    return this.functions.wisp_wind_calibrated!(this.wind) === 1;
-  }
-
-  get roomRise(): number {
-    return this.functions.wisp_wind_room_rise!(this.wind)!;
-  }
-
-  reset(): void {
-    this.check(this.functions.wisp_wind_reset!(this.wind));
-  }
-
-  calibration() {
-    new DataView(this.memory.buffer).setUint32(this.scratch, 20, true);
-    this.check(this.functions.wisp_wind_get_calibration!(this.wind, this.scratch));
+  calibration(): WindCalibration {
     const data = new DataView(this.memory.buffer);
+    data.setUint32(this.scratch, 20, true);
+    this.call('wisp_wind_get_calibration', this.scratch);
     const number = (field: number) => data.getFloat32(this.scratch + field, true);
     return { backgroundRms: number(4), backgroundLevel: number(8), floorDb: number(12), gustRms: number(16) };
   }
@@ -138,14 +115,14 @@ class Ears {
     return new DataView(this.memory.buffer).getUint32(this.scratch + 56, true);
   }
 
-  private know(known: NonNullable<WindProcessorOptions['calibration']>): void {
+  private know(known: WindCalibration): void {
     const data = new DataView(this.memory.buffer);
     data.setUint32(this.scratch, 20, true);
     data.setFloat32(this.scratch + 4, known.backgroundRms, true);
     data.setFloat32(this.scratch + 8, known.backgroundLevel, true);
     data.setFloat32(this.scratch + 12, known.floorDb, true);
     data.setFloat32(this.scratch + 16, known.gustRms, true);
-    this.check(this.functions.wisp_wind_set_calibration!(this.wind, this.scratch));
+    this.call('wisp_wind_set_calibration', this.scratch);
   }
 
   private check(status: number): void {
@@ -191,14 +168,15 @@ class WindProcessor extends AudioWorkletProcessor {
         confidence: number(28),
         background: number(32),
         clipped: number(36),
-        roomRise: ears.roomRise,
+        roomRise: ears.ask('wisp_wind_room_rise'),
         time: currentTime + channels[0]!.length / sampleRate,
       });
     });
-    if (this.wasCalibrating && !ears.calibrating) {
-      this.say({ type: 'calibrated', known: ears.calibration(), heard: ears.calibrated });
+    const calibrating = ears.ask('wisp_wind_calibrating') === 1;
+    if (this.wasCalibrating && !calibrating) {
+      this.say({ type: 'calibrated', known: ears.calibration(), heard: ears.ask('wisp_wind_calibrated') === 1 });
     }
-    this.wasCalibrating = ears.calibrating;
+    this.wasCalibrating = calibrating;
   }
 
   // One channel is requested of microphones; several are averaged.
@@ -215,10 +193,10 @@ class WindProcessor extends AudioWorkletProcessor {
 
   private obey(command: WindCommand): void {
     if (command.type === 'stop') this.ears = null;
-    if (command.type === 'calibrate') this.ears?.calibrate(command.seconds, command.ask);
-    if (command.type === 'reset') this.ears?.reset();
+    if (command.type === 'calibrate') this.ears?.call('wisp_wind_calibrate', command.ask, command.seconds);
+    if (command.type === 'reset') this.ears?.call('wisp_wind_reset');
     if (command.type === 'tell calibration' && this.ears) this.say({ type: 'calibration', known: this.ears.calibration() });
-    this.wasCalibrating = this.ears?.calibrating ?? false;
+    this.wasCalibrating = this.ears?.ask('wisp_wind_calibrating') === 1;
   }
 
   private guarded(work: () => void): void {

@@ -11,7 +11,6 @@ WISP_SIZE(wisp_model_facts, 128);
 WISP_FIELD(wisp_model_facts, inputs, 4);
 WISP_FIELD(wisp_model_facts, outputs, 8);
 WISP_FIELD(wisp_model_facts, control_points, 12);
-WISP_FIELD(wisp_model_facts, usable, 16);
 WISP_FIELD(wisp_model_facts, rate_hz, 24);
 WISP_FIELD(wisp_model_facts, metres_per_unit, 32);
 WISP_FIELD(wisp_model_facts, step_nanoseconds, 40);
