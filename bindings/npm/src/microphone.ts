@@ -61,28 +61,6 @@ export interface MicrophoneSettings {
   deviceId: string;
 }
 
-/** An open microphone. */
-export interface Microphone {
-  readonly settings: MicrophoneSettings;
-  /** Whether the sound is unprocessed: none of the browser's speech processing is known to be on. */
-  readonly raw: boolean;
-  /** Whether it is open but gives no sound. */
-  readonly asleep: boolean;
-  /** The latest frame; null before the first. */
-  readonly latest: Wind | null;
-  /**
-   * Listens for 0.5 to 30 s for the requested sound; `onCalibrated` tells whether it was heard. Ask for gentle breath
-   * and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
-   */
-  calibrate(ask: WindAsk, seconds?: number): void;
-  /** Current calibration of microphone and room. */
-  calibration(): Promise<WindCalibration>;
-  /** Resets the estimator. */
-  reset(): void;
-  /** Switches it off; the browser's indicator goes out. May be called twice. */
-  stop(): void;
-}
-
 const troubleOf: Record<string, [MicrophoneTrouble, string]> = {
   NotAllowedError: ['denied', 'The microphone was not allowed. Allow it in the settings of this page to blow.'],
   SecurityError: ['denied', 'This page may not use a microphone.'],
@@ -138,9 +116,14 @@ const STUCK = 4;
 /** Events that may resume an interrupted sound. */
 const WAKES = ['pointerdown', 'keydown', 'visibilitychange'] as const;
 
-class OpenMicrophone implements Microphone {
+/** An open microphone. */
+export type Microphone = Readonly<Pick<OpenMicrophone, 'settings' | 'raw' | 'asleep' | 'latest' | 'calibrate' | 'calibration' | 'reset' | 'stop'>>;
+
+class OpenMicrophone {
   settings!: MicrophoneSettings;
+  /** Whether it is open but gives no sound. */
   asleep = false;
+  /** The latest frame; null before the first. */
   latest: Wind | null = null;
   private node!: AudioWorkletNode;
   private source!: MediaStreamAudioSourceNode;
@@ -227,15 +210,21 @@ class OpenMicrophone implements Microphone {
     }
   }
 
+  /** Whether the sound is unprocessed: none of the browser's speech processing is known to be on. */
   get raw(): boolean {
     const { echoCancellation, noiseSuppression, autoGainControl } = this.settings;
     return !echoCancellation && !noiseSuppression && !autoGainControl;
   }
 
+  /**
+   * Listens for 0.5 to 30 s for the requested sound; `onCalibrated` tells whether it was heard. Ask for gentle breath
+   * and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
+   */
   calibrate(ask: WindAsk, seconds = 3): void {
     this.tell({ type: 'calibrate', seconds, ask: windAsks.indexOf(ask) });
   }
 
+  /** Current calibration of microphone and room. */
   calibration(): Promise<WindCalibration> {
     return new Promise((resolve) => {
       this.asked.push(resolve);
@@ -243,10 +232,12 @@ class OpenMicrophone implements Microphone {
     });
   }
 
+  /** Resets the estimator. */
   reset(): void {
     this.tell({ type: 'reset' });
   }
 
+  /** Switches it off; the browser's indicator goes out. May be called twice. */
   stop(): void {
     if (!this.open) return;
     this.open = false;

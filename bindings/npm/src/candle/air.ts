@@ -62,12 +62,10 @@ class Pair {
     }
   }
 
-  /** Target of the next pass; call turn() afterwards. */
-  begin(): void {
+  /** Computes the next state by the program in use. */
+  pass(quad: Quad): void {
     this.next.begin();
-  }
-
-  turn(): void {
+    quad.draw();
     [this.now, this.next] = [this.next, this.now];
   }
 
@@ -124,7 +122,7 @@ export class Air {
     this.set('smoke', 0)
       .setInteger('uSmoke', 0)
       .setInteger('uCount', count)
-      .setVectors4('uLamps', lamps)
+      .setVectors('uLamps', 4, lamps)
       .set('uGrain', 1.5 / width, 1.5 / height)
       .set('uMoon', moon);
     this.quad.draw();
@@ -165,27 +163,21 @@ export class Air {
     this.set('carry', seconds)
       .setInteger('uFlow', 0)
       .setInteger('uCount', stirring.count)
-      .setVectors4('uHeats', stirring.heats)
+      .setVectors('uHeats', 4, stirring.heats)
       .set('uHand', ...stirring.hand)
       .set('uHandReach', 0.05)
       .set('uBreath', stirring.breath, stirring.breathHeight)
       .set('uClock', stirring.clock);
-    flow.begin();
-    quad.draw();
-    flow.turn();
+    flow.pass(quad);
     flow.now.bindTexture(0);
     this.set('press', seconds).setInteger('uFlow', 0).setInteger('uPressure', 1);
     for (let k = 0; k < PRESSINGS; ++k) {
       pressure.now.bindTexture(1);
-      pressure.begin();
-      quad.draw();
-      pressure.turn();
+      pressure.pass(quad);
     }
     pressure.now.bindTexture(1);
     this.set('free', seconds).setInteger('uFlow', 0).setInteger('uPressure', 1);
-    flow.begin();
-    quad.draw();
-    flow.turn();
+    flow.pass(quad);
     flow.now.bindTexture(0);
     smoke.now.bindTexture(1);
     const { wish, wishAt } = stirring;
@@ -197,9 +189,7 @@ export class Air {
       .setInteger('uFlow', 0)
       .setInteger('uSmoke', 1)
       .setInteger('uCount', stirring.count)
-      .setVectors4('uWicks', stirring.wicks);
-    smoke.begin();
-    quad.draw();
-    smoke.turn();
+      .setVectors('uWicks', 4, stirring.wicks);
+    smoke.pass(quad);
   }
 }

@@ -1,6 +1,5 @@
 // One live candle: position, motion, wind, flame, ember and smoke.
 
-import type { DrawnCandle } from './renderer.js';
 import { FlameShape } from './flame_shape.js';
 import { Stroke } from '../air/stroke.js';
 import { flameFoot, type Stand } from './room.js';
@@ -19,10 +18,13 @@ export function smokeAfter(sinceOut: number): number {
   return Math.min(1, 0.3 + sinceOut / 0.3) * (1 - sinceOut / SMOKES) ** 1.2;
 }
 
-export class Candle implements DrawnCandle {
+export class Candle {
   readonly shape = new FlameShape();
+  /** strength of smoking, 0 to 1 */
   smoking = 0;
+  /** visible share of the flame, 0 to 1 */
   size = 1;
+  /** brightness of the wick's glowing end, 0 to 1 */
   ember = 0;
   /** seconds since extinction; Infinity while it burns */
   sinceOut = Infinity;

@@ -1,7 +1,6 @@
 // The match: it lies ready, burns while carried, lights wicks that its flame touches, and returns.
 
 import { FlameShape } from './flame_shape.js';
-import type { DrawnMatch } from './renderer.js';
 import { smokeAfter } from './candle.js';
 
 /** Seconds of a match's own way to a wick, and of its striking before that: distance, and duration of the flare. */
@@ -10,14 +9,16 @@ const STRIKE = 0.22;
 const STRUCK = 0.34;
 const FLARES = 0.32;
 
-export class Match implements DrawnMatch {
+export class Match {
   readonly shape = new FlameShape();
+  /** strength of its head's flare, and of smoking, 0 to 1 */
   flare = 0;
   smoking = 0;
-  z = 1.4;
-  readonly unit = 0.5;
+  /** middle of its head in the room */
   x = 0;
   y = 0;
+  z = 1.4;
+  readonly unit = 0.5;
   size = 0;
   burning = false;
   /** instance of the model while it burns */
@@ -33,6 +34,7 @@ export class Match implements DrawnMatch {
   private striking = 0;
   speedX = 0;
 
+  /** Whether it lies on the table. */
   get lying(): boolean {
     return !this.held && this.errand === null && !this.burning;
   }

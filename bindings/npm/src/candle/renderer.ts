@@ -4,10 +4,12 @@ import { drawToCanvas, hasRange, Program, Quad, Target, Warming } from '../stage
 import type { SceneLook } from '../stage/scene.js';
 import type { After } from './after.js';
 import type { Stirring } from './air.js';
+import type { Candle } from './candle.js';
 import type { FlameShape } from './flame_shape.js';
 import type { RoomView, Setting, Stand } from './room.js';
 import { flameFoot, MAX_LAMPS } from './room.js';
 import type { Lettering } from './lettering.js';
+import type { Match } from './match.js';
 import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
@@ -30,42 +32,11 @@ const MIN_PLUME = 0.02;
 /** Exposure in lit and dark rooms, and adaptation times in seconds to more and to less light. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
-/** Drawing state of a candle with its flame. */
-export interface DrawnCandle {
-  stand: Stand;
-  shape: FlameShape;
-  /** visible share of the flame, 0 to 1 */
-  size: number;
-  /** brightness of the wick's glowing end, 0 to 1 */
-  ember: number;
-  /** strength of smoking, 0 to 1 */
-  smoking: number;
-  /** displacement of the flame's middle towards the eye, flame units */
-  nearer: number;
-}
-
-/** Drawing state of the match; x, y, z: middle of its head in the room. */
-export interface DrawnMatch {
-  x: number;
-  y: number;
-  z: number;
-  unit: number;
-  burning: boolean;
-  shape: FlameShape;
-  size: number;
-  /** lies on the table */
-  lying: boolean;
-  /** strength of its head's flare, 0 to 1 */
-  flare: number;
-  /** strength of smoking, 0 to 1 */
-  smoking: number;
-}
-
 /** Contents of one picture. */
 export interface CandlePicture {
   setting: Setting;
-  candles: DrawnCandle[];
-  match: DrawnMatch;
+  candles: Candle[];
+  match: Match;
   /** seconds since the last picture, and since the start */
   seconds: number;
   clock: number;
@@ -253,7 +224,7 @@ export class CandleRenderer {
 
   private gatherLamps(view: RoomView, shown: CandlePicture): void {
     this.lamps.length = 0;
-    const groups: DrawnCandle[][] = [];
+    const groups: Candle[][] = [];
     for (const candle of shown.candles) (groups[candle.stand.lamp] ??= []).push(candle);
     for (const group of groups) this.addLamp(view, group.map(({ stand, shape, nearer }) => ({ ...stand, z: stand.z + stand.unit * nearer, y: flameFoot(stand), shape })), group.length === 1 && group[0]?.stand.figure === null ? group[0].stand : null);
     const { match } = shown;
@@ -295,15 +266,15 @@ export class CandleRenderer {
       .set('uMatch', view.pixelX(match.x, match.z), view.pixelY(match.y, match.z), view.pixelX(match.x + 0.57 * match.unit, match.z), view.pixelY(match.y - 0.88 * match.unit, match.z))
       .set('uMatchThick', lies ? 0.055 * match.unit * view.scale * view.nearness(match.z) : 0)
       .set('uFoot', first === undefined || first.saucer === 0 ? 1 : first.saucer / first.radius)
-      .setVectors4('uLights', this.lights)
-      .setVectors4('uHalos', this.halos)
-      .setVectors4('uStands', this.standNumbers)
-      .setNumbers('uSpread', this.spread);
+      .setVectors('uLights', 4, this.lights)
+      .setVectors('uHalos', 4, this.halos)
+      .setVectors('uStands', 4, this.standNumbers)
+      .setVectors('uSpread', 1, this.spread);
     if (shown.setting.cake !== null) {
       this.sticks.fill(0);
       // Streaks of more candles would merge.
       if (shown.candles.length <= MAX_LAMPS) shown.candles.forEach(({ stand }, k) => stand.figure === null && this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
-      program.setVectors4('uSticks', this.sticks);
+      program.setVectors('uSticks', 4, this.sticks);
     }
     this.quad.draw();
   }
@@ -321,7 +292,7 @@ export class CandleRenderer {
   }
 
   /** Light of the other flames on a candle: from the left, right and behind, and overall. */
-  private lightFromOthers(candle: DrawnCandle): [number, number, number, number] {
+  private lightFromOthers(candle: Pick<Candle, 'stand' | 'shape' | 'nearer'>): [number, number, number, number] {
     const { stand, shape } = candle;
     const sum: [number, number, number, number] = [0, 0, 0, 0];
     const own = stand.x + stand.unit * shape.middleX;
@@ -340,7 +311,7 @@ export class CandleRenderer {
     return sum;
   }
 
-  private drawCandle(view: RoomView, candle: DrawnCandle, { clock, turn }: CandlePicture): void {
+  private drawCandle(view: RoomView, candle: Candle, { clock, turn }: CandlePicture): void {
     const { stand, shape } = candle;
     const top = stand.ground + stand.height;
     const radius = stand.radius / stand.unit;
@@ -369,20 +340,20 @@ export class CandleRenderer {
   }
 
   /** Draws a candle shaped as a digit. */
-  private drawFigure(view: RoomView, { stand, shape, ember }: DrawnCandle): void {
+  private drawFigure(view: RoomView, { stand, shape, ember }: Candle): void {
     const { lettering } = this;
     if (lettering === null) return;
     const height = stand.height / stand.unit;
     const points = lettering.figure(stand.figure ?? '', height);
     this.setBoard(lettering.program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, [-height, -height - 0.1, height, 0.3])
-      .setVectors3('uOutline', points)
+      .setVectors('uOutline', 3, points)
       .setInteger('uPoints', points.length / 3)
       .set('uRadius', stand.radius / stand.unit)
       .set('uHeight', height)
       .set('uLight', shape.empty ? 0 : shape.light)
       .set('uEmber', ember)
       .set('uWax', ...stand.wax)
-      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer: 0 } as DrawnCandle));
+      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer: 0 }));
     this.quad.draw();
   }
 
@@ -397,7 +368,7 @@ export class CandleRenderer {
     const margin = 0.07;
     const box = [shape.left - margin, shape.bottom - margin, shape.right + margin, shape.top + margin];
     this.setBoard(this.programs.flame, view, at.x, foot, at.z, at.unit, box)
-      .setVectors3('uOutline', shape.points)
+      .setVectors('uOutline', 3, shape.points)
       .setInteger('uPoints', shape.count)
       .set('uBright', 0.35 + 0.65 * size)
       .set('uSoot', Math.min(1, 0.25 + shape.top))

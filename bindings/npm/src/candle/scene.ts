@@ -78,7 +78,7 @@ export class CandleScene implements Scene {
     this.match.update(seconds);
     this.tendMatch();
     // A model with a single view is blown along one axis.
-    const air = this.round === null ? { right: acting.breath, away: 0 } : (acting.air ?? { right: acting.breath, away: 0 });
+    const air = this.round === null ? { right: acting.breath, away: 0 } : acting.air;
     // Smoke moves in the picture plane only.
     this.breath = air.right + 0.5 * air.away;
     this.across.push(seconds, air.right);

@@ -2,13 +2,11 @@
 // the outline out. y along the midrib to the tip, x across, z out of the upper side; x and y are in units of half the
 // leaf's width and length.
 
-/** Numbers per vertex: x, y, z, then across (−1 … 1) and along (below 0 the stalk, 1 the tip). */
-export const MESH_NUMBERS = 5;
-
 /** Coordinate along of the stalk's end. */
 const STALK = -0.28;
 
 export interface LeafMesh {
+  /** x, y, z of each, then across (−1 … 1) and along (below 0 the stalk, 1 the tip) */
   vertices: Float32Array;
   indices: Uint16Array;
 }

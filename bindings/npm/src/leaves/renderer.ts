@@ -1,12 +1,12 @@
 // Draws leaves with WebGL2: one instanced call for all leaves, one for their shadows. Poses are uploaded as the bank
 // returns them, and rotated on the card.
 
-import { drawToCanvas, Program, Quad, Target } from '../stage/gl.js';
+import { drawToCanvas, Program, Quad, SQUARE, Target, verticesOf, type Vertices } from '../stage/gl.js';
 import noise from '../candle/shaders/noise.glsl.js';
 import fullVertex from '../candle/shaders/full.vert.js';
 import type { LeafCamera } from './camera.js';
 import { LEAF_NUMBERS } from './fall.js';
-import { leafMesh, MESH_NUMBERS } from './mesh.js';
+import { leafMesh } from './mesh.js';
 import finishFragment from './shaders/finish.frag.js';
 import leafFragment from './shaders/leaf.frag.js';
 import leafVertex from './shaders/leaf.vert.js';
@@ -24,9 +24,7 @@ const MESHES: readonly (readonly [most: number, rows: number, columns: number])[
 /** Magnification of drawn leaves. */
 const ENLARGED = 1.45;
 
-interface Shape {
-  array: WebGLVertexArrayObject;
-  vertices: WebGLBuffer;
+interface Shape extends Vertices {
   indices: WebGLBuffer | null;
   count: number;
 }
@@ -50,8 +48,11 @@ export class LeafRenderer {
       finish: new Program(gl, fullVertex, noise + finishFragment),
     };
     this.instances = gl.createBuffer() as WebGLBuffer;
-    this.leaves = MESHES.map(([most, rows, columns]) => ({ most, shape: this.shape(rows, columns) }));
-    this.shadow = this.shadowShape();
+    this.leaves = MESHES.map(([most, rows, columns]) => {
+      const { vertices, indices } = leafMesh(rows, columns);
+      return { most, shape: this.shape(vertices, [3, 2], indices) };
+    });
+    this.shadow = this.shape(SQUARE, [2], null);
   }
 
   /** Draws `count` leaves on the canvas, from LEAF_NUMBERS numbers each; half sizes in metres. */
@@ -94,7 +95,7 @@ export class LeafRenderer {
     for (const program of Object.values(this.programs)) program.dispose();
     for (const shape of [this.shadow, ...this.leaves.map(({ shape: leaf }) => leaf)]) {
       this.gl.deleteVertexArray(shape.array);
-      this.gl.deleteBuffer(shape.vertices);
+      this.gl.deleteBuffer(shape.buffer);
       this.gl.deleteBuffer(shape.indices);
     }
     this.gl.deleteBuffer(this.instances);
@@ -121,50 +122,22 @@ export class LeafRenderer {
     this.quad.draw();
   }
 
-  private perInstance(): void {
+  /** Vertices with attributes of these sizes, drawn once for each leaf. */
+  private shape(vertices: Float32Array, sizes: readonly number[], order: Uint16Array | null): Shape {
     const { gl } = this;
+    const made = verticesOf(gl, vertices, sizes);
+    const indices = order === null ? null : gl.createBuffer();
+    if (order !== null) {
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, order, gl.STATIC_DRAW);
+    }
     gl.bindBuffer(gl.ARRAY_BUFFER, this.instances);
-    for (const [location, offset] of [
-      [2, 0],
-      [3, 16],
-    ] as const) {
+    for (const [location, offset] of [[2, 0], [3, 16]] as const) {
       gl.enableVertexAttribArray(location);
       gl.vertexAttribPointer(location, 4, gl.FLOAT, false, 4 * LEAF_NUMBERS, offset);
       gl.vertexAttribDivisor(location, 1);
     }
-  }
-
-  private shape(rows: number, columns: number): Shape {
-    const { gl } = this;
-    const mesh = leafMesh(rows, columns);
-    const array = gl.createVertexArray() as WebGLVertexArrayObject;
-    const vertices = gl.createBuffer() as WebGLBuffer;
-    const indices = gl.createBuffer() as WebGLBuffer;
-    gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
-    gl.bufferData(gl.ARRAY_BUFFER, mesh.vertices, gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 4 * MESH_NUMBERS, 0);
-    gl.enableVertexAttribArray(1);
-    gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 4 * MESH_NUMBERS, 12);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.indices, gl.STATIC_DRAW);
-    this.perInstance();
     gl.bindVertexArray(null);
-    return { array, vertices, indices, count: mesh.indices.length };
-  }
-
-  private shadowShape(): Shape {
-    const { gl } = this;
-    const array = gl.createVertexArray() as WebGLVertexArrayObject;
-    const vertices = gl.createBuffer() as WebGLBuffer;
-    gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-    this.perInstance();
-    gl.bindVertexArray(null);
-    return { array, vertices, indices: null, count: 4 };
+    return { ...made, indices, count: order?.length ?? 4 };
   }
 }

@@ -53,18 +53,9 @@ export class Program {
     return this;
   }
 
-  setNumbers(name: string, values: Float32Array): this {
-    this.gl.uniform1fv(this.at(name), values);
-    return this;
-  }
-
-  setVectors3(name: string, values: Float32Array): this {
-    this.gl.uniform3fv(this.at(name), values);
-    return this;
-  }
-
-  setVectors4(name: string, values: Float32Array): this {
-    this.gl.uniform4fv(this.at(name), values);
+  /** Sets an array of vectors of that size. */
+  setVectors(name: string, size: 1 | 3 | 4, values: Float32Array): this {
+    this.gl[`uniform${size}fv`](this.at(name), values);
     return this;
   }
 
@@ -117,31 +108,49 @@ export class Warming {
   }
 }
 
-/** A square from (−1, −1) to (1, 1): two vectors per vertex at attribute 0. */
+export interface Vertices {
+  array: WebGLVertexArrayObject;
+  buffer: WebGLBuffer;
+}
+
+/** Vertices of interleaved numbers: attributes 0, 1, … of these sizes. Their array stays bound. */
+export function verticesOf(gl: WebGL2RenderingContext, numbers: Float32Array, sizes: readonly number[], usage: number = gl.STATIC_DRAW): Vertices {
+  const array = gl.createVertexArray() as WebGLVertexArrayObject;
+  const buffer = gl.createBuffer() as WebGLBuffer;
+  gl.bindVertexArray(array);
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  gl.bufferData(gl.ARRAY_BUFFER, numbers, usage);
+  const stride = sizes.reduce((sum, size) => sum + 4 * size, 0);
+  let offset = 0;
+  for (const [k, size] of sizes.entries()) {
+    gl.enableVertexAttribArray(k);
+    gl.vertexAttribPointer(k, size, gl.FLOAT, false, stride, offset);
+    offset += 4 * size;
+  }
+  return { array, buffer };
+}
+
+/** A strip of two triangles: a square from (−1, −1) to (1, 1). */
+export const SQUARE = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
+
+/** That square, at attribute 0. */
 export class Quad {
-  private readonly array: WebGLVertexArrayObject;
-  private readonly buffer: WebGLBuffer;
+  private readonly vertices: Vertices;
 
   constructor(private readonly gl: WebGL2RenderingContext) {
-    this.array = gl.createVertexArray() as WebGLVertexArrayObject;
-    this.buffer = gl.createBuffer() as WebGLBuffer;
-    gl.bindVertexArray(this.array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+    this.vertices = verticesOf(gl, SQUARE, [2]);
     gl.bindVertexArray(null);
   }
 
   draw(): void {
-    this.gl.bindVertexArray(this.array);
+    this.gl.bindVertexArray(this.vertices.array);
     this.gl.drawArrays(this.gl.TRIANGLE_STRIP, 0, 4);
     this.gl.bindVertexArray(null);
   }
 
   dispose(): void {
-    this.gl.deleteVertexArray(this.array);
-    this.gl.deleteBuffer(this.buffer);
+    this.gl.deleteVertexArray(this.vertices.array);
+    this.gl.deleteBuffer(this.vertices.buffer);
   }
 }
 

@@ -29,7 +29,7 @@ export interface Acting {
   /** from microphone and keys, positive to the right, 1 is a strong breath: for scenes blown along one axis */
   breath: number;
   /** the breath as a vector, for bodies */
-  air?: Air;
+  air: Air;
   pointer: Pointer;
 }
 

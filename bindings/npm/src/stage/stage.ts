@@ -31,7 +31,7 @@ export interface StageEvents {
   /** signed breath of this frame, from microphone and keys */
   breath(seconds: number): number;
   /** that breath as a vector on the table; breath() is called first in every frame */
-  air?(): Air;
+  air(): Air;
   touched(): void;
   /** the context was lost, or restored */
   context(state: 'absent' | 'lost' | 'back'): void;
@@ -165,7 +165,7 @@ export class Stage {
     this.pointer.update(seconds);
     if (this.still) this.pointer.now.speedX = this.pointer.now.speedY = 0;
     const breath = this.events.breath(seconds);
-    this.scene.update({ seconds, breath, air: this.events.air?.() ?? { right: breath, away: 0 }, pointer: this.pointer.now });
+    this.scene.update({ seconds, breath, air: this.events.air(), pointer: this.pointer.now });
     const between = performance.now();
     this.fade = Math.min(1, this.fade + passed / FADE_SECONDS);
     if (this.gl !== null && !this.gl.isContextLost()) {
