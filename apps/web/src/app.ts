@@ -1,16 +1,16 @@
 // The page as a whole: connects stage, player, microphone and controls.
 
 import type { Library } from '@wisp/player';
-import { Part } from './part.js';
+import { fetchPart, once } from './part.js';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
-import { watchDrops } from './drops.js';
+import { watchDrops, type Dropped } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
 import { Controls, type Hearing } from './panel/controls.js';
 import { byId } from './panel/element.js';
 import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
 import { Player, type Playing } from './player.js';
-import { Costs, type Probe } from './probe.js';
+import { Probe } from './probe.js';
 import type { Air, Scene } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from '@wisp/player/parts/air/breath';
@@ -51,12 +51,11 @@ export class App {
   readonly help = byId('help', HTMLDialogElement);
   readonly notices = new Notices(byId('notices', HTMLElement));
   private readonly hint = new Hint(byId('hint', HTMLElement));
-  private readonly costs = new Costs();
-  private readonly probe: Probe;
+  private readonly probe = new Probe(this.breath.path, () => this.places(), () => this.parts?.ear.state ?? 'off');
   parts: Parts | null = null;
   /** actions of keys; late modules add theirs */
   keys: Record<string, () => void> = {};
-  private readonly late: Part<Late>;
+  private readonly late: () => Promise<Late>;
   private bring: () => void = () => undefined;
   private touched = false;
   /** whether the link carried words from a sender */
@@ -84,21 +83,16 @@ export class App {
     this.stage.detail = settings.detail;
     if (document.body.classList.contains('calm')) this.stage.pace = SLOW;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
-    this.controls = new Controls({
-      change: (change) => this.change(change),
-      blow: () => this.toggleMicrophone(),
-      act: () => this.act(),
-    });
+    this.controls = new Controls(this);
     const played = new Promise<void>((resolve) => (this.bring = resolve));
-    this.late = new Part(async () => {
+    this.late = once(async () => {
       await played;
-      const late = await import('./late.js');
+      const late = await fetchPart(() => import('./late.js'));
       this.parts ??= late.furnish(this);
       return late;
     });
     this.soon(() => undefined);
     this.received = settings.name !== '' || settings.from !== '' || settings.wish !== '';
-    this.probe = this.makeProbe();
     window.wisp = this.probe;
     this.listen();
   }
@@ -117,7 +111,7 @@ export class App {
     this.pauseButton.addEventListener('click', () => this.pause());
     byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
     this.drawerButton.addEventListener('click', () => this.toggleDrawer());
-    watchDrops(byId('drop', HTMLElement), (dropped) => this.soon((late) => late.openDropped(this, dropped)));
+    watchDrops(byId('drop', HTMLElement), (dropped) => this.take(dropped));
     window.addEventListener('hashchange', () => this.change(settingsFromLink(location.hash, this.settings)));
     const scene = (name: Settings['scene']) => () => this.change({ scene: name });
     listenToKeys(
@@ -160,7 +154,7 @@ export class App {
     this.greet();
     // Updates the drawer after a key changed what it shows.
     const drawer = this.parts?.drawer;
-    if (!needsModel && playing !== null && drawer?.open === true && !drawer.holdsFocus) drawer.fill(playing, this.settings);
+    if (!needsModel && playing !== null && drawer?.open === true && !drawer.holdsFocus) drawer.fill();
   }
 
   private async playChosen(): Promise<void> {
@@ -176,7 +170,7 @@ export class App {
   private onPlaying(playing: Playing): void {
     if (playing.tab !== null) this.settings.scene = playing.tab;
     this.controls.show(playing.tab, this.settings);
-    this.parts?.drawer.fill(playing, this.settings);
+    this.parts?.drawer.fill();
     this.wasLit = true;
     this.greet();
     if (this.touched) this.hint.hide();
@@ -184,10 +178,15 @@ export class App {
 
   /** Runs an action with the late modules, or reports that they could not be loaded. */
   private soon(act: (late: Late) => void): void {
-    this.late.get().then(act, (error: Error) => this.notices.say(error.message));
+    this.late().then(act, (error: Error) => this.notices.say(error.message));
   }
 
-  private act(): void {
+  /** Plays a file, or opens the studio with what it learns from. */
+  take(dropped: Dropped): void {
+    this.soon((late) => late.openDropped(this, dropped));
+  }
+
+  act(): void {
     this.touch();
     this.player.playing?.scene.act();
   }
@@ -241,7 +240,7 @@ export class App {
   showDrawer(open: boolean): void {
     const drawer = this.parts?.drawer;
     if (drawer === undefined || drawer.open === open) return;
-    if (open) this.parts?.card.show(false, this.settings);
+    if (open) this.parts?.card.show(false);
     drawer.show(open);
     document.body.classList.toggle('beside', open);
     this.drawerButton.setAttribute('aria-expanded', String(open));
@@ -254,7 +253,7 @@ export class App {
     if (card === undefined || card.open === open) return;
     this.touch();
     this.showDrawer(false);
-    card.show(open, this.settings);
+    card.show(open);
     document.body.classList.toggle('beside', open);
     if (!open) byId('share', HTMLButtonElement).focus();
   }
@@ -282,7 +281,7 @@ export class App {
 
   private greet(): void {
     const { name, from, wish, tune } = this.settings;
-    const { lit = 1, of = 1 } = this.probe?.burning ?? {};
+    const { lit = 1, of = 1 } = this.probe.burning ?? {};
     const candle = this.player.playing?.tab === 'candle';
     const out = lit === 0 && of > 0;
     // The cake's plaque names the recipient.
@@ -298,7 +297,7 @@ export class App {
     const { playing } = this.player;
     const settings = { ...this.settings };
     if (playing?.shipped === false && settings.model === '') {
-      const { MAX_PACKED_BYTES, packModel } = await this.late.get();
+      const { MAX_PACKED_BYTES, packModel } = await this.late();
       if (playing.bytes.length > MAX_PACKED_BYTES) return 'Too large for a link: save and send it';
       settings.model = await packModel(playing.bytes);
     }
@@ -325,7 +324,7 @@ export class App {
     const { playing } = this.player;
     if (playing === null) return;
     const reading = playing.scene.reading();
-    this.costs.push(cost);
+    this.probe.push(cost);
     // Late modules are loaded even if nothing can be drawn.
     if (this.probe.firstPicture === 0 && (this.stage.shown || this.stage.frames > 60)) {
       this.probe.firstPicture = performance.now();
@@ -418,27 +417,5 @@ export class App {
   private goRound(radians: number): void {
     const scene = this.player.playing?.scene;
     if (scene instanceof CandleScene && !scene.goRound(radians)) this.notices.say('This flame was learned from one side and has no other.');
-  }
-
-  private makeProbe(): Probe {
-    const { costs, breath } = this;
-    const hearing = (): string => this.parts?.ear.state ?? 'off';
-    return {
-      frames: 0,
-      costs: () => costs.list(),
-      firstPicture: 0,
-      wind: 0,
-      answer: 0,
-      burning: null,
-      smoking: false,
-      places: () => this.places(),
-      leaves: null,
-      candleX: 0,
-      azimuth: 0,
-      get hearing() {
-        return hearing();
-      },
-      sound: breath.path,
-    };
   }
 }

@@ -35,15 +35,9 @@ function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData
 }
 
 /** One palette for all pictures, so that still parts do not shimmer. */
-function paletteOf(all: readonly ImageData[]): Palette {
+async function paletteOf(all: readonly ImageData[]): Promise<Palette> {
   const some = [0.1, 0.5, 0.9].map((share) => all[Math.floor(share * all.length)]?.data ?? new Uint8ClampedArray());
-  const joined = new Uint8ClampedArray(some.reduce((sum, { length }) => sum + length, 0));
-  let at = 0;
-  for (const data of some) {
-    joined.set(data, at);
-    at += data.length;
-  }
-  return quantize(joined, 256);
+  return quantize(new Uint8ClampedArray(await new Blob(some).arrayBuffer()), 256);
 }
 
 function dither({ data, width }: ImageData): void {
@@ -57,7 +51,7 @@ function dither({ data, width }: ImageData): void {
 /** Records the next seconds of a canvas. */
 export async function gifOf(canvas: HTMLCanvasElement, seconds: number): Promise<Blob> {
   const all = await pictures(canvas, seconds);
-  const palette = paletteOf(all);
+  const palette = await paletteOf(all);
   const encoder = GIFEncoder();
   for (const [k, picture] of all.entries()) {
     // Yields to the page between pictures.

@@ -8,9 +8,7 @@ import { Card } from './panel/card.js';
 import { Drawer } from './panel/drawer.js';
 import { byId } from './panel/element.js';
 import { fillHelp } from './panel/help.js';
-import { saveGif, saveLoop, savePicture, type Happening } from './saving.js';
 import { Senses } from './senses/senses.js';
-import { fetchPart } from './part.js';
 import { Tune } from './senses/tune.js';
 import { StudioDoor } from './studio_door.js';
 import { Tuning } from './panel/tuning.js';
@@ -48,55 +46,15 @@ export function furnish(app: App): Parts {
   app.keys.t = () => document.body.classList.contains('studying') || tuning.open();
   const { escape } = app.keys;
   app.keys.escape = () => (tuning.isOpen ? tuning.close() : escape?.());
-  const drawer = new Drawer(byId('drawer', HTMLElement), {
-    change: (change) => app.change(change),
-    open: (file) => openDropped(app, { files: [file], entries: [] }),
-    closed: () => app.showDrawer(false),
-    send: () => app.showCard(true),
-    viewing: () => viewingTest(app),
-    senses: () => app.toggleSenses(),
-  });
+  const drawer = new Drawer(byId('drawer', HTMLElement), app);
   const tune = new Tune();
-  const card = new Card(byId('card', HTMLElement), {
-    change: (change) => app.change(change),
-    closed: () => app.showCard(false),
-    send: () => app.send(),
-    picture: () => savePicture(app.stage),
-    film: () => saveLoop(app.stage.canvas, blownOut(app)),
-    gif: () => saveGif(app.stage.canvas, blownOut(app)),
-    tune: () => tune.toggle(),
-  });
+  const card = new Card(byId('card', HTMLElement), app, tune);
   const play = byId('tune-play', HTMLButtonElement);
   play.addEventListener('click', () => play.setAttribute('aria-pressed', String(tune.toggle())));
   byId('back', HTMLButtonElement).addEventListener('click', () => void app.sendBack());
   fillHelp(app.help, app);
-  if (app.player.playing !== null) drawer.fill(app.player.playing, app.settings);
+  drawer.fill();
   return { ear, drawer, senses: new Senses(), door: new StudioDoor(app), tuning, card, tune };
-}
-
-/** Runs a viewing test with twenty pairs of a filmed flame and the flame that plays. */
-async function viewingTest(app: App): Promise<string> {
-  const { playing } = app.player;
-  if (playing === null) return '';
-  const { ANSWERS, rigPairs, Viewing } = await fetchPart(() => import('./viewing/index.js'));
-  const pairs = await rigPairs(app.wisp, playing.bytes, ANSWERS);
-  new Viewing(pairs, { model: playing.file, from: 'films of the candle rig' });
-  return 'Answered';
-}
-
-/** Script of a film: the flame burns, is blown out, smokes, and is lit again. */
-export function blownOut(app: App): Happening {
-  const { keys } = app.breath;
-  const scene = app.player.playing?.scene;
-  const wished = app.settings.wish !== '';
-  return {
-    seconds: wished ? 9 : 6.5,
-    acts: [
-      [0.9, () => keys.press('Space')],
-      [2.1, () => keys.release('Space')],
-      [wished ? 7 : 4.6, () => scene?.act()],
-    ],
-  };
 }
 
 /** Reports an error as a sentence. */

@@ -19,17 +19,12 @@ export async function fetchPart<T>(bring: () => Promise<T>): Promise<T> {
   }
 }
 
-/** A part that is loaded once, and again after a failure. */
-export class Part<T> {
-  private coming: Promise<T> | null = null;
-
-  constructor(private readonly bring: () => Promise<T>) {}
-
-  get(): Promise<T> {
-    this.coming ??= fetchPart(this.bring).catch((error: unknown) => {
-      this.coming = null;
+/** Work that is done once, and again after a failure. */
+export function once<T>(work: () => Promise<T>): () => Promise<T> {
+  let coming: Promise<T> | null = null;
+  return () =>
+    (coming ??= work().catch((error: unknown) => {
+      coming = null;
       throw error;
-    });
-    return this.coming;
-  }
+    }));
 }

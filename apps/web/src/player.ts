@@ -4,13 +4,20 @@ import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { shownOf, type SceneName, type Settings } from './link.js';
-import type { Shown } from './panel/drawer.js';
 import { fetchShipped, SHIPPED_FLAME, SHIPPED_LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
 /** The current scene, and facts about its model. */
-export interface Playing extends Shown {
+export interface Playing {
+  model: Model;
+  bytes: Uint8Array;
+  file: string;
+  /** false: a dropped file */
+  shipped: boolean;
+  answerName: string;
+  /** whether its wind response is borrowed from the shipped flame */
+  borrows: boolean;
   scene: Scene;
   /** tab of the scene; null: none */
   tab: SceneName | null;

@@ -3,56 +3,54 @@
 import type { SoundPath } from '@wisp/player/parts/air/breath';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
 
+/** Number of frames whose costs are kept. */
 const KEPT = 600;
 
-export interface Probe {
+export class Probe {
   /** number of frames drawn */
-  frames: number;
-  /** milliseconds of this page's own work in the last frames, newest last */
-  costs(): { update: number; draw: number }[];
+  frames = 0;
   /** milliseconds from the start of the page to the first picture of a scene */
-  firstPicture: number;
+  firstPicture = 0;
   /** wind of the last frame, in the model's unit */
-  wind: number;
-  answer: number;
+  wind = 0;
+  answer = 0;
   /** number of burning candles, and of all; null in other scenes */
-  burning: { lit: number; of: number } | null;
+  burning: { lit: number; of: number } | null = null;
   /** whether smoke is in the air */
-  smoking: boolean;
-  /** positions of wick and match, CSS pixels from the top left; null in other scenes */
-  places(): { wick: [number, number]; match: [number, number] } | null;
+  smoking = false;
   /** number of leaves in the air and on the ground; null in other scenes */
-  leaves: { count: number; lying: number } | null;
+  leaves: { count: number; lying: number } | null = null;
   /** x of the first candle, room units from the middle */
-  candleX: number;
+  candleX = 0;
   /** azimuth of the eye round the candle, radians; 0 where its flame was filmed */
-  azimuth: number;
-  hearing: string;
-  sound: SoundPath;
+  azimuth = 0;
+  private readonly kept: FrameCost[] = [];
+
+  /** `places`: of wick and match, CSS pixels from the top left; null in other scenes. */
+  constructor(
+    readonly sound: SoundPath,
+    readonly places: () => { wick: [number, number]; match: [number, number] } | null,
+    private readonly heard: () => string,
+  ) {}
+
+  /** State of the microphone. */
+  get hearing(): string {
+    return this.heard();
+  }
+
+  /** Milliseconds of this page's own work in the last frames, newest last. */
+  costs(): readonly FrameCost[] {
+    return this.kept;
+  }
+
+  push(cost: Readonly<FrameCost>): void {
+    this.kept.push({ ...cost });
+    if (this.kept.length > KEPT) this.kept.shift();
+  }
 }
 
 declare global {
   interface Window {
     wisp?: Probe;
-  }
-}
-
-export class Costs {
-  private readonly update = new Float32Array(KEPT);
-  private readonly draw = new Float32Array(KEPT);
-  private count = 0;
-
-  push(cost: Readonly<FrameCost>): void {
-    this.update[this.count % KEPT] = cost.update;
-    this.draw[this.count % KEPT] = cost.draw;
-    this.count += 1;
-  }
-
-  list(): { update: number; draw: number }[] {
-    const length = Math.min(KEPT, this.count);
-    return Array.from({ length }, (_, k) => {
-      const at = (this.count - length + k) % KEPT;
-      return { update: this.update[at] as number, draw: this.draw[at] as number };
-    });
   }
 }

@@ -1,8 +1,8 @@
 // Saves a still picture, or a film or GIF of some seconds in which the flame is blown out and lit again. Made locally;
 // nothing is sent.
 
+import type { App } from './app.js';
 import { fetchPart } from './part.js';
-import type { Stage } from '@wisp/player/parts/stage/stage';
 
 const FRAMES = 30;
 const SLICE_MS = 100;
@@ -11,52 +11,55 @@ const PATIENCE = 10;
 /** Formats of browser recordings, the most widely supported first. */
 const KINDS = ['video/mp4;codecs=avc1', 'video/webm;codecs=vp9', 'video/webm'];
 
-const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
+export const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
-/** Saves a file on the user's device. */
-export function saveFile(blob: Blob, name: string): void {
+/** Saves a file on the user's device. Says so. */
+export function saveFile(blob: Blob, name: string): string {
   const address = URL.createObjectURL(blob);
   const link = document.createElement('a');
   link.href = address;
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
-}
-
-/** Saves the next picture. */
-export async function savePicture(stage: Stage): Promise<string> {
-  saveFile(await stage.snapshot(), 'wisp.png');
   return 'Saved';
 }
 
-/** Events during a recording: its duration in seconds, and actions at given seconds. */
-export interface Happening {
-  seconds: number;
-  acts: readonly (readonly [at: number, act: () => void])[];
-}
+/** Saves the next picture. */
+export const savePicture = async ({ stage }: App): Promise<string> => saveFile(await stage.snapshot(), 'wisp.png');
 
-async function happen({ seconds, acts }: Happening): Promise<void> {
+/** Seconds of a film. */
+const lasts = ({ settings }: App): number => (settings.wish !== '' ? 9 : 6.5);
+
+/** What happens in a film: the flame burns, is blown out, smokes, and is lit again. */
+async function happen(app: App): Promise<void> {
+  const { keys } = app.breath;
+  const scene = app.player.playing?.scene;
+  const acts: readonly (readonly [at: number, act: () => void])[] = [
+    [0.9, () => keys.press('Space')],
+    [2.1, () => keys.release('Space')],
+    [app.settings.wish !== '' ? 7 : 4.6, () => scene?.act()],
+    [lasts(app), () => undefined],
+  ];
   let passed = 0;
-  for (const [at, act] of [...acts, [seconds, () => undefined] as const]) {
+  for (const [at, act] of acts) {
     await after(at - passed);
     passed = at;
     act();
   }
 }
 
-/** Records a canvas during these events as a GIF. */
-export async function saveGif(canvas: HTMLCanvasElement, happening: Happening): Promise<string> {
+/** Records the picture meanwhile as a GIF. */
+export async function saveGif(app: App): Promise<string> {
   const { gifOf } = await fetchPart(() => import('./gif.js'));
-  void happen(happening);
-  saveFile(await gifOf(canvas, happening.seconds), 'wisp.gif');
-  return 'Saved';
+  void happen(app);
+  return saveFile(await gifOf(app.stage.canvas, lasts(app)), 'wisp.gif');
 }
 
-/** Records a canvas during these events as a film. */
-export async function saveLoop(canvas: HTMLCanvasElement, happening: Happening): Promise<string> {
+/** Records the picture meanwhile as a film. */
+export async function saveLoop(app: App): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';
-  const recorder = new MediaRecorder(canvas.captureStream(FRAMES), { mimeType: kind, videoBitsPerSecond: 8e6 });
+  const recorder = new MediaRecorder(app.stage.canvas.captureStream(FRAMES), { mimeType: kind, videoBitsPerSecond: 8e6 });
   const parts: Blob[] = [];
   const begun = new Promise((resolve) => {
     recorder.addEventListener('dataavailable', ({ data }) => {
@@ -68,10 +71,9 @@ export async function saveLoop(canvas: HTMLCanvasElement, happening: Happening):
   recorder.start(SLICE_MS);
   // A busy machine takes time until it encodes anything.
   await Promise.race([begun, after(PATIENCE)]);
-  await happen(happening);
+  await happen(app);
   recorder.stop();
   await ended;
   if (parts.every(({ size }) => size === 0)) return 'No picture came: try again';
-  saveFile(new Blob(parts, { type: kind }), kind.startsWith('video/mp4') ? 'wisp.mp4' : 'wisp.webm');
-  return 'Saved';
+  return saveFile(new Blob(parts, { type: kind }), kind.startsWith('video/mp4') ? 'wisp.mp4' : 'wisp.webm');
 }

@@ -2,9 +2,8 @@
 
 import type { App } from './app.js';
 import type { Dropped } from './drops.js';
-import { Part } from './part.js';
+import { fetchPart, once } from './part.js';
 import { byId, element } from './panel/element.js';
-import { blownOut } from './late.js';
 import { saveGif, saveLoop } from './saving.js';
 import type { Room } from './studio/room.js';
 
@@ -13,7 +12,7 @@ const LIT = 900;
 
 export class StudioDoor {
   private readonly tab = element('button', { type: 'button', 'data-scene': 'yours', 'aria-current': 'false' }, 'Yours');
-  private readonly room = new Part(() => import('./studio/room.js').then(({ Room }) => new Room(this.host())));
+  private readonly room = once(() => fetchPart(() => import('./studio/room.js')).then(({ Room }) => new Room(this.host())));
   private inside = false;
 
   constructor(private readonly app: App) {
@@ -36,7 +35,7 @@ export class StudioDoor {
 
   /** Enters the studio, optionally with files to learn from. */
   open(dropped?: Dropped): void {
-    this.room.get().then(
+    this.room().then(
       (room) => {
         if (!this.inside) this.enter(room);
         if (dropped !== undefined) room.take(dropped);
@@ -70,7 +69,7 @@ export class StudioDoor {
   leave(): void {
     if (!this.inside) return;
     this.inside = false;
-    void this.room.get().then((room) => room.show(false));
+    void this.room().then((room) => room.show(false));
     document.body.classList.remove('studying');
     this.tab.setAttribute('aria-current', 'false');
     // Selects the scene's own tab again.
@@ -99,7 +98,7 @@ export class StudioDoor {
         app.stage.start();
         await new Promise((resolve) => setTimeout(resolve, LIT));
         try {
-          return await (kind === 'gif' ? saveGif : saveLoop)(app.stage.canvas, blownOut(app));
+          return await (kind === 'gif' ? saveGif : saveLoop)(app);
         } finally {
           if (this.inside) app.stage.stop();
         }

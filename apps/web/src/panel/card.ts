@@ -1,21 +1,11 @@
 // Card for composing a link: recipient, age, text for the smoke; and the ways to send it.
 
-import { LETTERS, MAX_CANDLES, shortened, type Settings } from '../link.js';
-import { element } from './element.js';
+import type { App } from '../app.js';
+import { LETTERS, MAX_CANDLES, shortened } from '../link.js';
+import { saveGif, saveLoop, savePicture } from '../saving.js';
+import type { Tune } from '../senses/tune.js';
+import { button, closeButton, element } from './element.js';
 import { telling } from './telling.js';
-
-export interface CardEvents {
-  change(change: Partial<Settings>): void;
-  closed(): void;
-  /** shares or copies the link; returns a message about the result */
-  send(): Promise<string>;
-  /** saves a picture, or a short film of blowing out; returns a message about the result */
-  picture(): Promise<string>;
-  film(): Promise<string>;
-  gif(): Promise<string>;
-  /** plays or stops the tune; returns whether it plays */
-  tune(): boolean;
-}
 
 const FIELDS: readonly { name: keyof typeof LETTERS; words: string; hint: string }[] = [
   { name: 'name', words: 'For', hint: 'a name on the cake' },
@@ -25,23 +15,20 @@ const FIELDS: readonly { name: keyof typeof LETTERS; words: string; hint: string
 
 export class Card {
   private readonly fields = new Map<keyof typeof LETTERS, HTMLInputElement>();
-  private readonly age = element('input', { type: 'number', id: 'card-age', min: 1, max: 999, inputmode: 'numeric', placeholder: 'years' });
-  private readonly inFigures = element('input', { type: 'checkbox', id: 'card-figures' });
-  private readonly tune = element('input', { type: 'checkbox', id: 'card-tune' });
-  private readonly send: HTMLButtonElement;
+  private readonly age = element('input', { type: 'number', id: 'card-age', min: 1, max: 999, inputmode: 'numeric', placeholder: 'years', input: () => this.changeAge() });
+  private readonly inFigures = element('input', { type: 'checkbox', id: 'card-figures', input: () => this.changeAge() });
+  private readonly tune = element('input', { type: 'checkbox', id: 'card-tune', input: () => void this.app.change({ tune: Number(this.tune.checked) }) });
+  private readonly send = telling('Copy the link', 'send', '', () => this.app.send());
 
   constructor(
     private readonly place: HTMLElement,
-    private readonly events: CardEvents,
+    private readonly app: App,
+    tune: Tune,
   ) {
-    const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
-    close.addEventListener('click', () => events.closed());
-    this.send = telling('Copy the link', 'send', '', () => events.send());
     this.send.classList.add('main');
-    const hear = element('button', { type: 'button', class: 'tool' }, 'Hear it');
-    hear.addEventListener('click', () => (hear.textContent = events.tune() ? 'Silence' : 'Hear it'));
+    const hear = button('Hear it', () => (hear.textContent = tune.toggle() ? 'Silence' : 'Hear it'));
     place.append(
-      element('header', {}, element('h2', {}, 'Send it'), close),
+      element('header', {}, element('h2', {}, 'Send it'), closeButton(() => app.showCard(false))),
       ...FIELDS.map((field) => this.field(field)),
       element('div', { class: 'field' }, element('label', { for: 'card-age' }, 'Turns'), this.age, element('label', { class: 'check' }, this.inFigures, 'in figures')),
       element('div', { class: 'field' }, element('label', { class: 'check' }, this.tune, 'with a tune, for whoever asks for it'), hear),
@@ -50,16 +37,14 @@ export class Card {
       element(
         'div',
         { class: 'actions' },
-        telling('Save a film of it', 'loop', 'Filming…', () => events.film()),
-        telling('As a GIF', 'gif', 'Filming…', () => events.gif()),
-        telling('Save a picture', 'picture', 'One moment…', () => events.picture()),
+        telling('Save a film of it', 'loop', 'Filming…', () => saveLoop(app)),
+        telling('As a GIF', 'gif', 'Filming…', () => saveGif(app)),
+        telling('Save a picture', 'picture', 'One moment…', () => savePicture(app)),
       ),
     );
-    for (const input of [this.age, this.inFigures]) input.addEventListener('input', () => this.changeAge());
-    this.tune.addEventListener('input', () => events.change({ tune: Number(this.tune.checked) }));
     place.addEventListener('keydown', (event) => {
       // Keys type text here.
-      if (event.key === 'Escape') events.closed();
+      if (event.key === 'Escape') app.showCard(false);
       event.stopPropagation();
     });
   }
@@ -68,9 +53,10 @@ export class Card {
     return !this.place.hidden;
   }
 
-  show(open: boolean, settings: Readonly<Settings>): void {
+  show(open: boolean): void {
     this.place.hidden = !open;
     if (!open) return;
+    const { settings } = this.app;
     for (const [name, field] of this.fields) field.value = settings[name];
     const many = settings.age > 0 ? settings.age : settings.candles;
     this.age.value = many > 1 || settings.age > 0 ? String(many) : '';
@@ -80,8 +66,8 @@ export class Card {
   }
 
   private field({ name, words, hint }: (typeof FIELDS)[number]): HTMLElement {
-    const input = element('input', { type: 'text', id: `card-${name}`, maxlength: LETTERS[name], placeholder: hint, autocomplete: 'off', 'data-card': name });
-    input.addEventListener('input', () => this.events.change({ scene: 'candle', [name]: shortened(input.value, LETTERS[name]) }));
+    const change = (): void => this.app.change({ scene: 'candle', [name]: shortened(input.value, LETTERS[name]) });
+    const input = element('input', { type: 'text', id: `card-${name}`, maxlength: LETTERS[name], placeholder: hint, autocomplete: 'off', 'data-card': name, input: change });
     this.fields.set(name, input);
     return element('div', { class: 'field' }, element('label', { for: `card-${name}` }, words), input);
   }
@@ -90,6 +76,6 @@ export class Card {
   private changeAge(): void {
     const years = Math.min(999, Math.max(0, Math.floor(this.age.valueAsNumber || 0)));
     if (years > MAX_CANDLES) this.inFigures.checked = true;
-    this.events.change({ scene: 'candle', age: this.inFigures.checked ? years : 0, candles: Math.max(1, Math.min(MAX_CANDLES, years)) });
+    this.app.change({ scene: 'candle', age: this.inFigures.checked ? years : 0, candles: Math.max(1, Math.min(MAX_CANDLES, years)) });
   }
 }

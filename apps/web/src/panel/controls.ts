@@ -1,5 +1,6 @@
 // Controls over the picture: scenes, number, blow, and the scene's own action.
 
+import type { App } from '../app.js';
 import { MAX_CANDLES, MAX_LEAVES, type SceneName, type Settings } from '../link.js';
 import { byId, element } from './element.js';
 
@@ -11,12 +12,6 @@ const SCENES: readonly { name: SceneName; title: string }[] = [
 
 /** State of the microphone. */
 export type Hearing = 'off' | 'asking' | 'listening' | 'asleep';
-
-export interface ControlEvents {
-  change(change: Partial<Settings>): void;
-  blow(): void;
-  act(): void;
-}
 
 export class Controls {
   private readonly tabs = new Map<SceneName, HTMLButtonElement>();
@@ -32,17 +27,16 @@ export class Controls {
   private word = '';
   private shownLevel = -1;
 
-  constructor(private readonly events: ControlEvents) {
+  constructor(private readonly app: App) {
     const place = byId('scenes', HTMLElement);
     for (const { name, title } of SCENES) {
-      const button = element('button', { type: 'button', 'data-scene': name }, title);
-      button.addEventListener('click', () => events.change({ scene: name }));
+      const button = element('button', { type: 'button', 'data-scene': name, click: () => app.change({ scene: name }) }, title);
       this.tabs.set(name, button);
       place.append(button);
     }
-    this.count.addEventListener('input', () => events.change(this.counted(this.count.valueAsNumber)));
-    this.blow.addEventListener('click', () => events.blow());
-    this.act.addEventListener('click', () => events.act());
+    this.count.addEventListener('input', () => app.change(this.counted(this.count.valueAsNumber)));
+    this.blow.addEventListener('click', () => app.toggleMicrophone());
+    this.act.addEventListener('click', () => app.act());
   }
 
   /** Shows the selected tab, and the number of candles or leaves. */
@@ -65,9 +59,9 @@ export class Controls {
   step(way: 1 | -1, settings: Readonly<Settings>): void {
     if (this.tab === 'leaves') {
       const leaves = Math.round(way > 0 ? settings.leaves * 1.5 + 1 : settings.leaves / 1.5 - 1);
-      this.events.change({ leaves: Math.max(1, Math.min(MAX_LEAVES, leaves)) });
+      this.app.change({ leaves: Math.max(1, Math.min(MAX_LEAVES, leaves)) });
     } else if (this.tab === 'candle') {
-      this.events.change({ candles: Math.max(1, Math.min(MAX_CANDLES, settings.candles + way)), age: 0 });
+      this.app.change({ candles: Math.max(1, Math.min(MAX_CANDLES, settings.candles + way)), age: 0 });
     }
   }
 

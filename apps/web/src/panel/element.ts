@@ -1,8 +1,9 @@
 // Creation of DOM elements in one expression.
 
-type Attributes = Record<string, string | boolean | number>;
+/** Attributes by name; functions listen to the event of that name. */
+export type Attributes = Record<string, string | boolean | number | ((event: Event) => unknown)>;
 
-/** Creates an element with attributes and children; strings become text, never markup. */
+/** Creates an element with attributes, listeners and children; strings become text, never markup. */
 export function element<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
   attributes: Attributes = {},
@@ -10,12 +11,22 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
 ): HTMLElementTagNameMap[Tag] {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
-    if (value === false) continue;
-    made.setAttribute(name, value === true ? '' : String(value));
+    if (typeof value === 'function') made.addEventListener(name, value);
+    else if (value !== false) made.setAttribute(name, value === true ? '' : String(value));
   }
   made.append(...children);
   return made;
 }
+
+/** A button with an action. */
+export const button = (words: string, act: () => unknown, attributes: Attributes = {}): HTMLButtonElement =>
+  element('button', { type: 'button', class: 'tool', click: act, ...attributes }, words);
+
+export const closeButton = (close: () => unknown): HTMLButtonElement => button('×', close, { class: 'tool round', 'aria-label': 'Close' });
+
+/** Names and values of a description list. */
+export const definitions = (facts: readonly (readonly [name: string, value: string])[]): HTMLElement[] =>
+  facts.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]);
 
 /** The element with that id. Throws if it is missing or of another kind: page and script are of different versions. */
 export function byId<Kind extends HTMLElement>(id: string, kind: new () => Kind): Kind {

@@ -1,7 +1,7 @@
 // Facts of a model in words and numbers.
 
 import type { Model } from '@wisp/player';
-import { element } from './element.js';
+import { definitions, element } from './element.js';
 import { inWords, number } from './figures.js';
 
 type Fact = readonly [string, string];
@@ -57,12 +57,6 @@ function chainFacts(model: Model): Fact[] {
   ];
 }
 
-function list(facts: readonly Fact[]): HTMLElement {
-  const made = element('dl');
-  for (const [name, value] of facts) made.append(element('dt', {}, name), element('dd', {}, value));
-  return made;
-}
-
 // Quality figures of the model, with the range of good values.
 function figuresOf(model: Model): HTMLElement[] {
   const { figures } = model.provenance;
@@ -85,9 +79,9 @@ export function factsOf(model: Model, bytes: number): HTMLElement {
     'section',
     {},
     element('h3', {}, 'The model'),
-    list([...commonFacts(model, bytes), ...flameFacts(model), ...chainFacts(model)]),
+    element('dl', {}, ...definitions([...commonFacts(model, bytes), ...flameFacts(model), ...chainFacts(model)])),
     ...figuresOf(model),
     element('h3', {}, 'How it was made'),
-    list(made),
+    element('dl', {}, ...definitions(made)),
   );
 }

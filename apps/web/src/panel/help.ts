@@ -1,7 +1,7 @@
 // The help with all gestures and keys.
 
 import type { App } from '../app.js';
-import { element } from './element.js';
+import { button, closeButton, element } from './element.js';
 
 const GESTURES: readonly (readonly [string, string])[] = [
   ['Blow', 'press the round button, then blow at the microphone; press it again to switch it off'],
@@ -34,12 +34,10 @@ const KEYS: readonly (readonly [string[], string])[] = [
 export function fillHelp(dialog: HTMLDialogElement, app: App): void {
   const row = (how: string, ...what: (string | HTMLElement)[]): HTMLElement => element('tr', {}, element('th', { scope: 'row' }, ...what), element('td', {}, how));
   const rows = [...GESTURES.map(([what, how]) => row(how, what)), ...KEYS.map(([keys, how]) => row(how, ...keys.flatMap((key) => [element('kbd', {}, key), ' '])))];
-  const single = element('input', { type: 'checkbox', checked: true, 'data-knob': 'keys' });
-  single.addEventListener('input', () => (app.singleKeys = single.checked));
-  const pause = element('button', { type: 'button', class: 'tool', 'data-knob': 'pause' }, 'Pause, or go on');
-  pause.addEventListener('click', () => app.pause());
-  const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close', autofocus: true }, '×');
-  close.addEventListener('click', () => dialog.close());
+  const single = element('input', { type: 'checkbox', checked: true, 'data-knob': 'keys', input: () => void (app.singleKeys = single.checked) });
+  const pause = button('Pause, or go on', () => app.pause(), { 'data-knob': 'pause' });
+  const close = closeButton(() => dialog.close());
+  close.autofocus = true;
   dialog.replaceChildren(
     element('header', {}, element('h2', {}, 'Blow on it'), close),
     element('table', {}, ...rows),

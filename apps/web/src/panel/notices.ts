@@ -1,6 +1,6 @@
 // Messages that appear, are read out by screen readers, and disappear.
 
-import { element } from './element.js';
+import { button, element } from './element.js';
 
 const STAYS = 9000;
 const MOST = 3;
@@ -19,17 +19,15 @@ export class Notices {
     for (const shown of this.place.querySelectorAll('.notice')) {
       if (shown.querySelector('p')?.textContent === text) shown.remove();
     }
-    const close = element('button', { type: 'button', 'aria-label': 'Dismiss' }, '×');
+    const close = element('button', { type: 'button', 'aria-label': 'Dismiss', click: () => void notice.remove() }, '×');
     const notice = element('div', { class: 'notice' }, element('p', {}, text), close);
     if (offer !== undefined) {
-      const accept = element('button', { type: 'button', class: 'tool' }, offer.words);
-      accept.addEventListener('click', () => {
+      const accept = (): void => {
         notice.remove();
         offer.accept();
-      });
-      close.before(accept);
+      };
+      close.before(button(offer.words, accept));
     }
-    close.addEventListener('click', () => notice.remove());
     this.place.append(notice);
     while (this.place.children.length > MOST) this.place.firstElementChild?.remove();
     setTimeout(() => notice.remove(), offer === undefined ? STAYS : 2 * STAYS);

@@ -1,45 +1,44 @@
 // A scrolling plot of the last seconds of one number.
 
+import { element } from './element.js';
+
+/** Number of values shown. */
 const KEPT = 360;
 
 /** Colours of a line in the dark and the light drawer. */
-export type Ink = readonly [night: string, day: string];
+type Ink = readonly [night: string, day: string];
 
 const day = window.matchMedia('(prefers-color-scheme: light)');
 const ZERO: Ink = ['rgb(255 240 220 / 22%)', 'rgb(60 40 20 / 26%)'];
 const shade = ([night, light]: Ink): string => (day.matches ? light : night);
 
 export class Plot {
-  private readonly values = new Float32Array(KEPT);
-  private newest = 0;
-  private count = 0;
+  private readonly canvas = element('canvas', { class: 'plot', 'aria-hidden': 'true' });
+  private readonly output = element('output');
+  /** name and mean, and below them the line */
+  readonly parts: readonly HTMLElement[];
+  private readonly values: number[] = [];
 
-  /** `least`: minimum range of the axis, as low and high end. */
+  /** `least`: minimum range of the axis, as low and high end; `samples`: number of last values whose mean is shown. */
   constructor(
-    private readonly canvas: HTMLCanvasElement,
+    words: string,
     private readonly colour: Ink,
     private readonly least: readonly [number, number],
-  ) {}
+    private readonly samples = 4,
+    private readonly unit = '',
+  ) {
+    this.parts = [element('div', { class: 'plot-line' }, element('span', {}, words), this.output), this.canvas];
+  }
 
   push(value: number): void {
-    this.newest = (this.newest + 1) % KEPT;
-    this.values[this.newest] = value;
-    this.count = Math.min(KEPT, this.count + 1);
-  }
-
-  clear(): void {
-    this.count = 0;
-  }
-
-  /** Mean of the last `samples` values. */
-  mean(samples: number): number {
-    const count = Math.min(samples, this.count);
-    let sum = 0;
-    for (let k = 0; k < count; ++k) sum += this.at(k);
-    return count === 0 ? 0 : sum / count;
+    this.values.push(value);
+    if (this.values.length > KEPT) this.values.shift();
   }
 
   draw(): void {
+    const { values } = this;
+    const last = values.slice(-this.samples);
+    this.output.value = `${(last.reduce((sum, value) => sum + value, 0) / Math.max(1, last.length)).toFixed(2)}${this.unit}`;
     const context = this.canvas.getContext('2d');
     if (context === null) return;
     const share = Math.min(2, window.devicePixelRatio);
@@ -50,11 +49,7 @@ export class Plot {
       this.canvas.height = height;
     }
     context.clearRect(0, 0, width, height);
-    let [low, high] = this.least;
-    for (let k = 0; k < this.count; ++k) {
-      low = Math.min(low, this.at(k));
-      high = Math.max(high, this.at(k));
-    }
+    const [low, high] = [Math.min(this.least[0], ...values), Math.max(this.least[1], ...values)];
     const y = (value: number): number => height - 3 - ((value - low) / (high - low || 1)) * (height - 6);
     context.strokeStyle = shade(ZERO);
     context.lineWidth = 1;
@@ -66,11 +61,7 @@ export class Plot {
     context.lineWidth = 1.6 * share;
     context.lineJoin = 'round';
     context.beginPath();
-    for (let k = 0; k < this.count; ++k) context.lineTo(width - (k / (KEPT - 1)) * width, y(this.at(k)));
+    values.forEach((value, k) => context.lineTo(width - ((values.length - 1 - k) / (KEPT - 1)) * width, y(value)));
     context.stroke();
-  }
-
-  private at(back: number): number {
-    return this.values[(this.newest - back + KEPT) % KEPT] as number;
   }
 }

@@ -1,20 +1,20 @@
 // A button that reports the result of its action.
 
-import { element } from './element.js';
+import { button } from './element.js';
 
 const STAYS = 4000;
 
 /** `name`: accessible name; `meanwhile`: text during the action, '' for no change; `act` returns the final text. */
-export function telling(words: string, name: string, meanwhile: string, act: () => Promise<string>): HTMLButtonElement {
-  const button = element('button', { type: 'button', class: 'tool', 'data-file': name }, words);
-  button.addEventListener('click', () => {
-    if (meanwhile !== '') button.textContent = meanwhile;
-    void act()
-      .catch((error: unknown) => (error instanceof Error ? error.message : String(error)))
-      .then((said) => {
-        button.textContent = said;
-        setTimeout(() => (button.textContent = words), STAYS);
-      });
-  });
-  return button;
+export function telling(words: string, name: string, meanwhile: string, act: () => string | Promise<string>): HTMLButtonElement {
+  const tell = async (): Promise<void> => {
+    if (meanwhile !== '') told.textContent = meanwhile;
+    try {
+      told.textContent = await act();
+    } catch (error) {
+      told.textContent = error instanceof Error ? error.message : String(error);
+    }
+    setTimeout(() => (told.textContent = words), STAYS);
+  };
+  const told = button(words, tell, { 'data-file': name });
+  return told;
 }

@@ -2,7 +2,8 @@
 // extinguishes it, whatever the microphone's sensitivity.
 
 import type { Asked, Ear } from '../wind/ear.js';
-import { element } from './element.js';
+import { after } from '../saving.js';
+import { button, element } from './element.js';
 
 interface Step {
   asked: Asked;
@@ -21,15 +22,13 @@ const GET_READY = 1.5;
 /** Seconds for which the last text stays. */
 const STAYS = 6;
 
-const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
-
 export class Tuning {
   private readonly title = element('h2', { id: 'tuning-title' });
   private readonly words = element('p', { 'aria-live': 'polite' });
   private readonly passed = element('progress', { max: 1, value: 0, 'aria-label': 'Time to listen' });
   private readonly steps = element('ol', { 'aria-hidden': 'true' }, ...STEPS.map(({ title }) => element('li', {}, title)));
   private readonly actions = element('div', { class: 'actions' });
-  private readonly choice = element('select', { id: 'tuning-microphone' });
+  private readonly choice = element('select', { id: 'tuning-microphone', change: () => void this.ear.choose(this.choice.value).then(() => this.listChoices()) });
   private readonly choices = element('label', { class: 'microphones', for: 'tuning-microphone', hidden: true }, 'Microphone ', this.choice);
   /** incremented by openings and steps: outdated ones are abandoned */
   private turn = 0;
@@ -41,7 +40,6 @@ export class Tuning {
     private readonly place: HTMLElement,
     private readonly returnTo: HTMLElement,
   ) {
-    this.choice.addEventListener('change', () => void this.ear.choose(this.choice.value).then(() => this.listChoices()));
     place.append(this.title, this.steps, this.words, this.choices, this.passed, this.actions);
   }
 
@@ -136,13 +134,7 @@ export class Tuning {
   }
 
   private offer(...actions: [string, () => void][]): void {
-    this.actions.replaceChildren(
-      ...actions.map(([words, act]) => {
-        const button = element('button', { type: 'button', class: 'tool' }, words);
-        button.addEventListener('click', act);
-        return button;
-      }),
-    );
+    this.actions.replaceChildren(...actions.map(([words, act]) => button(words, act)));
     (this.actions.firstElementChild as HTMLElement).focus();
   }
 }

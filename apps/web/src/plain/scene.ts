@@ -1,7 +1,7 @@
 // Scene of a model with plain outputs: each is drawn as a scrolling line.
 
 import type { Bank, Model } from '@wisp/player';
-import { drawToCanvas, Program } from '@wisp/player/parts/stage/gl';
+import { drawToCanvas, Program, verticesOf, type Vertices } from '@wisp/player/parts/stage/gl';
 import type { Acting, Reading, Scene, SceneLook, SceneSettings } from '@wisp/player/parts/stage/scene';
 
 const KEPT = 600;
@@ -36,7 +36,7 @@ export class PlainScene implements Scene {
   private readonly lines: Float32Array[];
   private readonly id: bigint;
   private wind = 0;
-  private drawing: { gl: WebGL2RenderingContext; program: Program; buffer: WebGLBuffer; array: WebGLVertexArrayObject } | null = null;
+  private drawing: ({ gl: WebGL2RenderingContext; program: Program } & Vertices) | null = null;
 
   constructor(
     readonly model: Model,
@@ -71,15 +71,8 @@ export class PlainScene implements Scene {
   }
 
   attach(gl: WebGL2RenderingContext): void {
-    const array = gl.createVertexArray() as WebGLVertexArrayObject;
-    const buffer = gl.createBuffer() as WebGLBuffer;
-    gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, 4 * KEPT, gl.DYNAMIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 1, gl.FLOAT, false, 0, 0);
+    this.drawing = { gl, program: new Program(gl, VERTEX, FRAGMENT), ...verticesOf(gl, new Float32Array(KEPT), [1], gl.DYNAMIC_DRAW) };
     gl.bindVertexArray(null);
-    this.drawing = { gl, program: new Program(gl, VERTEX, FRAGMENT), buffer, array };
   }
 
   draw(width: number, height: number, { fade }: SceneLook): boolean {

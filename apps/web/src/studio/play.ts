@@ -16,7 +16,6 @@ export class Play {
   private readonly one: number;
   private readonly burns: boolean;
   private readonly shape = new FlameShape();
-  private readonly polyline = new Float32Array(2 * MAX_POINTS);
   private row = -1;
 
   constructor(wisp: Library, private readonly outlines: Outlines, bytes: Uint8Array) {
@@ -51,15 +50,11 @@ export class Play {
     }
   }
 
-  /** Outline in pixels of the film, x and y alternating. The next call overwrites it. */
+  /** Outline in pixels of the film, x and y alternating. */
   line(): Float32Array {
-    const { shape, outlines } = this;
-    shape.update(this.bank.polyline(this.flame), this.size);
-    for (let k = 0; k < shape.count; ++k) {
-      this.polyline[2 * k] = outlines.base.x + this.unit * (shape.points[3 * k] as number);
-      this.polyline[2 * k + 1] = outlines.base.y - this.unit * (shape.points[3 * k + 1] as number);
-    }
-    return this.polyline;
+    const { x, y } = this.outlines.base;
+    this.shape.update(this.bank.polyline(this.flame), this.size);
+    return this.shape.placed(this.unit, x, y);
   }
 
   free(): void {

@@ -452,7 +452,7 @@ export class Room {
   /** Runs the viewing test of these outlines' film against the learned model. */
   private async compare(outlines: Outlines | null, model: Uint8Array, file: string): Promise<string> {
     if (outlines === null) return 'There is no outline';
-    const { ANSWERS, filmPairs, Viewing } = await fetchPart(() => import('../viewing/index.js'));
+    const { ANSWERS, filmPairs, Viewing } = await fetchPart(() => import('../viewing/viewing.js'));
     const pairs = filmPairs(this.host.wisp, model, outlines, ANSWERS);
     if (pairs.length < 5) return 'The film is too short for it';
     new Viewing(pairs, { model: file, from: 'the film that it learned from' });

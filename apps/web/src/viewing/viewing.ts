@@ -2,12 +2,14 @@
 // the time.
 
 import { FlameShape } from '@wisp/player/parts/candle/flame_shape';
-import { element } from '../panel/element.js';
+import { button, closeButton, element } from '../panel/element.js';
 import { telling } from '../panel/telling.js';
 import { saveFile } from '../saving.js';
 import { paintFlame } from '../studio/pictures/flame_paint.js';
 import { surfaceOf } from '../studio/pictures/surface.js';
 import type { Clip, Pair } from './pairs.js';
+
+export { filmPairs, rigPairs } from './pairs.js';
 
 export const ANSWERS = 20;
 const SIDES = ['left', 'right'] as const;
@@ -42,16 +44,12 @@ export function meaningOf(right: number, of: number): string {
 
 /** A clip repeated on a canvas. */
 class Screen {
-  readonly canvas = element('canvas', { role: 'img' });
+  readonly canvas: HTMLCanvasElement;
+  clip: Clip | null = null;
   private readonly shape = new FlameShape();
-  private clip: Clip | null = null;
 
   constructor(side: Side) {
-    this.canvas.setAttribute('aria-label', `A flame, ${side}`);
-  }
-
-  show(clip: Clip): void {
-    this.clip = clip;
+    this.canvas = element('canvas', { role: 'img', 'aria-label': `A flame, ${side}` });
   }
 
   draw(seconds: number): void {
@@ -64,11 +62,7 @@ class Screen {
     // Both are processed alike: rounded at the base, then painted.
     this.shape.update(clip.outlines[Math.floor(at)] as Float32Array, 1);
     const unit = 0.56 * height;
-    const line = new Float32Array(2 * this.shape.count);
-    for (let k = 0; k < this.shape.count; ++k) {
-      line[2 * k] = width / 2 + unit * (this.shape.points[3 * k] as number);
-      line[2 * k + 1] = 0.86 * height - unit * (this.shape.points[3 * k + 1] as number);
-    }
+    const line = this.shape.placed(unit, width / 2, 0.86 * height);
     // The clip repeats, fading out at its end and in at its beginning.
     context.globalAlpha = Math.min(1, at / 5, (many - at) / 5);
     paintFlame(context, line, unit);
@@ -77,7 +71,7 @@ class Screen {
 }
 
 export class Viewing {
-  readonly dialog = element('dialog', { class: 'help viewing', 'aria-labelledby': 'viewing-title' });
+  private readonly dialog = element('dialog', { class: 'help viewing', 'aria-labelledby': 'viewing-title', close: () => void this.dialog.remove(), keydown: (event) => this.key(event as KeyboardEvent) });
   private readonly title = element('h2', { id: 'viewing-title', tabindex: '-1' });
   private readonly words = element('p', { 'aria-live': 'polite' });
   private readonly screens = { left: new Screen('left'), right: new Screen('right') };
@@ -92,11 +86,7 @@ export class Viewing {
     private readonly pairs: readonly Pair[],
     private readonly of: { model: string; from: string },
   ) {
-    const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
-    close.addEventListener('click', () => this.dialog.close());
-    this.dialog.append(element('header', {}, this.title, close), this.stage, this.words, this.actions);
-    this.dialog.addEventListener('close', () => this.dialog.remove());
-    this.dialog.addEventListener('keydown', (event) => this.key(event));
+    this.dialog.append(element('header', {}, this.title, closeButton(() => this.dialog.close())), this.stage, this.words, this.actions);
     document.body.append(this.dialog);
     this.dialog.showModal();
     this.ask();
@@ -113,19 +103,15 @@ export class Viewing {
     const pair = this.pairs[this.answers.length];
     if (pair === undefined) return this.end();
     this.filmed = SIDES[Math.random() < 0.5 ? 0 : 1];
-    this.screens[this.filmed].show(pair.filmed);
-    this.screens[this.filmed === 'left' ? 'right' : 'left'].show(pair.played);
+    this.screens[this.filmed].clip = pair.filmed;
+    this.screens[this.filmed === 'left' ? 'right' : 'left'].clip = pair.played;
     this.since = 0;
     // The pressed button is gone, so the focus moves here for the arrow keys.
     this.title.focus();
     this.title.textContent = `Which one was filmed? ${this.answers.length + 1} of ${this.pairs.length}`;
     this.words.textContent = 'One of them was filmed. The other was worked out by the model, in the same wind, and nobody drew it.';
     this.actions.replaceChildren(
-      ...SIDES.map((side) => {
-        const button = element('button', { type: 'button', class: 'tool main', 'data-side': side }, side === 'left' ? '← This one' : 'This one →');
-        button.addEventListener('click', () => this.take(side));
-        return button;
-      }),
+      ...SIDES.map((side) => button(side === 'left' ? '← This one' : 'This one →', () => this.take(side), { class: 'tool main', 'data-side': side })),
     );
   }
 
@@ -151,10 +137,7 @@ export class Viewing {
     this.words.textContent = meaningOf(right, of);
     const file = { test: 'wisp viewing test 1', ...this.of, right, of, share, interval_95: [low, high], answers: this.answers };
     this.actions.replaceChildren(
-      telling('Take the answers away', 'answers', '', () => {
-        saveFile(new Blob([`${JSON.stringify(file, null, 1)}\n`], { type: 'application/json' }), 'wisp-viewing.json');
-        return Promise.resolve('Saved');
-      }),
+      telling('Take the answers away', 'answers', '', () => saveFile(new Blob([`${JSON.stringify(file, null, 1)}\n`], { type: 'application/json' }), 'wisp-viewing.json')),
     );
   }
 }

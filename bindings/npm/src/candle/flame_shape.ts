@@ -48,6 +48,11 @@ export class FlameShape {
     this.light = size > 0 && !this.empty ? Math.pow(burning, 0.7) * (0.3 + 0.7 * size) : 0;
   }
 
+  /** The outline in a picture with y down: x and y alternating, in pixels, with its base at a place. */
+  placed(unit: number, x: number, y: number): Float32Array {
+    return Float32Array.from({ length: 2 * this.count }, (_, k) => (k % 2 === 0 ? x + unit * (this.points[1.5 * k] as number) : y - unit * (this.points[1.5 * (k - 1) + 1] as number)));
+  }
+
   private roundBase(outline: Float32Array, height: number): void {
     const shoulder = SHOULDER * height;
     const drop = 0.05 * Math.min(1, height);
