@@ -6,7 +6,7 @@
 // The picture is left small, and leaves are handed over but not drawn: where there is no graphics card the processor
 // draws them, an instance at a time, and that is not ours.
 
-import { chromiumPath, openBrowser, until } from '../tests/browser.js';
+import { openBrowser, skip, until } from '../tests/browser.js';
 
 const seconds = Number(process.argv[2] ?? 6);
 const scenes = [
@@ -16,7 +16,7 @@ const scenes = [
   ['400 leaves', '#scene=leaves&leaves=400', 400],
 ];
 
-if (chromiumPath === undefined) throw new Error('there is no Chromium here');
+if (skip) throw new Error(skip);
 
 function drawNoLeaves() {
   for (const call of ['drawElementsInstanced', 'drawArraysInstanced']) WebGL2RenderingContext.prototype[call] = () => {};

@@ -4,7 +4,7 @@
 
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { blowOut, chromiumPath, openBrowser, until } from '../tests/browser.js';
+import { blowOut, framesPass, openBrowser, skip } from '../tests/browser.js';
 
 const args = process.argv.slice(2);
 const sizes = [];
@@ -37,7 +37,7 @@ const states = {
   help: ['#scene=candle', async (page) => { await page.click('#open-help'); await pass(page, 0.5); }],
 };
 
-if (chromiumPath === undefined) throw new Error('there is no Chromium here');
+if (skip) throw new Error(skip);
 mkdirSync(folder, { recursive: true });
 const opened = await openBrowser();
 for (const size of sizes) {
@@ -47,12 +47,11 @@ for (const size of sizes) {
     // Coarse while it comes about, so that time passes where the processor draws; then as it is.
     const page = await opened.page(`${hash}&seed=3&detail=0.1`, { viewport: { width, height } });
     await act(page);
-    const frames = await page.evaluate(() => {
+    await page.evaluate(() => {
       location.hash += '&detail=1';
       location.hash = location.hash.replace('detail=0.1&', '');
-      return window.wisp.frames;
     });
-    await until(page, 'the picture is whole', (many) => window.wisp.frames > many + 2, frames, 120_000);
+    await framesPass(page);
     await page.screenshot({ path: join(folder, `${name}-${size}.png`), timeout: 120_000 });
     const costs = await page.evaluate(() => window.wisp.costs());
     const mean = costs.reduce((sum, { update, draw }) => sum + update + draw, 0) / costs.length;

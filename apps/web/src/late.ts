@@ -16,24 +16,16 @@ import { Ear } from './wind/ear.js';
 
 export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
-/** Parts of the page available from then on. */
-export interface Parts {
-  ear: Ear;
-  drawer: Drawer;
-  senses: Senses;
-  door: StudioDoor;
-  tuning: Tuning;
-  card: Card;
-  tune: Tune;
-}
-
 const UNTUNED = {
   'too hard': 'Blow after blow, and it burns on. It can be tuned to your breath and this microphone.',
   'too easy': 'This microphone is very sensitive: a soft breath may pass for a hard one. It can be tuned to your breath.',
 } as const;
 
+/** Parts of the page available from then on. */
+export type Parts = ReturnType<typeof furnish>;
+
 /** Creates these parts. */
-export function furnish(app: App): Parts {
+export function furnish(app: App) {
   const ear = new Ear(app.wisp, {
     wind: (wind) => app.breath.hear(wind, app.stage.frames),
     trouble: (words) => app.notices.say(words),
@@ -68,7 +60,7 @@ export function openDropped(app: App, { files, entries }: Dropped): void {
   const [file] = files;
   if (file === undefined) return;
   const door = app.parts?.door;
-  if (isLesson(files, entries) || (door?.isInside === true && !/\.wisp$/i.test(file.name))) {
+  if (isLesson(files, entries) || (door?.inside === true && !/\.wisp$/i.test(file.name))) {
     door?.open({ files, entries });
     return;
   }

@@ -1,5 +1,7 @@
 // A model in a link: packed into the link itself, or at an address of the page's own origin.
 
+import { fetchBytes } from './shipped.js';
+
 /** Prefix of packed models (no address begins so): the compressed bytes follow in base64url. */
 const PACKED = 'packed,';
 /** Maximum length of a packed model; programs truncate longer links. */
@@ -29,8 +31,6 @@ export async function fetchModel(value: string): Promise<{ bytes: Uint8Array; fi
   }
   const url = new URL(value, location.href);
   if (url.origin !== location.origin) throw new Error(`A link can name models of ${location.host} only, not of ${url.host}.`);
-  const answer = await fetch(url);
   const file = url.pathname.split('/').pop() ?? 'model.wisp';
-  if (!answer.ok) throw new Error(`${file} could not be fetched (${answer.status}).`);
-  return { bytes: new Uint8Array(await answer.arrayBuffer()), file };
+  return { bytes: await fetchBytes(url, file), file };
 }

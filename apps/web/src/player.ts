@@ -4,7 +4,7 @@ import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { shownOf, type SceneName, type Settings } from './link.js';
-import { fetchShipped, SHIPPED_FLAME, SHIPPED_LEAF } from './shipped.js';
+import { fetchShipped, FLAME, LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
@@ -15,7 +15,6 @@ export interface Playing {
   file: string;
   /** false: a dropped file */
   shipped: boolean;
-  answerName: string;
   /** whether its wind response is borrowed from the shipped flame */
   borrows: boolean;
   scene: Scene;
@@ -52,7 +51,7 @@ export class Player {
   async borrowWind(): Promise<void> {
     const { playing } = this;
     if (!(playing?.scene instanceof CandleScene) || playing.borrows) return;
-    const lender = this.wisp.model(await fetchShipped(SHIPPED_FLAME));
+    const lender = this.wisp.model(await fetchShipped(FLAME));
     await playing.scene.borrow(lender);
     if (this.playing === playing) {
       playing.borrows = true;
@@ -63,10 +62,10 @@ export class Player {
 
   /** Plays the shipped model of the settings' scene. Throws where it cannot be fetched. */
   async playShipped(): Promise<void> {
-    const shipped = this.settings.scene === 'leaves' ? SHIPPED_LEAF : SHIPPED_FLAME;
+    const file = this.settings.scene === 'leaves' ? LEAF : FLAME;
     const turn = ++this.opening;
-    const bytes = await fetchShipped(shipped);
-    if (turn === this.opening) await this.play(bytes, shipped.file, true, turn);
+    const bytes = await fetchShipped(file);
+    if (turn === this.opening) await this.play(bytes, file, true, turn);
   }
 
   /** Plays a given file. Throws the error of an invalid file; the current model then continues. */
@@ -104,7 +103,7 @@ export class Player {
     const before = this.playing?.model;
     this.stage.show(scene);
     before?.free();
-    this.playing = { scene, tab, model, bytes, file, shipped, answerName: scene.answerName, borrows: false };
+    this.playing = { scene, tab, model, bytes, file, shipped, borrows: false };
     this.changed(this.playing);
   }
 

@@ -13,7 +13,8 @@ const LIT = 900;
 export class StudioDoor {
   private readonly tab = element('button', { type: 'button', 'data-scene': 'yours', 'aria-current': 'false' }, 'Yours');
   private readonly room = once(() => fetchPart(() => import('./studio/room.js')).then(({ Room }) => new Room(this.host())));
-  private inside = false;
+  /** whether the studio is open */
+  inside = false;
 
   constructor(private readonly app: App) {
     const tabs = byId('scenes', HTMLElement);
@@ -42,11 +43,6 @@ export class StudioDoor {
       },
       () => this.app.notices.say('The studio could not be fetched. Is there a network? Press Yours to try again.'),
     );
-  }
-
-  /** Whether the studio is open. */
-  get isInside(): boolean {
-    return this.inside;
   }
 
   private enter(room: Room): void {

@@ -1,11 +1,9 @@
 // The microphone, in Chromium: a sound file plays in its place, once.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { hears, openBrowser, skip, until } from './browser.js';
+import { hears, openBrowser, skip, temporaryFolder, until } from './browser.js';
 import { breath, rate, room, speech, writeSound } from './sound.js';
 
 // When what is heard, seconds of sound.
@@ -17,7 +15,7 @@ const end = 19;
 const unsure = 0.5;
 
 describe('a candle that hears', { skip }, () => {
-  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
+  const folder = temporaryFolder();
   const spoken = speech(talk.to - talk.from, 0.08);
   let opened;
   let page;
@@ -43,10 +41,7 @@ describe('a candle that hears', { skip }, () => {
     course = await page.evaluate(() => window.course);
   });
 
-  after(async () => {
-    await opened?.close();
-    rmSync(folder, { recursive: true });
-  });
+  after(() => opened?.close());
 
   // In the page: what it showed, thirty times a second, timed by the sound.
   function record() {
@@ -129,9 +124,9 @@ describe('a candle that hears', { skip }, () => {
 });
 
 describe('somebody who presses Blow and blows at once', { skip }, () => {
+  const file = join(temporaryFolder(), 'sound.wav');
+
   it('puts the candle out with the blows that follow', async () => {
-    const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
-    const file = join(folder, 'sound.wav');
     // A first puff that is too soft to do it, from when the microphone opens and on; hard blows follow.
     const blows = Array.from({ length: 12 }, () => [breath(1, 0.3), room(2)]).flat();
     writeSound(file, [room(0.3), breath(2.7, 0.03), room(3), ...blows]);
@@ -141,6 +136,5 @@ describe('somebody who presses Blow and blows at once', { skip }, () => {
     await until(page, 'it is out', () => window.wisp.burning.lit === 0);
     assert.deepEqual(page.errors, []);
     await opened.close();
-    rmSync(folder, { recursive: true });
   });
 });

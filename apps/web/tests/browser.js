@@ -1,16 +1,24 @@
 // A browser with the built page in it, for tests and measurements.
 
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { after, before } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
-import { drawing, executablePath, quiet, serve } from '../../../bindings/npm/tests/chromium.mjs';
+import { drawing, executablePath, quiet, seen, serve, skip, watched } from '../../../bindings/npm/tests/chromium.mjs';
 
 const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 
-export const chromiumPath = existsSync(executablePath) ? executablePath : undefined;
-export const skip = chromiumPath === undefined && 'there is no Chromium here';
+export { seen, skip };
+
+/** A folder for the files of a test, removed after it. */
+export function temporaryFolder() {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-page-'));
+  after(() => rmSync(folder, { recursive: true }));
+  return folder;
+}
 
 /** A server, a browser, and pages in it. `close()` ends all of it. */
 export async function openBrowser(flags = []) {
@@ -22,18 +30,7 @@ export async function openBrowser(flags = []) {
     address,
     /** The page, playing; its errors are in `page.errors`, what it asked of other hosts in `page.strangers`. */
     async page(hash = '', options = {}) {
-      const page = await browser.newPage({ viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
-      page.setDefaultTimeout(patience);
-      page.errors = [];
-      page.strangers = [];
-      page.on('pageerror', (error) => page.errors.push(error.message));
-      page.on('console', (message) => {
-        if (message.type() === 'error') page.errors.push(message.text());
-      });
-      page.on('request', (request) => {
-        const { protocol, href } = new URL(request.url());
-        if (protocol !== 'blob:' && !href.startsWith(address)) page.strangers.push(href);
-      });
+      const page = await watched(browser, address, { viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
       if (options.before) await page.addInitScript(options.before);
       await page.goto(`${address}${hash}`);
       await until(page, 'the page plays', () => window.wisp?.frames > 2);
@@ -64,21 +61,16 @@ export function onPage(hash, ready, { flags, ...options } = {}) {
 /** A browser whose microphone is a sound file, played once. */
 export const hears = (file) => ['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}%noloop`];
 
-/** Milliseconds until what does not happen has failed: many times what anything takes, also on a busy machine. */
-const patience = 120_000;
-
-/** Waits until something holds; `what` says so when it does not. */
-export async function seen(what, holds) {
-  for (const end = Date.now() + patience; !(await holds()); ) {
-    if (Date.now() > end) throw new Error(`not seen: ${what}`);
-    await new Promise((resolve) => setTimeout(resolve, 15));
-  }
-}
-
-/** The same of the page. Asks from here, again and again: the page's policy lets no script be made inside it. */
+/** Waits until something holds in the page. Asks from here, again and again: the page's policy lets no script be made inside it. */
 export const until = (page, what, holds, argument = null) => seen(what, () => page.evaluate(holds, argument));
 
-/** Drops a file on the page. */
+/** Waits for so many frames. */
+export async function framesPass(page, many = 2) {
+  const frames = await page.evaluate(() => window.wisp.frames);
+  await until(page, `${many} frames`, (most) => window.wisp.frames > most, frames + many);
+}
+
+/** Drops a file on the page: its bytes, or so many zeros. */
 export const drop = (page, name, bytes) => dropAll(page, { [name]: bytes });
 
 /** Drops files, each by its name. Their bytes go as text: as a list of numbers a film takes a minute. */
@@ -86,10 +78,11 @@ export const dropAll = (page, files) =>
   page.evaluate(
     (all) => {
       const carried = new DataTransfer();
-      for (const [called, text] of all) carried.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], called));
-      window.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
+      const bytesOf = (given) => (typeof given === 'number' ? new Uint8Array(given) : Uint8Array.from(atob(given), (letter) => letter.charCodeAt(0)));
+      for (const [called, given] of all) carried.items.add(new File([bytesOf(given)], called));
+      for (const type of ['dragenter', 'dragover', 'drop']) window.dispatchEvent(new DragEvent(type, { dataTransfer: carried, bubbles: true, cancelable: true }));
     },
-    Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]),
+    Object.entries(files).map(([name, bytes]) => [name, typeof bytes === 'number' ? bytes : Buffer.from(bytes).toString('base64')]),
   );
 
 /** Opens the drawer, if it is not open. */

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { describe, it } from 'node:test';
-import { blowOut, onPage, openDrawer, saved, skip, until } from './browser.js';
+import { blowOut, framesPass, onPage, openDrawer, saved, skip, until } from './browser.js';
 
 const model = (name) => fileURLToPath(new URL(`../public/models/${name}`, import.meta.url));
 
@@ -294,8 +294,7 @@ describe('the page', { skip }, () => {
 
   it('leaves what a link says out of range as it is', async () => {
     await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=101&noise=-1'));
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'some frames', (many) => window.wisp.frames > many + 5, frames);
+    await framesPass(page, 5);
     assert.equal((await page.evaluate(() => window.wisp.burning)).of, 2);
     assert.equal(await page.textContent('#count-shown'), '2');
   });
@@ -317,8 +316,7 @@ describe('the page', { skip }, () => {
     await page.keyboard.press('p');
     assert.match(await page.textContent('#hint'), /Paused/);
     const tip = await page.evaluate(() => window.wisp.answer);
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'some frames', (many) => window.wisp.frames > many + 5, frames);
+    await framesPass(page, 5);
     assert.equal(await page.evaluate(() => window.wisp.answer), tip);
     await page.keyboard.press('p');
     await until(page, 'it moves', (still) => window.wisp.answer !== still, tip);

@@ -4,11 +4,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
-import { drop, onPage, openDrawer, saved, skip, until } from './browser.js';
+import { drop, onPage, openDrawer, says, skip, until } from './browser.js';
 
 const calm = readFileSync(new URL('models/calm.wisp', import.meta.url));
 
-const noticed = (page, words) => until(page, `it says ${words}`, (source) => new RegExp(source).test(document.getElementById('notices').textContent), words);
 const hold = async (page, code, what, holds) => {
   await page.focus('#stage');
   await page.keyboard.down(code);
@@ -39,7 +38,7 @@ describe('what was learned', { skip }, () => {
 
   it('offers its answer to wind to a flame that has none, and says that it is borrowed', async () => {
     await drop(page, 'calm.wisp', calm);
-    await noticed(page, 'Playing calm.wisp');
+    await says(page, '#notices', 'Playing calm.wisp');
     assert.match(await page.textContent('.introduction'), /learned from mute.mp4 by wisp.*never felt wind|learned from mute.mp4 by wisp.*no input/s);
     await hold(page, 'ArrowRight', 'it is offered', () => /calm.wisp was learned without wind/.test(document.getElementById('notices').textContent));
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
@@ -55,7 +54,7 @@ describe('what was learned', { skip }, () => {
     await openDrawer(page);
     await page.setViewportSize({ width: 1280, height: 800 });
     await drop(page, 'letter.txt', Buffer.from('Dear Sir'));
-    await noticed(page, 'letter.txt');
+    await says(page, '#notices', 'letter.txt');
     const [notice, drawer] = await page.evaluate(() => ['.notice', '#drawer'].map((name) => document.querySelector(name).getBoundingClientRect().toJSON()));
     assert.ok(notice.right <= drawer.left, `${notice.right} ${drawer.left}`);
     const words = await page.$$eval('.notice p', (all) => all.map((one) => one.textContent));

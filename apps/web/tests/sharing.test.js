@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
-import { blowOut, drop, onPage, openCard, openDrawer, saved, says, skip, until } from './browser.js';
+import { blowOut, drop, framesPass, onPage, openCard, openDrawer, saved, says, skip, until } from './browser.js';
 
-const noneLit = () => window.wisp.burning?.lit === 0;
+const clipboard = ['clipboard-read', 'clipboard-write'];
 const bytesOf = (name) => readFileSync(new URL(`../public/models/${name}`, import.meta.url));
 
 /** What the canvas shows in the next frame: red, green, blue, opacity of each pixel, from the lower left. */
@@ -69,8 +69,7 @@ describe('sharing', { skip }, () => {
   });
 
   it('the round button opens what something is made with, and copies a link to it', async () => {
-    const plain = await opened.page('#scene=candle&seed=9&detail=0.2');
-    await plain.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    const plain = await opened.page('#scene=candle&seed=9&detail=0.2', { permissions: clipboard });
     await openCard(plain);
     await plain.fill('#card-name', 'Ada');
     await plain.fill('#card-from', 'Ben');
@@ -89,8 +88,7 @@ describe('sharing', { skip }, () => {
   });
 
   it('whoever gets it blows it out, reads the wish, and sends one back by one button', async () => {
-    const got = await opened.page('#scene=candle&seed=9&age=7&name=Ada&from=Ben&wish=Happy+birthday&detail=0.2');
-    await got.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    const got = await opened.page('#scene=candle&seed=9&age=7&name=Ada&from=Ben&wish=Happy+birthday&detail=0.2', { permissions: clipboard });
     assert.match(await got.getAttribute('#stage', 'aria-label'), /A cake for Ada with candles that say 7/);
     assert.equal(await got.textContent('#greeting'), 'from Ben');
     assert.equal(await got.isVisible('#back'), false);
@@ -111,9 +109,7 @@ describe('sharing', { skip }, () => {
       await until(got, 'the air is here', () => window.wisp.firstPicture > 0 && document.querySelector('#card button') !== null && window.wisp.frames > 20);
       await blowOut(got);
       // A slow machine's frames are a tenth of a second each.
-      const frames = await got.evaluate(() => window.wisp.frames);
-      await got.waitForTimeout(2500);
-      await until(got, 'smoke', (many) => window.wisp.frames > many + 25, frames);
+      await Promise.all([got.waitForTimeout(2500), framesPass(got, 25)]);
       const { picture, width, height } = await canvasOf(got);
       // Left of the wick, where no other smoke is.
       let [sum, many] = [0, 0];
@@ -152,8 +148,7 @@ describe('sharing', { skip }, () => {
   });
 
   it('a preference for less motion is in nobody else\'s link', async () => {
-    const calm = await opened.page('#scene=candle&seed=9&detail=0.2', { reducedMotion: 'reduce' });
-    await calm.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    const calm = await opened.page('#scene=candle&seed=9&detail=0.2', { reducedMotion: 'reduce', permissions: clipboard });
     await openCard(calm);
     await calm.click('[data-file=send]');
     await until(calm, 'it says so', () => document.querySelector('[data-file=send]').textContent === 'Copied');

@@ -5,6 +5,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'no
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { wavOf } from '../../../bindings/npm/tests/chromium.mjs';
 
 export const rate = 44_100;
 
@@ -118,26 +119,11 @@ export function speech(seconds, level) {
 export function writeSound(path, pieces) {
   const length = pieces.reduce((sum, piece) => sum + piece.length, 0);
   const background = room(Math.ceil(length / rate) + 1);
-  const bytes = Buffer.alloc(44 + 2 * length);
-  bytes.write('RIFF', 0, 'latin1');
-  bytes.writeUInt32LE(36 + 2 * length, 4);
-  bytes.write('WAVEfmt ', 8, 'latin1');
-  bytes.writeUInt32LE(16, 16);
-  bytes.writeUInt16LE(1, 20);
-  bytes.writeUInt16LE(1, 22);
-  bytes.writeUInt32LE(rate, 24);
-  bytes.writeUInt32LE(2 * rate, 28);
-  bytes.writeUInt16LE(2, 32);
-  bytes.writeUInt16LE(16, 34);
-  bytes.write('data', 36, 'latin1');
-  bytes.writeUInt32LE(2 * length, 40);
+  const samples = new Int16Array(length);
   let at = 0;
   for (const piece of pieces) {
-    for (const value of piece) {
-      const sample = Math.round(32767 * Math.max(-1, Math.min(1, value + background[at])));
-      bytes.writeInt16LE(sample, 44 + 2 * at);
-      at += 1;
-    }
+    samples.set(piece.map((value, k) => Math.round(32767 * Math.max(-1, Math.min(1, value + background[at + k])))), at);
+    at += piece.length;
   }
-  writeFileSync(path, bytes);
+  writeFileSync(path, wavOf(samples, rate));
 }

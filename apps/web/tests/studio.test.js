@@ -1,16 +1,14 @@
 // The studio, in Chromium: a film, a camera, a table go in, a flame comes out and is blown out; and bad days.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, describe, it } from 'node:test';
-import { blowOut, chooses, complete, drop, dropAll, enterStudio, onPage, openBrowser, painted, panel, saved, says, seen, skip, step, toLearn, until } from './browser.js';
+import { blowOut, chooses, complete, drop, dropAll, enterStudio, framesPass, onPage, openBrowser, painted, panel, saved, says, seen, skip, step, temporaryFolder, toLearn, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
 import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, untaggedFilm, wallFilm } from './films.js';
 
-const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
-after(() => rmSync(folder, { recursive: true }));
+const folder = temporaryFolder();
 const laptop = { viewport: { width: 1000, height: 700 } };
 let made;
 const film = () => (made ??= candleFilm(folder));
@@ -102,8 +100,7 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
   it('burns in the page, and goes out when somebody blows', async () => {
     await page.click('[data-act=blow]');
     await until(page, 'it burns', () => document.getElementById('studio').hidden && window.wisp.burning?.lit === 1);
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'it lives', (many) => window.wisp.frames > many + 3, frames);
+    await framesPass(page);
     await blowOut(page);
   });
 
@@ -231,8 +228,7 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
     await says(page, panel, 'Beside what was recorded');
     await page.click('[data-act=blow]');
     await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'frames go by', (many) => window.wisp.frames > many + 2, frames);
+    await framesPass(page);
     assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]);
   });
 });
@@ -384,7 +380,6 @@ describe('a bad day in the studio', { skip }, () => {
   it('leaves by any other tab, and the page plays on', async () => {
     await page.click('[data-scene=candle]');
     await until(page, 'it is hidden', () => document.getElementById('studio').hidden);
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'the candle burns', (many) => window.wisp.frames > many + 2, frames);
+    await framesPass(page);
   });
 });

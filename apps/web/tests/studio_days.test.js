@@ -2,17 +2,15 @@
 // ends in a model or in a sentence, and what was gathered before stays.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, describe, it } from 'node:test';
-import { chooses, chromiumPath, drop, enterStudio, onPage, openBrowser, panel, saved, says, step, toLearn, until } from './browser.js';
+import { chooses, drop, enterStudio, onPage, openBrowser, panel, saved, says, skip as noChromium, step, temporaryFolder, toLearn, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
 import { asDevices, assertSame, brokenOff, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, soundAlone, unevenFilm, webFilm } from './films.js';
 
-const skip = (chromiumPath === undefined && 'there is no Chromium here') || noConverter;
-const folder = mkdtempSync(join(tmpdir(), 'wisp-days-'));
-after(() => rmSync(folder, { recursive: true }));
+const skip = noChromium || noConverter;
+const folder = temporaryFolder();
 let made;
 const film = () => (made ??= candleFilm(folder));
 

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
-import { onPage, seen, skip, until } from './browser.js';
+import { drop, framesPass, onPage, says, seen, skip, until } from './browser.js';
 
 const flame = readFileSync(new URL('../public/models/flame-4.wisp', import.meta.url));
 
@@ -29,25 +29,11 @@ describe('trouble', { skip }, () => {
   onPage('#scene=candle&seed=3&detail=0.5', (...made) => ([page, opened] = made), { before: stubMicrophone, flags });
 
   const said = async (words) => {
-    await until(page, `it says ${words}`, (source) => new RegExp(source, 'i').test(document.getElementById('notices').textContent), words);
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'the scene goes on', (many) => window.wisp.frames > many + 2 && window.wisp.burning.lit === 1, frames);
+    await says(page, '#notices', words);
+    await framesPass(page);
+    await until(page, 'it burns', () => window.wisp.burning.lit === 1);
     await page.evaluate(() => document.getElementById('notices').replaceChildren());
   };
-
-  const drop = (name, size, bytes = []) =>
-    page.evaluate(
-      ([called, length, values]) => {
-        const content = new Uint8Array(length);
-        content.set(values.slice(0, length));
-        const carried = new DataTransfer();
-        carried.items.add(new File([content], called));
-        for (const type of ['dragenter', 'dragover', 'drop']) {
-          window.dispatchEvent(new DragEvent(type, { dataTransfer: carried, bubbles: true, cancelable: true }));
-        }
-      },
-      [name, size, bytes],
-    );
 
   it('says that a microphone was not allowed, having asked for raw sound and only then', async () => {
     assert.equal(await page.evaluate(() => window.asked), undefined);
@@ -74,26 +60,26 @@ describe('trouble', { skip }, () => {
   });
 
   it('says that a file is empty', async () => {
-    await drop('empty.wisp', 0);
+    await drop(page, 'empty.wisp', 0);
     await said('empty.wisp is empty');
   });
 
   it('says that a file of 50 MB is no model, without reading it', async () => {
-    await drop('heap.bin', 50_000_000);
+    await drop(page, 'heap.bin', 50_000_000);
     await said('heap.bin is 50 MB large');
   });
 
   it('says what is wrong with a broken model', async () => {
-    await drop('broken.wisp', flame.length, [...flame.subarray(0, 400), ...flame.subarray(400).map((value) => value ^ 1)]);
+    await drop(page, 'broken.wisp', flame.map((value, k) => (k < 400 ? value : value ^ 1)));
     await said('broken.wisp is not a model that can be played');
-    await drop('short.wisp', 100, [...flame.subarray(0, 100)]);
+    await drop(page, 'short.wisp', flame.subarray(0, 100));
     await said('short.wisp is not a model that can be played');
-    await drop('letter.txt', 600, [...Buffer.from('Dear Sir or Madam')]);
+    await drop(page, 'letter.txt', Buffer.from('Dear Sir or Madam'));
     await said('letter.txt is not a model that can be played');
   });
 
   it('plays a sound model that is dropped', async () => {
-    await drop('mine.wisp', flame.length, [...flame]);
+    await drop(page, 'mine.wisp', flame);
     await said('Playing mine.wisp');
   });
 
@@ -105,8 +91,7 @@ describe('trouble', { skip }, () => {
     await until(page, 'it says so', () => /graphics card/.test(document.getElementById('absent').textContent));
     await page.evaluate(() => window.card.restoreContext());
     await until(page, 'the picture is back', () => document.getElementById('absent').hidden);
-    const frames = await page.evaluate(() => window.wisp.frames);
-    await until(page, 'frames', (many) => window.wisp.frames > many + 2, frames);
+    await framesPass(page);
   });
 
   it('says that there is no WebGL', async () => {

@@ -1,13 +1,12 @@
 // The guided calibration, in Chromium: a sound file plays in the place of a microphone that is far too sensitive.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { hears, openBrowser, skip, until } from './browser.js';
+import { hears, openBrowser, skip, temporaryFolder, until } from './browser.js';
 import { breath, hiss, room, writeSound } from './sound.js';
 
+const folder = temporaryFolder();
 const phone = { viewport: { width: 390, height: 844 } };
 
 /** Loudness of somebody's breath at that microphone. */
@@ -15,7 +14,7 @@ const SOFT = 0.15;
 const HARD = 0.6;
 
 /** A page that hears these pieces of sound, one after another, from the moment in which its microphone opens. */
-async function hearing(folder, pieces, options) {
+async function hearing(pieces, options = {}) {
   const file = join(folder, `${Math.random()}.wav`);
   writeSound(file, pieces);
   const opened = await openBrowser(hears(file));
@@ -38,22 +37,18 @@ async function hearing(folder, pieces, options) {
 const words = (page) => page.textContent('#tuning');
 
 describe('a microphone that is too sensitive', { skip }, () => {
-  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
   let heard;
 
   before(async () => {
     // Soft and hard at the times of the two steps, with half a second to spare; the hard one is over before its step
     // is, or the candle that is tuned by then goes out by the rest. Then soft, then hard.
     const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(2, HARD), room(4.6), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
-    heard = await hearing(folder, pieces, phone);
+    heard = await hearing(pieces, phone);
   });
-  after(async () => {
-    await heard?.opened.close();
-    rmSync(folder, { recursive: true });
-  });
+  after(() => heard?.opened.close());
 
   it('without tuning takes a soft breath for a hard one', async () => {
-    const { opened, page, at } = await hearing(folder, [room(5), breath(3, SOFT), room(10)], {});
+    const { opened, page, at } = await hearing([room(5), breath(3, SOFT), room(10)]);
     await page.click('#blow');
     await at(5);
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
@@ -107,15 +102,9 @@ describe('a microphone that is too sensitive', { skip }, () => {
 });
 
 describe('tuning', { skip }, () => {
-  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
   let heard;
-  before(async () => {
-    heard = await hearing(folder, [room(60)], { ...phone, reducedMotion: 'reduce' });
-  });
-  after(async () => {
-    await heard?.opened.close();
-    rmSync(folder, { recursive: true });
-  });
+  before(async () => (heard = await hearing([room(60)], { ...phone, reducedMotion: 'reduce' })));
+  after(() => heard?.opened.close());
 
   it('opens by T, lies on the screen of a phone, and closes by Escape', async () => {
     const { page } = heard;
@@ -175,12 +164,9 @@ describe('tuning', { skip }, () => {
 });
 
 describe('blow after blow that puts nothing out', { skip }, () => {
-  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
-  after(() => rmSync(folder, { recursive: true }));
-
   it('brings the offer to tune, which opens it', async () => {
     const blows = Array.from({ length: 5 }, () => [breath(1, 0.02), room(0.8)]).flat();
-    const { opened, page } = await hearing(folder, [room(4), ...blows, room(20)], {});
+    const { opened, page } = await hearing([room(4), ...blows, room(20)]);
     await page.click('#blow');
     await until(page, 'the offer', () => /tuned to your breath/.test(document.getElementById('notices').textContent));
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
@@ -191,11 +177,8 @@ describe('blow after blow that puts nothing out', { skip }, () => {
 });
 
 describe('a microphone that takes the rumble of breath away', { skip }, () => {
-  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
-  after(() => rmSync(folder, { recursive: true }));
-
   it('hears a hard blow all the same', async () => {
-    const { opened, page, at, between } = await hearing(folder, [room(4), hiss(1, 0.2), room(20)], {});
+    const { opened, page, at, between } = await hearing([room(4), hiss(1, 0.2), room(20)]);
     await page.click('#blow');
     await until(page, 'it is out', () => window.wisp.burning.lit === 0);
     assert.ok((await between(0, 3.5)).every(({ lit }) => lit === 1), 'not before it was blown at');
@@ -206,7 +189,7 @@ describe('a microphone that takes the rumble of breath away', { skip }, () => {
     // Soft and hard at the times of the two steps; then quiet, then hard blows.
     const tap = (seconds, level) => hiss(seconds, level, [20, 20_000]);
     const pieces = [room(7), tap(6, 0.03), room(0.3), tap(2.2, 0.2), room(4), ...Array.from({ length: 6 }, () => [tap(1, 0.2), room(2)]).flat(), room(5)];
-    const { opened, page, at, between } = await hearing(folder, pieces, phone);
+    const { opened, page, at, between } = await hearing(pieces, phone);
     await page.click('#blow');
     await until(page, 'it listens', () => window.wisp.hearing === 'listening');
     await page.click('#tune');

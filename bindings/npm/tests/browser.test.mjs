@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { executablePath, furnish, models, pack, patience, quiet, serve, skip, until } from './chromium.mjs';
+import { executablePath, furnish, models, pack, quiet, serve, skip, until, watched, wavOf } from './chromium.mjs';
 import { Chance } from './lives.mjs';
 
 /** Two seconds of a room, two of blowing, as a WAV file. */
@@ -19,20 +19,7 @@ function writeBreath(path) {
     slow += 0.05 * (chance.next() - slow);
     samples[k] = (k < 2 * rate ? 10 : 32000) * slow + 10 * chance.next();
   }
-  const header = Buffer.alloc(44);
-  header.write('RIFF', 0);
-  header.writeUInt32LE(36 + samples.byteLength, 4);
-  header.write('WAVEfmt ', 8);
-  header.writeUInt32LE(16, 16);
-  header.writeUInt16LE(1, 20);
-  header.writeUInt16LE(1, 22);
-  header.writeUInt32LE(rate, 24);
-  header.writeUInt32LE(2 * rate, 28);
-  header.writeUInt16LE(2, 32);
-  header.writeUInt16LE(16, 34);
-  header.write('data', 36);
-  header.writeUInt32LE(samples.byteLength, 40);
-  writeFileSync(path, Buffer.concat([header, Buffer.from(samples.buffer)]));
+  writeFileSync(path, wavOf(samples, rate));
 }
 
 describe('in Chromium', { skip }, () => {
@@ -68,18 +55,11 @@ describe('in Chromium', { skip }, () => {
   });
 
   async function open(browser, name, permissions) {
-    const context = await browser.newContext({ permissions });
-    const page = await context.newPage();
-    page.setDefaultTimeout(patience);
-    const errors = [];
-    page.on('pageerror', (error) => errors.push(error.message));
-    page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-    const address = `http://localhost:${servers[name].address().port}`;
-    const elsewhere = [];
-    page.on('request', (request) => request.url().startsWith(address) || elsewhere.push(request.url()));
-    await page.goto(`${address}/`);
+    const address = `http://localhost:${servers[name].address().port}/`;
+    const page = await watched(browser, address, { permissions });
+    await page.goto(address);
     await until(page, 'window.page');
-    return { page, errors, elsewhere };
+    return page;
   }
 
   // 1000 frames, so that the whole of the check in Node.js is not done again; the hash is what Node.js finds.
@@ -88,19 +68,18 @@ describe('in Chromium', { skip }, () => {
       const { load } = await import('../dist/index.js');
       const { hashOfLife } = await import('./lives.mjs');
       const expected = hashOfLife(await load(), readFileSync(join(models, 'leaf.wisp')), 1000);
-      const { page, errors, elsewhere } = await open(browser, name, []);
+      const page = await open(browser, name, []);
       const started = await page.evaluate("page.start('models/flame.wisp')");
       assert.equal(started.points, 64);
       assert.equal(started.simd, true);
       t.diagnostic(`library ready in ${started.load.toFixed(1)} ms, first outline in ${started.first.toFixed(1)} ms`);
       assert.equal(await page.evaluate("page.life('models/leaf.wisp', 1000)"), expected);
       assert.equal(await page.evaluate("page.lifeInWorker('models/leaf.wisp', 1000)"), expected);
-      assert.deepEqual(errors, []);
-      assert.deepEqual(elsewhere, []);
+      assert.deepEqual([page.errors, page.strangers], [[], []]);
     });
 
     test(`a page made with ${name} hears a breath, raw, and notices that the microphone is gone`, async () => {
-      const { page, errors } = await open(listening, name, ['microphone']);
+      const page = await open(listening, name, ['microphone']);
       await page.evaluate("page.start('models/flame.wisp')");
       await page.evaluate(`(() => {
         const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
@@ -125,18 +104,18 @@ describe('in Chromium', { skip }, () => {
       await page.evaluate("stream.getTracks()[0].dispatchEvent(new Event('ended'))");
       assert.equal(await page.evaluate('page.lost'), 'lost');
       assert.equal(await page.evaluate('stream.getTracks()[0].readyState'), 'ended');
-      assert.deepEqual(errors, []);
+      assert.deepEqual(page.errors, []);
     });
   }
 
   test('a microphone that is denied, or is not there, is told apart', async () => {
     const denied = await open(listening, 'plain', []);
-    await denied.page.evaluate("page.start('models/flame.wisp')");
-    const refused = await denied.page.evaluate('page.listen({})');
+    await denied.evaluate("page.start('models/flame.wisp')");
+    const refused = await denied.evaluate('page.listen({})');
     assert.equal(refused.trouble, 'denied', refused.message);
     const bare = await open(browser, 'plain', ['microphone']);
-    await bare.page.evaluate("page.start('models/flame.wisp')");
-    const missing = await bare.page.evaluate('page.listen({})');
+    await bare.evaluate("page.start('models/flame.wisp')");
+    const missing = await bare.evaluate('page.listen({})');
     assert.equal(missing.trouble, 'none', missing.message);
   });
 });

@@ -46,12 +46,44 @@ export function pack(work) {
 /** Milliseconds until what does not happen has failed: many times what anything takes, also on a busy machine. */
 export const patience = 180_000;
 
-/** Waits until an expression is true in a page: by asking, since the policy forbids Playwright's own way. */
-export async function until(page, expression) {
-  for (const end = Date.now() + patience; !(await page.evaluate(`Boolean(${expression})`)); ) {
-    if (Date.now() > end) assert.fail(`never: ${expression}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
+/** Waits until something holds; `what` says so when it does not. */
+export async function seen(what, holds) {
+  for (const end = Date.now() + patience; !(await holds()); ) {
+    if (Date.now() > end) assert.fail(`never: ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 15));
   }
+}
+
+/** The same of an expression in a page. Asks from here, since the policy forbids Playwright's own way. */
+export const until = (page, expression) => seen(expression, () => page.evaluate(`Boolean(${expression})`));
+
+/** A new page whose errors are kept in `page.errors`, and in `page.strangers` what it asks of others than that address. */
+export async function watched(browser, address, options = {}) {
+  const page = await browser.newPage(options);
+  page.setDefaultTimeout(patience);
+  Object.assign(page, { errors: [], strangers: [] });
+  page.on('pageerror', (error) => page.errors.push(error.message));
+  page.on('console', (message) => message.type() === 'error' && page.errors.push(message.text()));
+  page.on('request', (request) => request.url().startsWith('blob:') || request.url().startsWith(address) || page.strangers.push(request.url()));
+  return page;
+}
+
+/** Sound of one channel, 16 bits, as a WAV file. */
+export function wavOf(samples, rate) {
+  const header = Buffer.alloc(44);
+  header.write('RIFF', 0);
+  header.writeUInt32LE(36 + samples.byteLength, 4);
+  header.write('WAVEfmt ', 8);
+  header.writeUInt32LE(16, 16);
+  header.writeUInt16LE(1, 20);
+  header.writeUInt16LE(1, 22);
+  header.writeUInt32LE(rate, 24);
+  header.writeUInt32LE(2 * rate, 28);
+  header.writeUInt16LE(2, 32);
+  header.writeUInt16LE(16, 34);
+  header.write('data', 36);
+  header.writeUInt32LE(samples.byteLength, 40);
+  return Buffer.concat([header, Buffer.from(samples.buffer)]);
 }
 
 /** A folder with the packed package installed, a page, what both pages share, and the models. */

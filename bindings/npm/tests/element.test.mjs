@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { drawing, executablePath, furnish, models, pack, patience, quiet, serve, skip, until } from './chromium.mjs';
+import { drawing, executablePath, furnish, models, pack, quiet, serve, skip, until, watched } from './chromium.mjs';
 
 const flags = [...quiet, ...drawing, '--use-fake-device-for-media-stream',
   '--use-fake-ui-for-media-stream', '--autoplay-policy=no-user-gesture-required'];
@@ -42,24 +42,20 @@ describe('elements in Chromium', { skip }, () => {
     if (work) rmSync(work, { recursive: true, force: true });
   });
 
-  /** Opens a page, counting what it fetches; `page.errors` are its errors. */
-  async function open(address, watched = (page) => page) {
-    const page = await browser.newPage({ viewport: { width: 420, height: 320 } });
-    page.setDefaultTimeout(patience);
-    page.errors = [];
+  /** Opens a page, counting the modules that it fetches. */
+  async function open(address) {
+    const page = await watched(browser, address, { viewport: { width: 420, height: 320 } });
     page.modules = 0;
-    page.on('pageerror', (error) => page.errors.push(error.message));
-    page.on('console', (message) => message.type() === 'error' && page.errors.push(message.text()));
     page.on('request', (request) => (page.modules += request.url().endsWith('.wasm') ? 1 : 0));
     await page.goto(address);
-    return { page, inside: watched(page) };
+    return page;
   }
 
   const local = (server) => `http://localhost:${server.address().port}/`;
   const lit = (id, count) => `document.getElementById('${id}')?.burning?.lit === ${count}`;
 
   test('two candles on a plain page burn, and share one module', async () => {
-    const { page } = await open(local(plain));
+    const page = await open(local(plain));
     await until(page, `${lit('one', 1)} && ${lit('two', 3)}`);
     assert.equal(page.modules, 1);
     assert.equal(await page.evaluate('document.getElementById("one").shadowRoot.querySelector("canvas").ariaLabel'), 'A candle burns in a dark room.');
@@ -67,7 +63,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('Space blows it out and says so, Enter lights it again; one without wind burns on', async () => {
-    const { page } = await open(local(plain));
+    const page = await open(local(plain));
     await until(page, `${lit('one', 1)} && ${lit('two', 3)}`);
     await page.evaluate(`window.heard = []; for (const kind of ['extinguish', 'light'])
       document.getElementById('one').addEventListener(kind, () => heard.push(kind))`);
@@ -87,7 +83,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('attributes act while it plays: more candles, another model, and one that is not there', async () => {
-    const { page } = await open(local(plain));
+    const page = await open(local(plain));
     await until(page, lit('one', 1));
     await page.evaluate(`document.getElementById('one').setAttribute('candles', '5')`);
     await until(page, lit('one', 5));
@@ -98,7 +94,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('its button lies below the candle', async () => {
-    const { page } = await open(local(plain));
+    const page = await open(local(plain));
     await until(page, `${lit('one', 1)} && document.getElementById('one').scene.places().wick[1] > 20`);
     const wick = `document.getElementById('one').scene.places().wick[1] / document.getElementById('one').shadowRoot.querySelector('canvas').height`;
     const before = await page.evaluate(wick);
@@ -107,7 +103,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('taken out of the page it stands still, put back it goes on', async () => {
-    const { page } = await open(local(plain));
+    const page = await open(local(plain));
     await until(page, lit('one', 1));
     await page.evaluate(`(() => { window.kept = document.getElementById('one'); kept.remove();
       window.frames = 0; const real = requestAnimationFrame; kept.watch = () => { frames += 1; }; })()`);
@@ -118,7 +114,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('after twenty others came and went, the one that stayed has its picture', async () => {
-    const { page } = await open(local(plain));
+    const page = await open(local(plain));
     await until(page, lit('one', 1));
     for (let k = 0; k < 20; ++k) {
       await page.evaluate(`document.body.append(window.passing = Object.assign(document.createElement('wisp-candle'), { id: 'passing' }))`);
@@ -131,14 +127,14 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('burns in a frame of another origin', async () => {
-    const { page } = await open(`http://127.0.0.1:${framing.address().port}/`);
+    const page = await open(`http://127.0.0.1:${framing.address().port}/`);
     const inside = () => page.frames().find((frame) => frame.url().startsWith(local(plain)));
     await until({ evaluate: (words) => inside()?.evaluate(words) ?? false }, lit('one', 1));
     assert.deepEqual(page.errors, []);
   });
 
   test('a Vite project has a candle that listens when it is asked to, and leaves', async () => {
-    const { page } = await open(local(vite));
+    const page = await open(local(vite));
     await until(page, lit('one', 1));
     const button = `document.getElementById('one').shadowRoot.querySelector('button')`;
     assert.equal(await page.evaluate(`${button}.hidden`), false);

@@ -24,19 +24,14 @@ const wrong = (status, words) => (error) => {
   return true;
 };
 
-function flames(options) {
-  const model = wisp.model(flameBytes);
+const bankOf = (bytes) => (options) => {
+  const model = wisp.model(bytes);
   const bank = model.bank(options);
   model.free();
   return bank;
-}
-
-function leaves(options) {
-  const model = wisp.model(leafBytes);
-  const bank = model.bank(options);
-  model.free();
-  return bank;
-}
+};
+const flames = bankOf(flameBytes);
+const leaves = bankOf(leafBytes);
 
 test('it takes SIMD where the engine has it, and says so', async () => {
   assert.equal(wisp.simd, hasSimd());

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
@@ -41,25 +41,24 @@ function capture(engine, clip, settings) {
   return engine;
 }
 
+const probe = (clip, kind, entries) => execFileSync('ffprobe', ['-v', 'error', '-select_streams', kind, '-show_entries', entries, '-of', 'csv=p=0', clip], { encoding: 'utf8' }).trim();
+
 function sizeOf(clip) {
-  const ask = ['-v', 'error', '-select_streams', 'v', '-show_entries', 'stream=width,height,r_frame_rate', '-of', 'csv=p=0', clip];
-  const [width, height, rate] = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split(',');
+  const [width, height, rate] = probe(clip, 'v', 'stream=width,height,r_frame_rate').split(',');
   const [over, under] = rate.split('/').map(Number);
   return [Number(width), Number(height), over / under];
 }
 
 function soundOf(clip) {
-  const ask = ['-v', 'error', '-select_streams', 'a', '-show_entries', 'stream=sample_rate,channels', '-of', 'csv=p=0', clip];
-  const [sampleRate, channels] = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split(',').map(Number);
+  const [sampleRate, channels] = probe(clip, 'a', 'stream=sample_rate,channels').split(',').map(Number);
   return { sampleRate, channels };
 }
 
 /** Where its decoder goes to a key frame for a glimpse, as the program does: at the ends of quarters. */
 function glimpsesOf(clip) {
-  const ask = ['-v', 'error', '-select_streams', 'v', '-show_entries', 'packet=flags', '-of', 'csv=p=0', clip];
-  const keys = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split('\n').flatMap((flags, k) => (flags.includes('K') ? [k] : []));
-  const last = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split('\n').length - 1;
-  const wanted = [1, 2, 3, 4].map((quarter) => keys.filter((key) => key <= (last * quarter) / 4).at(-1));
+  const packets = probe(clip, 'v', 'packet=flags').split('\n');
+  const keys = packets.flatMap((flags, k) => (flags.includes('K') ? [k] : []));
+  const wanted = [1, 2, 3, 4].map((quarter) => keys.filter((key) => key <= ((packets.length - 1) * quarter) / 4).at(-1));
   return [...new Set(wanted)].filter((key) => key > 0);
 }
 

@@ -72,10 +72,10 @@ export class Drawer {
     if (this.open && this.frames % PLOT_EVERY === 0) for (const plot of this.plots) plot.draw();
   }
 
-  private livePlots({ answerName, model }: Playing): HTMLElement {
+  private livePlots({ model, scene }: Playing): HTMLElement {
     this.plots = [
       new Plot('Wind in', ['#7fc4ff', '#1767a8'], [-0.2, 1]),
-      new Plot(`Out: ${answerName}`, ['#ffb35c', '#b25a00'], [-0.3, 0.3]),
+      new Plot(`Out: ${scene.answerName}`, ['#ffb35c', '#b25a00'], [-0.3, 0.3]),
       new Plot('Our time a frame', ['#9fd8a4', '#2c7a3a'], [0, 4], 60, ' ms'),
     ];
     const section = element('section', {}, element('h3', {}, 'Live'), ...this.plots.flatMap(({ parts }) => parts));

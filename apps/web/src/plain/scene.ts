@@ -31,7 +31,7 @@ const COLOURS: readonly (readonly [number, number, number])[] = [
 ];
 
 export class PlainScene implements Scene {
-  readonly bank: Bank;
+  private readonly bank: Bank;
   readonly answerName: string;
   private readonly lines: Float32Array[];
   private readonly id: bigint;
@@ -39,7 +39,7 @@ export class PlainScene implements Scene {
   private drawing: ({ gl: WebGL2RenderingContext; program: Program } & Vertices) | null = null;
 
   constructor(
-    readonly model: Model,
+    private readonly model: Model,
     settings: SceneSettings,
   ) {
     this.bank = model.bank({ seed: settings.seed });
@@ -97,18 +97,6 @@ export class PlainScene implements Scene {
     });
     gl.bindVertexArray(null);
     return true;
-  }
-
-  hover(): 'none' {
-    return 'none';
-  }
-
-  press(): void {
-    return;
-  }
-
-  release(): void {
-    return;
   }
 
   act(): void {

@@ -3,18 +3,17 @@
 
 import './studio.css';
 import type { Library } from '@wisp/player';
-import type { PictureSettings, Recipe, Seen, TableSettings } from '@wisp/studio';
+import type { Learned, PictureSettings, Recipe, Region, Seen, TableSettings, Watch } from '@wisp/studio';
 import type { Dropped } from '../drops.js';
 import { element } from '../panel/element.js';
-import { fetchPart } from '../part.js';
-import { fetchShipped, SHIPPED_FLAME } from '../shipped.js';
+import { fetchPart, once } from '../part.js';
+import { fetchShipped, FLAME } from '../shipped.js';
 import { fallsPlayed, linesOfFalls, plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
 import { Filming } from './camera/filming.js';
 import { gatherPanel } from './panels/gather.js';
 import { Invitation } from './pictures/invitation.js';
 import { lookPanel, partOfSeen } from './panels/look.js';
-import { Engine } from './engine.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { MAX_OF_FILE, Reel } from './reel.js';
@@ -77,7 +76,8 @@ export class Room {
   private readonly traces = new Traces();
   private readonly invitation: Invitation;
   private session: Session = newSession();
-  private readonly engine = new Engine();
+  /** The worker that captures and learns, started at first use. Rejects with a sentence where this browser cannot run it. */
+  private readonly studio = once(() => import('@wisp/studio').then(({ Studio }) => Studio.open()));
   private filming: Filming | null = null;
   private duet: Duet | null = null;
   private working: Working | null = null;
@@ -97,7 +97,7 @@ export class Room {
     document.querySelector('header.top')?.after(this.place);
     // The page's keys for blowing and pausing type text here.
     this.place.addEventListener('keydown', (event) => event.stopPropagation());
-    fetchShipped(SHIPPED_FLAME).then(
+    fetchShipped(FLAME).then(
       (model) => this.invitation.fill(model),
       () => undefined,
     );
@@ -109,12 +109,12 @@ export class Room {
     this.place.hidden = !inside;
     if (inside) {
       // Loaded while the user looks at the choices.
-      this.engine.open().catch(() => undefined);
-      this.invitation.start();
-      this.duet?.start();
+      this.studio().catch(() => undefined);
+      this.invitation.loop.start();
+      this.duet?.loop.start();
       return;
     }
-    this.invitation.stop();
+    this.invitation.loop.stop();
     this.duet?.stop();
     if (this.filming !== null) this.gather();
   }
@@ -169,25 +169,25 @@ export class Room {
     this.below.replaceChildren();
   }
 
-  private gather(): void {
+  gather(): void {
     this.clear();
     this.stepTo('gather');
     this.viewer.clear();
     this.invite();
     const { takes } = this.session;
     const more = takes.length === 0 ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
-    this.showPanel(gatherPanel({ camera: () => void this.film(false), falls: () => void this.film(true), files: (files) => this.files(files) }, more));
+    this.showPanel(gatherPanel(this, more));
   }
 
   /** Returns to the last display. */
   private back(): void {
-    const [last] = this.session.takes.slice(-1);
+    const last = this.session.takes.at(-1);
     if (this.session.learned !== null && last !== undefined) this.showResult();
     else if (last === undefined || thingOf(this.session) === 'table') this.gather();
     else this.showLook(last);
   }
 
-  private files(files: File[]): void {
+  files(files: File[]): void {
     const pick = pickOf(files);
     if (pick.kind === 'nothing') this.host.say(pick.words);
     else if (pick.kind === 'table') void this.table(pick.files[0] as File);
@@ -204,7 +204,7 @@ export class Room {
     const folder = files[0]?.webkitRelativePath.split('/')[0] ?? '';
     const name = folder === '' ? 'pictures' : folder;
     this.showPanel(
-      ratePanel(name, files.length, (rate) => void this.look(name, null, { looks_for: 'either' }, async (settings, watch) => (await this.engine.open()).pictures(files, rate, settings, watch)), () => this.back()),
+      ratePanel(name, files.length, (rate) => void this.look(name, null, { looks_for: 'either' }, async (settings, watch) => (await this.studio()).pictures(files, rate, settings, watch)), () => this.back()),
     );
   }
 
@@ -212,7 +212,7 @@ export class Room {
   private lookAtNext(): boolean {
     const file = this.waiting.shift();
     if (file === undefined) return false;
-    void this.look(file.name, file, { looks_for: 'either' }, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
+    void this.look(file.name, file, { looks_for: 'either' }, async (settings, watch) => (await this.studio()).film(file, settings, watch));
     return true;
   }
 
@@ -285,16 +285,7 @@ export class Room {
       this.traces.fill(outlines);
       this.below.replaceChildren(this.traces.place);
     }
-    this.showPanel(
-      lookPanel(take, this.session.takes, {
-        learn: () => void this.learn(),
-        more: () => this.gather(),
-        leaveOut: () => this.leaveOut(take),
-        flame: (flame) => this.lookAgain({ ...take.settings, flame }),
-        other: () => this.lookAgain({ ...take.settings, looks_for: shownIn(take) === 'fall' ? 'flame' : 'falls' }),
-        height: (height) => this.lookAgain({ ...take.settings, height, looks_for: 'falls' }),
-      }),
-    );
+    this.showPanel(lookPanel(take, this.session.takes, this));
   }
 
   /** Shows a moment near the middle of a camera's film, which is not kept, with its outline. */
@@ -304,27 +295,21 @@ export class Room {
     if (kept !== null && outlines.line(Math.round(kept.seconds * outlines.rate), line)) this.viewer.still(kept, line);
   }
 
-  private leaveOut(take: Take): void {
+  leaveOut(take: Take): void {
     this.session.takes = this.session.takes.filter((one) => one !== take);
     this.session.learned = null;
     take.reel.close();
     this.back();
   }
 
-  private lookThere(region: PictureSettings['region'] | null): void {
-    if (this.filming !== null) {
-      this.filming.choose(region ?? null);
-      return;
-    }
-    const before = this.looked?.settings ?? {};
-    if (region === null || region === undefined) {
-      if (before.region === undefined) return;
-      const { region: _, ...rest } = before;
-      this.lookAgain(rest);
-    } else this.lookAgain({ ...before, region });
+  private lookThere(region: Region | null): void {
+    if (this.filming !== null) return this.filming.choose(region);
+    const { region: before, ...rest } = this.looked?.settings ?? {};
+    if (region !== null) this.lookAgain({ ...rest, region });
+    else if (before !== undefined) this.lookAgain(rest);
   }
 
-  private lookAgain(settings: PictureSettings): void {
+  lookAgain(settings: PictureSettings): void {
     const take = this.looked;
     if (take === null) return;
     if (take.again === null) {
@@ -333,6 +318,14 @@ export class Room {
       return;
     }
     void this.look(take.name, take.film, settings, take.again);
+  }
+
+  /** After a failure, ends the worker: later work starts another, with fresh memory. */
+  private renew(): void {
+    this.studio().then(
+      (studio) => studio.close(),
+      () => undefined,
+    );
   }
 
   /** Reports why a film gave nothing, or was stopped, and what can be done. */
@@ -344,7 +337,7 @@ export class Room {
       this.back();
       return;
     }
-    this.engine.renew();
+    this.renew();
     const kept = this.session.takes.length > 0 ? 'What was gathered before is kept.' : '';
     if (!this.viewer.shows) this.invite();
     const otherwise = this.viewer.shows ? 'The picture stays: drag a box around what you mean to look there, or choose something else.' : kept;
@@ -362,12 +355,11 @@ export class Room {
     );
   }
 
-  private async film(falls: boolean): Promise<void> {
+  async film(falls: boolean): Promise<void> {
     this.clear();
     const { turn } = this;
     try {
-      const studio = await this.engine.open();
-      const filming = await Filming.open(studio, this.viewer, falls, {
+      const filming = await Filming.open(await this.studio(), this.viewer, falls, {
         done: (captured, reel, settings) => {
           this.filming = null;
           const count = this.session.takes.filter(({ film }) => film === null).length + 1;
@@ -399,7 +391,7 @@ export class Room {
     }
   }
 
-  private async learn(): Promise<void> {
+  async learn(): Promise<void> {
     const { session } = this;
     this.clear();
     const { turn } = this;
@@ -409,17 +401,13 @@ export class Room {
     this.working = working;
     this.showPanel(working.panel);
     try {
-      const studio = await this.engine.open();
-      const sources = session.takes.map(({ name }) => name);
-      const recipe = { ...session.recipe, name: sessionName(session), sources, ...(thing === 'table' ? { kept_back: KEPT_BACK } : {}) };
-      const recordings = session.takes.map(({ captured }) => captured.csv);
-      session.learned = await studio.learn(recordings, recipe, working.watch());
+      session.learned = await this.learned(session, thing === 'table' ? { kept_back: KEPT_BACK } : {}, working.watch());
     } catch (error) {
       if (turn !== this.turn) return;
       this.working = null;
       if (isAbort(error)) this.host.say('Stopped. What was filmed is kept.');
       else {
-        this.engine.renew();
+        this.renew();
         this.host.say(wordsOf(error));
       }
       this.back();
@@ -430,15 +418,22 @@ export class Room {
     if (thing === 'flame') await this.judge();
   }
 
+  /** What is learned of a session by its recipe with changes. */
+  private async learned(session: Session, change: Partial<Recipe>, watch: Watch = {}): Promise<Learned> {
+    const { takes, recipe } = session;
+    const studio = await this.studio();
+    return studio.learn(takes.map(({ captured }) => captured.csv), { ...recipe, name: sessionName(session), sources: takes.map(({ name }) => name), ...change }, watch);
+  }
+
   /** Plays the model along its last recording for plots, without delaying the result. */
   private async judge(): Promise<void> {
     const { learned, takes } = this.session;
-    const [take] = takes.slice(-1);
+    const take = takes.at(-1);
     if (learned === null || take === undefined) return;
     const control = new AbortController();
     this.judging = control;
     try {
-      const studio = await this.engine.open();
+      const studio = await this.studio();
       const { curves } = await studio.validate(learned.model, [take.captured.csv], { signal: control.signal });
       learned.curves = [...curves, ...learned.curves];
       if (this.judging === control) this.place.querySelector('[data-plots]')?.replaceChildren(...plotsOf(learned.curves));
@@ -463,7 +458,7 @@ export class Room {
     const { session, host } = this;
     const thing = thingOf(session);
     const { learned } = session;
-    const [take] = session.takes.slice(-1);
+    const take = session.takes.at(-1);
     if (learned === null || take === undefined) return;
     this.clear();
     const { outlines } = take;
@@ -480,24 +475,16 @@ export class Room {
         again: (change) => this.learnAgain(change),
         film: (kind) => host.film(file, learned.model, kind),
         make: (format) => this.make(format, learned.model),
-        small: () => this.small(),
+        small: async () => (await this.learned(session, { paper: LINK_ORDER })).model,
       }),
     );
     const { title, reason } = verdictOf(learned, thing);
     this.announce(`${title}. ${reason}`);
   }
 
-  /** Learns a model that fits in a link: the paper's point systems. */
-  private async small(): Promise<Uint8Array> {
-    const { takes, recipe } = this.session;
-    const studio = await this.engine.open();
-    const { model } = await studio.learn(takes.map(({ captured }) => captured.csv), { ...recipe, paper: LINK_ORDER, name: sessionName(this.session), sources: takes.map(({ name }) => name) });
-    return model;
-  }
-
   /** Creates files for other tools and saves them. */
   private async make(format: Format, model: Uint8Array): Promise<string> {
-    const studio = await this.engine.open();
+    const studio = await this.studio();
     const name = sessionName(this.session);
     const settings = format === 'c' ? { name: nameInC(name) } : { name, ...LOOPED[thingOf(this.session)] };
     for (const file of await studio.export(model, { format, ...settings })) saveFile(new Blob([file.bytes.slice()]), file.name);
@@ -508,7 +495,7 @@ export class Room {
     const { host } = this;
     this.traces.fill(outlines);
     this.duet = new Duet(host.wisp, take, outlines, model, (share) => this.traces.mark(share));
-    this.duet.start();
+    this.duet.loop.start();
     this.showLeft(this.duet.place);
     this.below.replaceChildren(this.traces.place, new Strip(host.wisp, take, outlines, model).place);
   }
@@ -543,7 +530,7 @@ export class Room {
       this.showPanel(
         tablePanel(file.name, head, {
           learn: (settings) => void this.tabled(file.name, table, settings),
-          advise: async (settings) => (await this.engine.open()).table(file.name, table, settings, 'advise'),
+          advise: async (settings) => (await this.studio()).table(file.name, table, settings, 'advise'),
           back: () => this.back(),
         }),
       );
@@ -554,7 +541,7 @@ export class Room {
 
   private async tabled(name: string, bytes: Uint8Array, settings: TableSettings | undefined): Promise<void> {
     try {
-      const captured = await (await this.engine.open()).table(name, bytes, settings);
+      const captured = await (await this.studio()).table(name, bytes, settings);
       const outlines = Outlines.of(captured);
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {

@@ -9,7 +9,8 @@ export function within(report: Report, ...path: string[]): unknown {
   return at;
 }
 
-const figure = (report: Report, ...path: string[]): number | null => {
+/** A finite number at a path in a report; null if missing. */
+export const figure = (report: Report, ...path: string[]): number | null => {
   const value = within(report, ...path);
   return typeof value === 'number' && Number.isFinite(value) ? value : null;
 };

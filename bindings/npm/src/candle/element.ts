@@ -28,7 +28,7 @@ export class WispCandle extends SceneElement {
     return Math.round(numberOf(this, 'candles', 1, MAX_CANDLES, 1));
   }
 
-  protected watch(): void {
+  protected override watch(): void {
     const { lit, of } = this.burning;
     if (this.lit && lit === 0 && of > 0) {
       this.lit = false;

@@ -246,10 +246,9 @@ export class CandleRenderer {
     this.lights.set([lamp.x, lamp.y, lamp.z, lamp.light], 4 * k);
     // The glow extends from the first flame's base to the last one's tip.
     const [first, last] = [flames[0]!, flames.at(-1)!];
-    this.halos[4 * k] = view.pixelX(first.x, first.z);
-    this.halos[4 * k + 1] = view.pixelY(first.y + 0.25 * first.unit * first.shape.tipY, first.z);
-    this.halos[4 * k + 2] = view.pixelX(last.x + 0.8 * last.unit * last.shape.tipX, last.z);
-    this.halos[4 * k + 3] = view.pixelY(last.y + 0.72 * last.unit * last.shape.tipY, last.z);
+    const base = [view.pixelX(first.x, first.z), view.pixelY(first.y + 0.25 * first.unit * first.shape.tipY, first.z)];
+    const tip = [view.pixelX(last.x + 0.8 * last.unit * last.shape.tipX, last.z), view.pixelY(last.y + 0.72 * last.unit * last.shape.tipY, last.z)];
+    this.halos.set([...base, ...tip], 4 * k);
     this.spread[k] = view.scale * view.nearness(lamp.z) * Math.max(0.3, first.unit);
     this.standNumbers.set(stand === null ? [0, 0, 0.01, 0] : [stand.x, stand.z, stand.radius, stand.height], 4 * k);
   }

@@ -27,7 +27,7 @@ function roundOf(model: Model): Model | null {
 }
 
 export class CandleScene implements Scene {
-  readonly bank: Bank;
+  private readonly bank: Bank;
   readonly answerName = 'tip, sideways';
   private readonly view = new RoomView();
   private readonly match = new Match();
@@ -51,7 +51,7 @@ export class CandleScene implements Scene {
   private disposed = false;
 
   constructor(
-    readonly model: Model,
+    private readonly model: Model,
     settings: SceneSettings,
   ) {
     this.settings = { ...settings };

@@ -20,10 +20,6 @@ export class WispLeaves extends SceneElement {
   protected count(): number {
     return Math.round(numberOf(this, 'leaves', 1, MAX_LEAVES, USUAL));
   }
-
-  protected watch(): void {
-    return;
-  }
 }
 
 define('wisp-leaves', WispLeaves);

@@ -21,7 +21,7 @@ const KICKS = 0.25;
 const USUAL_HALF_SIZE = [0.0245, 0.0365] as const;
 
 export class LeavesScene implements Scene {
-  readonly bank: Bank;
+  private readonly bank: Bank;
   readonly answerName = 'share in the air';
   private readonly camera = new LeafCamera();
   private readonly fall: LeafFall;
@@ -31,7 +31,7 @@ export class LeavesScene implements Scene {
   private readonly gust: Gust = { x: 0, z: 0, speedX: 0, speedZ: 0, everywhere: 0, kick: 0, kickX: 0, kickY: STIRRED_DEPTH, kickReach: 1 };
 
   constructor(
-    readonly model: Model,
+    private readonly model: Model,
     settings: SceneSettings,
   ) {
     this.bank = model.bank({ capacity: MAX_LEAVES, seed: settings.seed });
@@ -70,14 +70,6 @@ export class LeavesScene implements Scene {
     const size = halfWidth > 0 ? ([halfWidth, halfLength > 0 ? halfLength : halfWidth] as const) : USUAL_HALF_SIZE;
     this.renderer?.draw(this.camera, this.fall.shown, this.fall.count, size, this.clock, fade);
     return true;
-  }
-
-  hover(): 'none' {
-    return 'none';
-  }
-
-  press(): void {
-    return;
   }
 
   release(x: number, y: number, tap: boolean): void {

@@ -100,8 +100,8 @@ export abstract class SceneElement extends Base {
   protected abstract sceneOf(model: Model, settings: SceneSettings): Promise<Scene>;
   /** Number of candles or leaves. */
   protected abstract count(): number;
-  /** Called after each frame. */
-  protected abstract watch(scene: Scene): void;
+  /** Called after each frame, where there is something to watch. */
+  protected watch?(): void;
 
   connectedCallback(): void {
     this.stage ??= new Stage(
@@ -111,9 +111,7 @@ export abstract class SceneElement extends Base {
         air: () => (this.getAttribute('wind') === 'none' ? { right: 0, away: 0 } : this.wind.air),
         touched: () => undefined,
         context: (state) => this.say(state === 'absent' ? 'This browser shows no WebGL 2.' : ''),
-        framed: () => {
-          if (this.scene !== null) this.watch(this.scene);
-        },
+        framed: () => this.scene !== null && this.watch?.(),
       },
       { clear: this.hasAttribute('clear') },
     );

@@ -1,7 +1,5 @@
 // Interface between stage and scene. A scene also lives without a picture, as the context comes and goes.
 
-import type { Bank, Model } from '../index.js';
-
 /** The pointer during one frame. Pixels of the canvas, y up from its lower edge. */
 export interface Pointer {
   x: number;
@@ -67,8 +65,6 @@ export interface SceneLook {
 }
 
 export interface Scene {
-  readonly model: Model;
-  readonly bank: Bank;
   /** name of a reading's response */
   readonly answerName: string;
   /** Advances by a time. Runs every frame, so it must not allocate much. */
@@ -78,11 +74,11 @@ export interface Scene {
   attach(gl: WebGL2RenderingContext): void;
   /** Draws to the canvas of the attached context. Returns false, drawing nothing, while parts are loading. */
   draw(width: number, height: number, look: SceneLook): boolean;
-  /** What a press at a place would take hold of, for the shape of the cursor. */
-  hover(x: number, y: number): 'none' | 'grab';
-  press(x: number, y: number): void;
+  /** What a press at a place would take hold of, for the shape of the cursor; missing in scenes without. */
+  hover?(x: number, y: number): 'none' | 'grab';
+  press?(x: number, y: number): void;
   /** `tap`: the pointer did not move in between */
-  release(x: number, y: number, tap: boolean): void;
+  release?(x: number, y: number, tap: boolean): void;
   /** The scene's own action: lights candles, kicks leaves. */
   act(): void;
   apply(settings: SceneSettings): void;

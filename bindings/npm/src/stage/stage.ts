@@ -35,7 +35,7 @@ export interface StageEvents {
   touched(): void;
   /** the context was lost, or restored */
   context(state: 'absent' | 'lost' | 'back'): void;
-  framed(cost: FrameCost, seconds: number): void;
+  framed(cost: FrameCost, seconds: number): unknown;
 }
 
 export interface StageOptions {
@@ -81,9 +81,9 @@ export class Stage {
     this.clear = options.clear ?? false;
     this.covered = options.covered ?? 0;
     this.pointer = new PointerReader(canvas, {
-      press: (x, y) => this.scene?.press(x, y),
-      release: (x, y, tap) => this.scene?.release(x, y, tap),
-      hover: (x, y) => this.scene?.hover(x, y) ?? 'none',
+      press: (x, y) => this.scene?.press?.(x, y),
+      release: (x, y, tap) => this.scene?.release?.(x, y, tap),
+      hover: (x, y) => this.scene?.hover?.(x, y) ?? 'none',
       touched: () => events.touched(),
     });
     canvas.addEventListener('webglcontextlost', (event) => this.lose(event));

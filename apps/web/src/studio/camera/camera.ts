@@ -78,8 +78,6 @@ export interface CameraEvents {
 }
 
 export class Camera {
-  /** problem with the sound; '' if none */
-  readonly silent: string;
   private readonly picture: MediaStreamTrack;
   private context: AudioContext | null = null;
   /** seconds from the audio clock to performance.now() */
@@ -100,8 +98,8 @@ export class Camera {
     return camera;
   }
 
-  private constructor(readonly stream: MediaStream, silent: string, private readonly events: CameraEvents) {
-    this.silent = silent;
+  /** `silent`: problem with the sound; '' if none. */
+  private constructor(readonly stream: MediaStream, readonly silent: string, private readonly events: CameraEvents) {
     this.picture = stream.getVideoTracks()[0] as MediaStreamTrack;
     this.picture.addEventListener('ended', () => {
       if (!this.ended) events.lost();
@@ -126,27 +124,24 @@ export class Camera {
     if (this.context !== null && this.context.state !== 'running' && this.context.state !== 'closed') this.context.resume().catch(() => undefined);
   }
 
-  /** Locks exposure, colours and focus. Says which of them this camera or browser cannot lock. */
+  /** Locks exposure, colours and focus. Says so where this camera or browser cannot lock the exposure. */
   async lock(): Promise<string> {
     const abilities = this.abilities();
-    const wanted = { exposureMode: 'its exposure', whiteBalanceMode: 'its colours', focusMode: 'its focus' } as const;
     const kept: Record<string, string> = {};
-    for (const name of Object.keys(wanted) as (keyof typeof wanted)[]) {
+    for (const name of ['exposureMode', 'whiteBalanceMode', 'focusMode'] as const) {
       if (abilities[name]?.includes('manual') === true) kept[name] = 'manual';
     }
     await this.picture.applyConstraints({ advanced: [kept as MediaTrackConstraintSet] }).catch(() => undefined);
     return kept.exposureMode === undefined ? 'This camera changes its exposure by itself. Keep the light in the room as it is.' : '';
   }
 
-  /** Reduces the exposure. Returns false where that is not possible. */
-  async darker(): Promise<boolean> {
+  /** Reduces the exposure where that is possible. */
+  async darker(): Promise<void> {
     const range = this.abilities().exposureCompensation;
-    if (range === undefined) return false;
+    if (range === undefined) return;
     const now = (this.picture.getSettings() as { exposureCompensation?: number }).exposureCompensation ?? 0;
     const next = Math.max(range.min, now - Math.max(range.step, (range.max - range.min) / 12));
-    if (next >= now) return false;
-    await this.picture.applyConstraints({ advanced: [{ exposureCompensation: next } as MediaTrackConstraintSet] });
-    return true;
+    if (next < now) await this.picture.applyConstraints({ advanced: [{ exposureCompensation: next } as MediaTrackConstraintSet] });
   }
 
   /** Receives frames from the camera, or from the video element that shows it; once, until the camera is closed. */

@@ -1,9 +1,9 @@
 // Filming with the camera: a preview, then half a minute with instructions.
 
 import type { Captured, LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
-import { element } from '../../panel/element.js';
+import { button, drawing, element } from '../../panel/element.js';
 import { Camera, KEPT_RATE, smallPicture } from './camera.js';
-import { rateField } from '../panels/rate.js';
+import { wallField } from '../panels/rate.js';
 import { FallCount, Guide, hintOf, hintOfFalls } from './guide.js';
 import { around, Reel } from '../reel.js';
 import type { Viewer } from '../pictures/viewer.js';
@@ -39,12 +39,19 @@ const ADVICE = {
   falls: 'A slip of paper or a leaf before a plain wall; the camera lies still and sees the whole way down. Take your hand out of the picture before it lands. A dozen falls are enough, two dozen are better:',
 } as const;
 
+const CIRCLE = { cx: 50, cy: 50, r: 46, pathLength: 100 } as const;
+
 export class Filming {
   readonly panel = element('div', { class: 'panel filming' });
-  private readonly button = element('button', { type: 'button', class: 'blow record' });
   private readonly word = element('span', {}, 'Film');
+  private readonly ring = drawing('circle', { ...CIRCLE, class: 'ring' });
+  private readonly button = element(
+    'button',
+    { type: 'button', class: 'blow record', click: () => this.press() },
+    drawing('svg', { viewBox: '0 0 100 100', 'aria-hidden': 'true' }, drawing('circle', { ...CIRCLE, class: 'rail' }), this.ring),
+    this.word,
+  );
   private readonly hint = element('p', { class: 'quiet', role: 'status' });
-  private readonly ring: SVGCircleElement;
   private readonly level = element('i');
   private readonly plan = element('ol', { class: 'plan' });
   private live: LiveCapture | null = null;
@@ -88,19 +95,6 @@ export class Filming {
   ) {
     this.settings = falls ? { looks_for: 'falls' } : {};
     this.guide = this.newGuide();
-    const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-    picture.setAttribute('viewBox', '0 0 100 100');
-    picture.setAttribute('aria-hidden', 'true');
-    const circle = (kind: string): SVGCircleElement => {
-      const made = document.createElementNS('http://www.w3.org/2000/svg', 'circle');
-      for (const [name, value] of Object.entries({ class: kind, cx: 50, cy: 50, r: 46, pathLength: 100 })) made.setAttribute(name, String(value));
-      picture.append(made);
-      return made;
-    };
-    circle('rail');
-    this.ring = circle('ring');
-    this.button.append(picture, this.word);
-    this.button.addEventListener('click', () => this.press());
     this.fill();
     viewer.camera(camera.stream);
     camera.watch(viewer.video);
@@ -130,22 +124,21 @@ export class Filming {
   }
 
   private fill(): void {
-    const back = element('button', { type: 'button', class: 'tool' }, 'Back');
-    back.addEventListener('click', () => {
+    const back = (): void => {
       this.close();
       this.events.cancelled();
-    });
+    };
     const meter = element('div', { class: 'level', 'aria-hidden': 'true' }, this.level);
     for (const [name, words, seconds] of this.guide.plan) this.plan.append(element('li', { 'data-plan': name }, element('span', {}, words), element('small', {}, `${seconds} s`)));
     this.panel.append(
       element('h2', { tabindex: '-1' }, this.falls ? 'Film how it falls' : 'Film your flame'),
       element('p', {}, this.falls ? ADVICE.falls : ADVICE.flame),
       this.plan,
-      ...(this.falls ? [this.wallHeight()] : []),
+      ...(this.falls ? [wallField(1, (height) => (this.settings = { ...this.settings, height }))] : []),
       this.hint,
       element('div', { class: 'record-row' }, this.button, ...(this.hears ? [element('div', {}, element('small', {}, 'Sound'), meter)] : [])),
       ...(this.camera.silent === '' ? [] : [element('p', { class: 'warning' }, this.camera.silent)]),
-      element('div', { class: 'actions' }, back),
+      element('div', { class: 'actions' }, button('Back', back)),
     );
   }
 
@@ -155,15 +148,6 @@ export class Filming {
 
   private newGuide(): Guide {
     return new Guide(this.falls ? 'falls' : this.hears ? 'flame' : 'mute flame');
-  }
-
-  /** Field for the wall's height, since positions are in metres and a camera does not measure distance. */
-  private wallHeight(): HTMLElement {
-    const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', 1);
-    input.addEventListener('change', () => {
-      if (input.valueAsNumber >= 0.01 && input.valueAsNumber <= 100) this.settings = { ...this.settings, height: input.valueAsNumber };
-    });
-    return label;
   }
 
   /** Starts the preview, which keeps nothing. */
@@ -240,7 +224,7 @@ export class Filming {
     const now = performance.now();
     if ((this.seen?.clipped ?? 0) < 0.5 || now - this.darkened < DARKER_EVERY) return;
     this.darkened = now;
-    this.camera.darker().catch(() => false);
+    this.camera.darker().catch(() => undefined);
   }
 
   /** Keeps the next picture with its capture time, as it is displayed some frames later than its outline is found. */

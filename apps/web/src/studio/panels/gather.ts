@@ -1,15 +1,9 @@
 // The first panel: sources to learn from.
 
-import { element } from '../../panel/element.js';
+import { drawing, element, type Attributes } from '../../panel/element.js';
+import type { Room } from '../room.js';
 import type { Thing } from '../words.js';
 import { button } from './verdict.js';
-
-export interface GatherEvents {
-  camera(): void;
-  /** films something falling with the camera */
-  falls(): void;
-  files(files: File[]): void;
-}
 
 const ICONS = {
   camera: 'M4 8h3l2-3h6l2 3h3v11H4zM12 10a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7z',
@@ -19,32 +13,20 @@ const ICONS = {
   table: 'M4 5h16v14H4zM4 10h16M10 10v9M15 10v9M4 14.500h16',
 } as const;
 
-function icon(name: keyof typeof ICONS): SVGElement {
-  const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  picture.setAttribute('viewBox', '0 0 24 24');
-  picture.setAttribute('aria-hidden', 'true');
-  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-  path.setAttribute('d', ICONS[name]);
-  picture.append(path);
-  return picture;
-}
-
 function choice(name: keyof typeof ICONS, title: string, words: string, act: () => void): HTMLElement {
-  const card = element('button', { type: 'button', class: 'choice-card', 'data-gather': name });
-  card.append(icon(name), element('span', {}, element('b', {}, title), element('small', {}, words)));
-  card.addEventListener('click', act);
-  return card;
+  const icon = drawing('svg', { viewBox: '0 0 24 24', 'aria-hidden': 'true' }, drawing('path', { d: ICONS[name] }));
+  return element('button', { type: 'button', class: 'choice-card', 'data-gather': name, click: act }, icon, element('span', {}, element('b', {}, title), element('small', {}, words)));
 }
 
 /** `more`: sources gathered earlier, to be learned together with the new one; `back` returns to them. */
-export function gatherPanel(events: GatherEvents, more: { count: number; thing: Thing; back: () => void } | null): HTMLElement {
-  const chooser = (attributes: Record<string, string | boolean>): HTMLInputElement => {
-    const input = element('input', { type: 'file', hidden: true, tabindex: '-1', ...attributes });
-    input.addEventListener('change', () => {
+export function gatherPanel(room: Room, more: { count: number; thing: Thing; back: () => void } | null): HTMLElement {
+  const chooser = (attributes: Attributes): HTMLInputElement => {
+    const change = (): void => {
       const files = [...(input.files ?? [])];
       input.value = '';
-      if (files.length > 0) events.files(files);
-    });
+      if (files.length > 0) room.files(files);
+    };
+    const input = element('input', { type: 'file', hidden: true, tabindex: '-1', change, ...attributes });
     return input;
   };
   const film = chooser({ accept: 'video/*,.mkv', multiple: true, 'data-choose': 'film' });
@@ -53,9 +35,9 @@ export function gatherPanel(events: GatherEvents, more: { count: number; thing: 
   const choices = element(
     'div',
     { class: 'choices' },
-    choice('camera', 'Film a candle', 'with this camera and microphone, in half a minute', () => events.camera()),
+    choice('camera', 'Film a candle', 'with this camera and microphone, in half a minute', () => void room.film(false)),
     choice('film', 'Choose a film', 'of a flame or of something that falls, from your phone or disk', () => film.click()),
-    choice('falls', 'Film something that falls', 'a slip of paper, a leaf: dropped before a plain wall, again and again', () => events.falls()),
+    choice('falls', 'Film something that falls', 'a slip of paper, a leaf: dropped before a plain wall, again and again', () => void room.film(true)),
     choice('pictures', 'Folder of pictures', 'numbered frames', () => pictures.click()),
     ...(more === null ? [choice('table', 'A table', 'CSV: what went in and what came out of anything', () => table.click())] : []),
     film,

@@ -13,6 +13,16 @@ export function rateField(id: string, words: string, value: number | ''): { inpu
   return { input, label: element('label', { class: 'rate', for: id }, words, input) };
 }
 
+/** A field for the height of the wall in the picture, since positions are in metres and neither films nor
+ * cameras have a scale. */
+export function wallField(now: number, chosen: (metres: number) => void): HTMLElement {
+  const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', now);
+  input.addEventListener('change', () => {
+    if (input.valueAsNumber >= 0.01 && input.valueAsNumber <= 100) chosen(input.valueAsNumber);
+  });
+  return label;
+}
+
 /** The footer of a panel with buttons to continue or go back. */
 export const goOrBack = (go: HTMLButtonElement, back: () => void): HTMLElement => element('div', { class: 'actions' }, go, button('Back', 'back', back));
 

@@ -1,7 +1,7 @@
 // Result of learning: verdict, quality, the flame to blow at, and suggestions for improvement.
 
 import type { Learned, Recipe } from '@wisp/studio';
-import { element } from '../../panel/element.js';
+import { element, type Attributes } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
 import { plotsOf } from '../pictures/curves.js';
 import { outputsOf, thingOf, type Session } from '../session.js';
@@ -89,8 +89,9 @@ function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | nu
   const details = element('details', { class: 'more' }, element('summary', {}, knobsOf(recipe).length > 0 ? 'More: learn it in another way' : 'More'));
   for (const [words, name, options] of knobsOf(recipe)) {
     const now = options.find(([, change]) => change[name] === recipe[name]) ?? options[0];
-    const knob = (option: Option) => ({ 'aria-pressed': String(option === now), 'data-knob': `${name} ${option[0]}` });
-    details.append(choice(words, options.map((option) => [option[0], knob(option), () => events.again({ [name]: undefined, ...option[1] } as Partial<Recipe>)])));
+    const again = (change: Partial<Recipe>): void => events.again({ [name]: undefined, ...change } as Partial<Recipe>);
+    const knob = (option: Option): Attributes => ({ 'aria-pressed': String(option === now), 'data-knob': `${name} ${option[0]}`, click: () => again(option[1]) });
+    details.append(choice(words, options.map((option) => [option[0], knob(option)])));
   }
   if (plots !== null) details.append(element('div', { class: 'judged', 'data-plots': true }, ...plots));
   details.append(element('h3', {}, 'The report'), element('pre', { tabindex: '0', 'aria-label': 'The report' }, text));

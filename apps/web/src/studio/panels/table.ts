@@ -55,7 +55,7 @@ export function tablePanel(name: string, head: TableHead, events: TableEvents): 
       check();
     };
     const barred = (role: string): boolean => head.numeric[k] !== true && role !== 'ignored';
-    const group = choice(column, ROLES.map((role) => [WORDS[role], { 'aria-pressed': String(roles[k] === role), 'data-column': `${column} ${role}`, disabled: barred(role) }, () => take(role)]));
+    const group = choice(column, ROLES.map((role) => [WORDS[role], { 'aria-pressed': String(roles[k] === role), 'data-column': `${column} ${role}`, disabled: barred(role), click: () => take(role) }]));
     rows.append(group);
   });
   rate.addEventListener('input', () => {

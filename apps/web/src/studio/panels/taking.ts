@@ -39,13 +39,10 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const thing = thingOf(session);
   const { model } = learned;
   const outputs = outputsOf(session).length;
-  const save = telling('The model', 'wisp', '', () => {
-    saveFile(new Blob([model.slice()], { type: 'application/octet-stream' }), `${name}.wisp`);
-    return Promise.resolve('Saved');
-  });
+  const save = telling('The model', 'wisp', '', () => saveFile(new Blob([model.slice()], { type: 'application/octet-stream' }), `${name}.wisp`));
   const recordings = telling(takes.length > 1 ? 'The recordings' : 'The recording', 'recording', '', () => {
     for (const take of takes) saveFile(new Blob([take.captured.csv.slice()], { type: 'text/csv' }), `${take.name.replace(/\.[^.]*$/, '')}.csv`);
-    return Promise.resolve('Saved');
+    return 'Saved';
   });
   const whole = model.length <= MAX_PACKED_BYTES;
   const link = telling('A link', 'link', whole ? '' : 'Making it small…', async () => {

@@ -1,20 +1,13 @@
 // Elements shared by panels: coloured verdict, lists, and action buttons.
 
-import { element } from '../../panel/element.js';
+import { button as tool, element, type Attributes } from '../../panel/element.js';
 
-export function button(words: string, name: string, act: () => void, main = false): HTMLButtonElement {
-  const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
-  made.addEventListener('click', act);
-  return made;
-}
+export const button = (words: string, name: string, act: () => void, main = false): HTMLButtonElement =>
+  tool(words, act, { class: main ? 'tool main' : 'tool', 'data-act': name });
 
 /** A choice among options: one button each, with its attributes. */
-export function choice(words: string, options: readonly (readonly [string, Parameters<typeof element>[1], () => void])[]): HTMLElement {
-  const made = options.map(([label, attributes, act]) => {
-    const one = element('button', { type: 'button', ...attributes }, label);
-    one.addEventListener('click', act);
-    return one;
-  });
+export function choice(words: string, options: readonly (readonly [string, Attributes])[]): HTMLElement {
+  const made = options.map(([label, attributes]) => element('button', { type: 'button', ...attributes }, label));
   return element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words), ...made);
 }
 

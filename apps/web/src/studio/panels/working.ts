@@ -1,8 +1,9 @@
 // Panel of long work: current stage with explanation, progress, and a way to cancel.
 
 import type { Seen, Watch } from '@wisp/studio';
-import { element } from '../../panel/element.js';
+import { definitions, element } from '../../panel/element.js';
 import { stageInWords, type Thing } from '../words.js';
+import { button } from './verdict.js';
 
 export class Working {
   readonly panel: HTMLElement;
@@ -14,8 +15,6 @@ export class Working {
 
   /** `announce`: message for screen readers only */
   constructor(title: string, words: string, private readonly announce: (words: string) => void, private readonly thing: Thing | 'either' = 'flame') {
-    const cancel = element('button', { type: 'button', class: 'tool', 'data-act': 'cancel' }, 'Cancel');
-    cancel.addEventListener('click', () => this.control.abort());
     this.panel = element(
       'div',
       { class: 'panel working' },
@@ -24,7 +23,7 @@ export class Working {
       this.bar,
       this.stage,
       this.facts,
-      element('div', { class: 'actions' }, cancel),
+      element('div', { class: 'actions' }, button('Cancel', 'cancel', () => this.abort())),
     );
   }
 
@@ -46,7 +45,7 @@ export class Working {
     const text = facts.map(([name, value]) => `${name}: ${value}`).join();
     if (text === this.shown) return;
     this.shown = text;
-    this.facts.replaceChildren(...facts.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+    this.facts.replaceChildren(...definitions(facts));
   }
 
   private progress(stage: string, share: number): void {

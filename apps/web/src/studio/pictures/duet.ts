@@ -7,7 +7,7 @@ import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
 import type { Take } from '../session.js';
 import { Play } from '../play.js';
-import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
+import { drawKept, fitPart, placed, surfaceOf, trace, type Fit } from './surface.js';
 import type { Outlines } from '../outlines.js';
 
 /** Seconds; a longer step counts as a jump. */
@@ -34,7 +34,7 @@ export class Duet {
   /** film time of the displayed picture, seconds; null: not reported by the browser */
   private shown: number | null = null;
   private clock = 0;
-  private readonly loop = new FrameLoop((passed) => this.frame(passed));
+  readonly loop = new FrameLoop((passed) => this.frame(passed));
 
   /** `moved`: receives the shown time, as a share of the film */
   constructor(
@@ -53,10 +53,6 @@ export class Duet {
     );
     this.address = take.film === null ? null : URL.createObjectURL(take.film);
     if (this.address !== null) this.openFilm(this.address);
-  }
-
-  start(): void {
-    this.loop.start();
   }
 
   stop(): void {
@@ -112,16 +108,11 @@ export class Duet {
     return Math.max(0, Math.min(this.outlines.rows - 1, Math.floor(seconds * this.outlines.rate + 1e-3)));
   }
 
-  private fitOf(width: number, height: number): Fit {
-    const { scale, x, y } = contain(this.part, width, height);
-    return { scale, x: x - scale * this.part.x, y: y - scale * this.part.y };
-  }
-
   private drawFilm(row: number): void {
     const surface = surfaceOf(this.film);
     if (surface === null) return;
     const { context, width, height } = surface;
-    const fit = this.fitOf(width, height);
+    const fit = fitPart(this.part, { x: 0, y: 0, width, height });
     if (this.filmed) {
       context.drawImage(this.video, fit.x, fit.y, fit.scale * this.video.videoWidth, fit.scale * this.video.videoHeight);
     } else {
@@ -140,12 +131,11 @@ export class Duet {
     const surface = surfaceOf(this.flame);
     if (surface === null) return;
     const { context, width, height } = surface;
-    const fit = this.fitOf(width, height);
+    const fit = fitPart(this.part, { x: 0, y: 0, width, height });
     const { base } = this.outlines;
     this.drawCandle(context, fit, width, height);
     drawWick(context, fit.x + fit.scale * base.x, fit.y + fit.scale * base.y, fit.scale * this.outlines.height);
-    const line = this.play.line().map((value, k) => (k % 2 === 0 ? fit.x : fit.y) + fit.scale * value);
-    if (this.play.size > 0) paintFlame(context, line, fit.scale * this.outlines.height);
+    if (this.play.size > 0) paintFlame(context, placed(this.play.line(), fit), fit.scale * this.outlines.height);
   }
 
   /** Draws the flame's support from a picture of the film, from the flame's base downwards. */

@@ -1,16 +1,12 @@
 // Paints a flame: a body from its outline, a bright core, a blue foot, and a glow.
 
-import { trace } from './surface.js';
+import { trace, WHOLE } from './surface.js';
 
-type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+/** Radius of its glow, in heights. */
+const REACH = 1.5;
 
-const WHOLE = { scale: 1, x: 0, y: 0 };
-
-/**
- * Paints a flame with an outline in pixels, x and y alternating, from the base's left over the tip to its right.
- * `reach`: radius of its glow, in heights.
- */
-export function paintFlame(context: Context, line: Float32Array, height: number, reach = 1.5): void {
+/** Paints a flame with an outline in pixels, x and y alternating, from the base's left over the tip to its right. */
+export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array, height: number): void {
   let [top, foot, middle, low] = [Infinity, -Infinity, 0, 0];
   for (let k = 0; k < line.length; k += 2) {
     top = Math.min(top, line[k + 1] as number);
@@ -21,7 +17,7 @@ export function paintFlame(context: Context, line: Float32Array, height: number,
   if (!(foot - top > 1)) return;
   context.save();
   context.globalCompositeOperation = 'lighter';
-  const glow = context.createRadialGradient(middle, low, 0, middle, low, reach * height);
+  const glow = context.createRadialGradient(middle, low, 0, middle, low, REACH * height);
   glow.addColorStop(0, 'rgb(255 150 60 / 34%)');
   glow.addColorStop(0.35, 'rgb(255 120 40 / 12%)');
   glow.addColorStop(1, 'rgb(255 110 30 / 0%)');
@@ -52,7 +48,7 @@ export function paintFlame(context: Context, line: Float32Array, height: number,
 }
 
 // The same shape, narrowed towards its middle at every height, and slightly lower.
-function paintCore(context: Context, line: Float32Array, foot: number, top: number, inset: number): void {
+function paintCore(context: CanvasRenderingContext2D, line: Float32Array, foot: number, top: number, inset: number): void {
   const points = line.length / 2;
   context.beginPath();
   for (let k = 0; k < points; ++k) {

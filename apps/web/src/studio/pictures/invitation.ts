@@ -4,7 +4,7 @@ import type { Bank, Instance, Library } from '@wisp/player';
 import { FrameLoop } from '@wisp/player/parts/stage/frame_loop';
 import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
-import { surfaceOf, trace } from './surface.js';
+import { surfaceOf, trace, WHOLE } from './surface.js';
 
 const POINTS = 64;
 const NANOSECONDS = 1e9;
@@ -15,7 +15,7 @@ export class Invitation {
   readonly canvas = element('canvas', { class: 'invitation', role: 'img', 'aria-label': 'A flame, with the outline and the eight points that are learned of it' });
   private bank: Bank | null = null;
   private flame: Instance = 0n;
-  private readonly loop = new FrameLoop((passed) => this.frame(passed));
+  readonly loop = new FrameLoop((passed) => this.frame(passed));
   private clock = 0;
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
 
@@ -27,14 +27,6 @@ export class Invitation {
     this.bank = made.bank({ polylinePoints: POINTS });
     this.flame = this.bank.spawn();
     made.free();
-  }
-
-  start(): void {
-    this.loop.start();
-  }
-
-  stop(): void {
-    this.loop.stop();
   }
 
   private frame(passed: number): void {
@@ -60,12 +52,12 @@ export class Invitation {
     context.setLineDash([3, 5]);
     context.strokeStyle = 'rgb(255 240 220 / 22%)';
     context.lineWidth = 1;
-    trace(context, points, { scale: 1, x: 0, y: 0 });
+    trace(context, points, WHOLE);
     context.stroke();
     context.setLineDash([]);
     context.strokeStyle = '#7fe3ff';
     context.lineWidth = 2;
-    trace(context, line, { scale: 1, x: 0, y: 0 });
+    trace(context, line, WHOLE);
     context.stroke();
     context.fillStyle = '#f3ece2';
     for (let k = 0; k < points.length; k += 2) {

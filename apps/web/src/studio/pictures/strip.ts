@@ -8,7 +8,7 @@ import { paintFlame } from './flame_paint.js';
 import type { Outlines } from '../outlines.js';
 import { Play } from '../play.js';
 import type { Take } from '../session.js';
-import { contain, drawKept, surfaceOf, trace } from './surface.js';
+import { drawKept, fitPart, placed, surfaceOf, trace, type Fit } from './surface.js';
 
 const PICTURES = 9;
 const FEWER = 6;
@@ -36,20 +36,18 @@ export class Strip {
     const { rate } = this.outlines;
     const play = new Play(this.wisp, this.outlines, this.model);
     const rowsShown = this.rowsShown(width < NARROW ? FEWER : PICTURES);
-    const pictures = rowsShown.length;
-    const each = width / pictures;
-    for (let k = 0; k < pictures; ++k) {
-      const row = rowsShown[k] as number;
+    const each = width / rowsShown.length;
+    rowsShown.forEach((row, k) => {
       // Stepwise, as a long jump would restart the play.
       for (let on = 0; on < row; on += 100) play.goTo(on);
       play.goTo(row);
       const cell = { x: k * each + 1, width: each - 2, height: height / 2 - 1 };
       this.drawRecorded(context, row, { ...cell, y: 0 });
       this.drawPlayed(context, play, { ...cell, y: height / 2 + 1 });
-    }
+    });
     context.fillStyle = '#b9b3ac';
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
-    for (let k = 0; k < pictures; ++k) context.fillText(`${((rowsShown[k] as number) / rate).toFixed(1)} s`, k * each + 6, 13);
+    rowsShown.forEach((row, k) => context.fillText(`${(row / rate).toFixed(1)} s`, k * each + 6, 13));
     play.free();
   }
 
@@ -63,16 +61,14 @@ export class Strip {
     return [...new Set(wanted)];
   }
 
-  private inside(context: CanvasRenderingContext2D, cell: Region, draw: (fit: { scale: number; x: number; y: number }) => void): void {
-    const part = partOf(this.outlines);
-    const { scale, x, y } = contain(part, cell.width, cell.height);
+  private inside(context: CanvasRenderingContext2D, cell: Region, draw: (fit: Fit) => void): void {
     context.save();
     context.beginPath();
     context.roundRect(cell.x, cell.y, cell.width, cell.height, 4);
     context.clip();
     context.fillStyle = '#050507';
     context.fillRect(cell.x, cell.y, cell.width, cell.height);
-    draw({ scale, x: cell.x + x - scale * part.x, y: cell.y + y - scale * part.y });
+    draw(fitPart(partOf(this.outlines), cell));
     context.restore();
   }
 
@@ -91,9 +87,7 @@ export class Strip {
 
   private drawPlayed(context: CanvasRenderingContext2D, play: Play, cell: Region): void {
     this.inside(context, cell, (fit) => {
-      if (play.size <= 0) return;
-      const line = play.line().map((value, k) => (k % 2 === 0 ? fit.x : fit.y) + fit.scale * value);
-      paintFlame(context, line, fit.scale * this.outlines.height);
+      if (play.size > 0) paintFlame(context, placed(play.line(), fit), fit.scale * this.outlines.height);
     });
   }
 }

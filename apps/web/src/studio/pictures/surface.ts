@@ -1,5 +1,6 @@
 // A canvas at the screen's resolution.
 
+import type { Region } from '@wisp/studio';
 import type { Kept } from '../reel.js';
 
 /** Fits a canvas to its element's size and clears it; null where drawing is impossible. Units are CSS pixels. */
@@ -18,6 +19,17 @@ export function surfaceOf(canvas: HTMLCanvasElement): { context: CanvasRendering
   return { context, width, height };
 }
 
+/** What draws at most once per screen refresh, when the page is laid out. */
+export function atRefresh(draw: () => void): () => void {
+  let asked = 0;
+  return () => {
+    asked ||= requestAnimationFrame(() => {
+      asked = 0;
+      draw();
+    });
+  };
+}
+
 /** Placement of a picture: `scale` of our pixels per pixel, its corner at x and y. */
 export interface Fit {
   scale: number;
@@ -31,8 +43,19 @@ export function contain(picture: { width: number; height: number }, width: numbe
   return { scale, x: (width - scale * picture.width) / 2, y: (height - scale * picture.height) / 2 };
 }
 
+/** Placement of a film of which a part fills a cell. */
+export function fitPart(part: Region, cell: Region): Fit {
+  const { scale, x, y } = contain(part, cell.width, cell.height);
+  return { scale, x: cell.x + x - scale * part.x, y: cell.y + y - scale * part.y };
+}
+
+/** A line in pixels of the film, placed. */
+export const placed = (line: Float32Array, { scale, x, y }: Fit): Float32Array => line.map((value, k) => (k % 2 === 0 ? x : y) + scale * value);
+
+export const WHOLE: Fit = { scale: 1, x: 0, y: 0 };
+
 /** Draws a line through points, x and y alternating; `x` and `y` convert coordinates. */
-export function trace(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
+export function trace(context: CanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
   context.beginPath();
   for (let k = 0; k + 1 < line.length; k += 2) context.lineTo(x + scale * (line[k] as number), y + scale * (line[k + 1] as number));
 }

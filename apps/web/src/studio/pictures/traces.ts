@@ -3,26 +3,21 @@
 import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import type { Outlines } from '../outlines.js';
-import { surfaceOf } from './surface.js';
+import { atRefresh, surfaceOf } from './surface.js';
 
-/** A line: name, colour and values; NaN leaves a gap. */
+/** A line: name, colour, values (NaN leaves a gap), and minimum range. */
 interface Line {
   name: string;
   colour: string;
   values: ArrayLike<number>;
-  low: number;
-  high: number;
+  least: readonly [low: number, high: number];
 }
 
-function rangeOf(values: ArrayLike<number>, least: readonly [number, number]): { low: number; high: number } {
-  let [low, high] = least;
-  for (let k = 0; k < values.length; ++k) {
-    const value = values[k] as number;
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  return { low, high };
-}
+/** Lines of wind (or the loudness of sound) and of the tip. */
+const linesOf = (name: string, wind: ArrayLike<number> | null, lean: ArrayLike<number>): Line[] => [
+  ...(wind === null ? [] : [{ name, colour: '#7fc4ff', values: wind, least: [0, 1] as const }]),
+  { name: 'Tip', colour: '#ffb35c', values: lean, least: [-0.2, 0.2] },
+];
 
 /** Displacement of an outline's tip to the right of its base, in heights; NaN without an outline. */
 function leanOf(outline: Float32Array): number {
@@ -49,7 +44,7 @@ export class Traces {
   private seconds = 0;
   private live: { lean: number[]; loud: number[] } = { lean: [], loud: [] };
   private readonly marker = element('i', { hidden: true });
-  private drawing = 0;
+  private readonly draw = atRefresh(() => this.drawNow());
 
   constructor() {
     this.place.append(this.canvas, this.marker);
@@ -60,10 +55,7 @@ export class Traces {
   fill({ wind, lean, rows, rate }: Outlines): void {
     this.seconds = rows / rate;
     this.marker.hidden = true;
-    this.lines = [
-      ...(wind === null ? [] : [{ name: 'Wind', colour: '#7fc4ff', values: wind, ...rangeOf(wind, [0, 1]) }]),
-      { name: 'Tip', colour: '#ffb35c', values: lean, ...rangeOf(lean, [-0.2, 0.2]) },
-    ];
+    this.lines = linesOf('Wind', wind, lean);
     // A resize observer does not report an element reinserted at the same size.
     this.draw();
   }
@@ -82,10 +74,7 @@ export class Traces {
     const { live } = this;
     extend(live.lean, frame, leanOf(outline));
     if (loud !== null) extend(live.loud, frame, loud);
-    this.lines = [
-      ...(live.loud.length === 0 ? [] : [{ name: 'Sound', colour: '#7fc4ff', values: live.loud, ...rangeOf(live.loud, [0, 1]) }]),
-      { name: 'Tip', colour: '#ffb35c', values: live.lean, ...rangeOf(live.lean, [-0.2, 0.2]) },
-    ];
+    this.lines = linesOf('Sound', live.loud.length === 0 ? null : live.loud, live.lean);
     this.draw();
   }
 
@@ -94,14 +83,6 @@ export class Traces {
     // Does not redraw the lines.
     this.marker.hidden = false;
     this.marker.style.left = `${(100 * share).toFixed(2)}%`;
-  }
-
-  /** Draws once laid out, at most once per screen refresh. */
-  private draw(): void {
-    this.drawing ||= requestAnimationFrame(() => {
-      this.drawing = 0;
-      this.drawNow();
-    });
   }
 
   private drawNow(): void {
@@ -123,7 +104,13 @@ export class Traces {
 }
 
 function drawLine(context: CanvasRenderingContext2D, line: Line, width: number, top: number, height: number): void {
-  const { values, low, high, colour, name } = line;
+  const { values, colour, name } = line;
+  let [low, high] = line.least;
+  for (let k = 0; k < values.length; ++k) {
+    const value = values[k] as number;
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
   const y = (value: number): number => top + height - ((value - low) / (high - low || 1)) * (height - 4) - 2;
   context.fillStyle = 'rgb(255 240 220 / 12%)';
   context.fillRect(0, Math.round(y(0)), width, 1);

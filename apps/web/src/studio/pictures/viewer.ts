@@ -3,7 +3,7 @@
 import type { Region, Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import type { Kept } from '../reel.js';
-import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
+import { atRefresh, contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
 
 /** Number of past positions drawn behind a moving object. */
 const TRAIL = 40;
@@ -23,6 +23,11 @@ export class Viewer {
     tabindex: 0,
     role: 'img',
     'aria-label': 'The film with what was found. Drag a box over it, or use the arrow keys, Shift and the arrow keys, and Enter, to say where to look.',
+    pointerdown: (event) => this.begin(event as PointerEvent),
+    pointermove: (event) => this.stretch(event as PointerEvent),
+    pointerup: () => this.end(),
+    pointercancel: () => this.drop(),
+    keydown: (event) => this.key(event as KeyboardEvent),
   });
   private readonly caption = element('p', { class: 'caption', hidden: true });
   private picture: ImageBitmap | null = null;
@@ -35,7 +40,7 @@ export class Viewer {
   /** past centres of a falling object */
   private trail: number[] = [];
   private falls: readonly Float32Array[] = [];
-  private drawing = 0;
+  private readonly draw = atRefresh(() => this.drawNow());
   private from: { x: number; y: number } | null = null;
 
   /** `chosen`: receives the chosen region, pixels of the film; null: anywhere */
@@ -43,11 +48,6 @@ export class Viewer {
     // The camera's own sound is never played.
     this.video.muted = true;
     this.place.append(this.video, this.over, this.caption);
-    this.over.addEventListener('pointerdown', (event) => this.begin(event));
-    this.over.addEventListener('pointermove', (event) => this.stretch(event));
-    this.over.addEventListener('pointerup', () => this.end());
-    this.over.addEventListener('pointercancel', () => this.drop());
-    this.over.addEventListener('keydown', (event) => this.key(event));
     new ResizeObserver(() => this.draw()).observe(this.place);
   }
 
@@ -64,7 +64,8 @@ export class Viewer {
 
   /** Clears picture and findings. */
   clear(): void {
-    this.letGo();
+    if (this.picture !== this.followed?.picture) this.picture?.close();
+    this.followed?.picture.close();
     this.picture = this.kept = this.size = this.seen = this.box = this.followed = null;
     this.trail = [];
     this.falls = [];
@@ -89,7 +90,10 @@ export class Viewer {
     if (seen.picture !== undefined) {
       if (this.picture !== this.followed?.picture) this.picture?.close();
       this.picture = seen.picture;
-      if (seen.state === 'following') this.keepFollowed({ seen, picture: seen.picture });
+      if (seen.state === 'following') {
+        this.followed?.picture.close();
+        this.followed = { seen, picture: seen.picture };
+      }
     }
     this.draw();
   }
@@ -101,16 +105,6 @@ export class Viewer {
     this.picture = this.followed.picture;
     this.seen = this.followed.seen;
     this.draw();
-  }
-
-  private keepFollowed(followed: { seen: Seen; picture: ImageBitmap }): void {
-    this.followed?.picture.close();
-    this.followed = followed;
-  }
-
-  private letGo(): void {
-    if (this.picture !== this.followed?.picture) this.picture?.close();
-    this.followed?.picture.close();
   }
 
   /** Shows detected falls over the film's last picture. `lines` receives its size. */
@@ -148,14 +142,6 @@ export class Viewer {
   private get fit(): Fit | null {
     const { dimensions } = this;
     return dimensions === null ? null : contain(dimensions, this.over.clientWidth, this.over.clientHeight);
-  }
-
-  /** Draws at most once per screen refresh. */
-  private draw(): void {
-    this.drawing ||= requestAnimationFrame(() => {
-      this.drawing = 0;
-      this.drawNow();
-    });
   }
 
   // One canvas for picture and overlay: each further one is a screen-sized layer, redrawn ten times a second during
@@ -243,7 +229,7 @@ function inside(box: Region, all: { width: number; height: number }): Region {
 }
 
 /** Draws the detected outline as a bright line with a dark border, visible on the flame and beside it. */
-export function drawOutline(context: CanvasRenderingContext2D, outline: Float32Array, fit: Fit): void {
+function drawOutline(context: CanvasRenderingContext2D, outline: Float32Array, fit: Fit): void {
   context.lineJoin = 'round';
   trace(context, outline, fit);
   context.strokeStyle = 'rgb(0 0 0 / 60%)';
