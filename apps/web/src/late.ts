@@ -16,22 +16,12 @@ import { Ear } from './wind/ear.js';
 
 export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
-const UNTUNED = {
-  'too hard': 'Blow after blow, and it burns on. It can be tuned to your breath and this microphone.',
-  'too easy': 'This microphone is very sensitive: a soft breath may pass for a hard one. It can be tuned to your breath.',
-} as const;
-
 /** Parts of the page available from then on. */
 export type Parts = ReturnType<typeof furnish>;
 
 /** Creates these parts. */
 export function furnish(app: App) {
-  const ear = new Ear(app.wisp, {
-    wind: (wind) => app.breath.hear(wind, app.stage.frames),
-    trouble: (words) => app.notices.say(words),
-    ended: () => app.breath.deafen(),
-    untuned: (why) => app.notices.say(UNTUNED[why], { words: 'Tune it to my breath', accept: () => tuning.open() }),
-  }, app.overlay);
+  const ear = new Ear(app);
   const tuning = new Tuning(ear, byId('tuning', HTMLElement), byId('blow', HTMLButtonElement));
   byId('tune', HTMLButtonElement).addEventListener('click', () => tuning.open());
   // Disables blowing while the studio is filming.

@@ -4,19 +4,20 @@ import type { App } from './app.js';
 import type { Dropped } from './drops.js';
 import { fetchPart, once } from './part.js';
 import { byId, element } from './panel/element.js';
-import { saveGif, saveLoop } from './saving.js';
+import { after, saveGif, saveLoop } from './saving.js';
+import type { Moving } from './studio/panels/taking.js';
 import type { Room } from './studio/room.js';
 
-/** Milliseconds until a newly shown flame has full brightness. */
-const LIT = 900;
+/** Seconds until a newly shown flame has full brightness. */
+const LIT = 0.9;
 
 export class StudioDoor {
   private readonly tab = element('button', { type: 'button', 'data-scene': 'yours', 'aria-current': 'false' }, 'Yours');
-  private readonly room = once(() => fetchPart(() => import('./studio/room.js')).then(({ Room }) => new Room(this.host())));
+  private readonly room = once(() => fetchPart(() => import('./studio/room.js')).then(({ Room }) => new Room(this)));
   /** whether the studio is open */
   inside = false;
 
-  constructor(private readonly app: App) {
+  constructor(readonly app: App) {
     const tabs = byId('scenes', HTMLElement);
     tabs.append(this.tab);
     tabs.addEventListener('click', ({ target }) => {
@@ -73,32 +74,29 @@ export class StudioDoor {
     this.app.stage.start();
   }
 
-  /** Services of the page for the studio. */
-  private host(): ConstructorParameters<typeof Room>[0] {
+  /** Plays a flame in the page's own scene, with the microphone. */
+  async blow(file: string, model: Uint8Array): Promise<void> {
     const { app } = this;
-    return {
-      wisp: app.wisp,
-      say: (words) => app.notices.say(words),
-      blow: async (file, model) => {
-        await app.player.playFile(file, model);
-        this.leave();
-        if (app.player.playing?.model.inputs.length === 0) {
-          await app.player.borrowWind();
-          app.notices.say('It was filmed without wind: how it leans and goes out is borrowed from the flame that comes with this page.');
-        }
-        if (app.parts?.ear.state === 'off') app.toggleMicrophone();
-      },
-      film: async (file, model, kind) => {
-        await app.player.playFile(file, model);
-        this.markTab();
-        app.stage.start();
-        await new Promise((resolve) => setTimeout(resolve, LIT));
-        try {
-          return await (kind === 'gif' ? saveGif : saveLoop)(app);
-        } finally {
-          if (this.inside) app.stage.stop();
-        }
-      },
-    };
+    await app.player.playFile(file, model);
+    this.leave();
+    if (app.player.playing?.model.inputs.length === 0) {
+      await app.player.borrowWind();
+      app.notices.say('It was filmed without wind: how it leans and goes out is borrowed from the flame that comes with this page.');
+    }
+    if (app.parts?.ear.state === 'off') app.toggleMicrophone();
+  }
+
+  /** Saves some seconds of it there. Returns a message about the result. */
+  async film(file: string, model: Uint8Array, kind: Moving): Promise<string> {
+    const { app } = this;
+    await app.player.playFile(file, model);
+    this.markTab();
+    app.stage.start();
+    await after(LIT);
+    try {
+      return await (kind === 'gif' ? saveGif : saveLoop)(app);
+    } finally {
+      if (this.inside) app.stage.stop();
+    }
   }
 }

@@ -70,6 +70,9 @@ export async function framesPass(page, many = 2) {
   await until(page, `${many} frames`, (most) => window.wisp.frames > most, frames + many);
 }
 
+export const allLit = () => window.wisp.burning?.lit === window.wisp.burning?.of;
+export const noneLit = () => window.wisp.burning?.lit === 0;
+
 /** Drops a file on the page: its bytes, or so many zeros. */
 export const drop = (page, name, bytes) => dropAll(page, { [name]: bytes });
 

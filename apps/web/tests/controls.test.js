@@ -4,12 +4,9 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { describe, it } from 'node:test';
-import { blowOut, framesPass, onPage, openDrawer, saved, skip, until } from './browser.js';
+import { allLit, blowOut, framesPass, noneLit, onPage, openDrawer, saved, skip, until } from './browser.js';
 
 const model = (name) => fileURLToPath(new URL(`../public/models/${name}`, import.meta.url));
-
-const allLit = () => window.wisp.burning?.lit === window.wisp.burning?.of;
-const noneLit = () => window.wisp.burning?.lit === 0;
 
 /** Relative luminance of a colour, of WCAG 2. */
 const light = (colour) => {

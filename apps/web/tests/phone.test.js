@@ -2,12 +2,9 @@
 
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { onPage, openCard, skip, until } from './browser.js';
+import { allLit, noneLit, onPage, openCard, skip, until } from './browser.js';
 
 const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
-
-const allLit = () => window.wisp.burning?.lit === window.wisp.burning?.of;
-const noneLit = () => window.wisp.burning?.lit === 0;
 
 describe('on a phone', { skip }, () => {
   let opened, page, session;

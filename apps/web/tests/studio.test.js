@@ -216,12 +216,10 @@ describe('a table', { skip }, () => {
 });
 
 describe('recorded falls', { skip: skip || noFilms }, () => {
-  let opened;
-  after(() => opened?.close());
+  let page;
+  onPage('#scene=candle&detail=0.1', (made) => (page = made), laptop);
 
   it('are learned, and fall in the page', async () => {
-    opened = await openBrowser();
-    const page = await opened.page('#scene=candle&detail=0.1', laptop);
     await drop(page, 'falls.csv', readFileSync(recordedFalls(folder)));
     await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
@@ -229,7 +227,6 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
     await page.click('[data-act=blow]');
     await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
     await framesPass(page);
-    assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]);
   });
 });
 
@@ -265,14 +262,10 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
     await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
     const recording = await saved(page, '[data-file=recording]');
-    const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
     const theirs = fallsByProgram(join(folder, 'paper.mp4'), 2.4, folder);
-    const [ours, wanted] = [rows(readFileSync(await recording.path(), 'utf8')), rows(readFileSync(theirs, 'utf8'))];
-    assert.deepEqual([ours[0], ours.length], [wanted[0], wanted.length]);
-    ours.slice(1).forEach((row, k) => row.forEach((value, c) => assert.ok(Math.abs(value - wanted[k + 1][c]) < 1e-4, `row ${k}, ${ours[0][c]}: ${value} and ${wanted[k + 1][c]}`)));
+    assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(theirs, 'utf8'), 1e-4, 'y:pos.x');
     await page.click('[data-act=blow]');
     await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
-    assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]);
   });
 });
 

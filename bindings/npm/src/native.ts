@@ -79,9 +79,7 @@ export class Native {
   readonly functions: Functions;
   private readonly memory: WebAssembly.Memory;
   private readonly decoder = new TextDecoder();
-  private buffer: ArrayBuffer;
-  private bytesView: Uint8Array<ArrayBuffer>;
-  private dataView: DataView<ArrayBuffer>;
+  private view: DataView<ArrayBuffer>;
 
   private constructor(
     readonly module: WebAssembly.Module,
@@ -91,9 +89,7 @@ export class Native {
     const { memory, ...functions } = instance.exports;
     this.functions = functions as unknown as Functions;
     this.memory = memory as WebAssembly.Memory;
-    this.buffer = this.memory.buffer as ArrayBuffer;
-    this.bytesView = new Uint8Array(this.buffer);
-    this.dataView = new DataView(this.buffer);
+    this.view = new DataView(this.memory.buffer as ArrayBuffer);
     this.functions._initialize?.();
   }
 
@@ -117,31 +113,23 @@ export class Native {
     };
   }
 
-  /** All of the memory. Views become invalid when it grows, so they are made anew on each call. */
+  /** All of the memory. Views become invalid when it grows, so ask for them anew after each call. */
   get bytes(): Uint8Array<ArrayBuffer> {
-    this.follow();
-    return this.bytesView;
+    return new Uint8Array(this.data.buffer);
   }
 
   get data(): DataView<ArrayBuffer> {
-    this.follow();
-    return this.dataView;
+    if (!this.isCurrent(this.view)) this.view = new DataView(this.memory.buffer as ArrayBuffer);
+    return this.view;
   }
 
   floats(pointer: number, count: number): Float32Array<ArrayBuffer> {
-    return new Float32Array(this.memory.buffer as ArrayBuffer, pointer, count);
+    return new Float32Array(this.data.buffer, pointer, count);
   }
 
   /** Whether a view made earlier is still valid. */
   isCurrent(view: ArrayBufferView): boolean {
     return view.buffer === this.memory.buffer;
-  }
-
-  private follow(): void {
-    if (this.buffer === this.memory.buffer) return;
-    this.buffer = this.memory.buffer as ArrayBuffer;
-    this.bytesView = new Uint8Array(this.buffer);
-    this.dataView = new DataView(this.buffer);
   }
 
   /** Allocates memory in the module. Throws when there is none. */

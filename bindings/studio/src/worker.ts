@@ -63,30 +63,23 @@ const drawn = (): Promise<void> =>
     };
   });
 
-/** Reports findings at intervals, with a small picture of the frame where there is one. */
-class Showing {
-  private shown = 0;
-  private share = 0;
-
-  constructor(
-    private readonly of: number,
-    private readonly engine: Engine,
-  ) {}
-
-  async frame(picture: RawPicture | null, share: number): Promise<void> {
-    if (performance.now() - this.shown < SHOWN_EVERY_MS && share - this.share < SHOWN_SHARE) return;
-    this.share = share;
-    const seen: Seen = this.engine.seen();
+/** What reports findings at intervals, with a small picture of the frame where there is one. */
+function showing(of: number, wisp: Engine): (picture: RawPicture | null, share: number) => Promise<void> {
+  let [last, before] = [0, 0];
+  return async (picture, share) => {
+    if (performance.now() - last < SHOWN_EVERY_MS && share - before < SHOWN_SHARE) return;
+    before = share;
+    const seen: Seen = wisp.seen();
     if (picture !== null) {
       const { data, width, height } = smallPicture(picture, SHOWN_PIXELS);
       seen.picture = await createImageBitmap(new ImageData(data, width, height));
     }
-    if (share >= 0) tell({ of: this.of, progress: { stage: 'capturing', share } });
-    tell({ of: this.of, seen }, seen.picture === undefined ? [] : [seen.picture]);
+    if (share >= 0) tell({ of, progress: { stage: 'capturing', share } });
+    tell({ of, seen }, seen.picture === undefined ? [] : [seen.picture]);
     // Not for cameras, which do not wait.
     if (picture !== null) await drawn();
-    this.shown = performance.now();
-  }
+    last = performance.now();
+  };
 }
 
 /** A live capture. */
@@ -99,13 +92,13 @@ class Live {
   /** whether it was abandoned: the engine then captures something else */
   private abandoned = false;
   private work: Promise<void> = Promise.resolve();
-  private readonly showing: Showing;
+  private readonly show: ReturnType<typeof showing>;
 
   constructor(
     private readonly of: number,
     private readonly engine: Engine,
   ) {
-    this.showing = new Showing(of, engine);
+    this.show = showing(of, engine);
   }
 
   frame(frame: VideoFrame | ImageBitmap, seconds: number): void {
@@ -116,7 +109,7 @@ class Live {
         if (this.abandoned) return;
         this.engine.frame(raw, seconds);
         if (this.first === null) this.start(seconds);
-        await this.showing.frame(null, -1);
+        await this.show(null, -1);
       } catch (error) {
         this.failure = error;
       } finally {
@@ -167,15 +160,14 @@ class Live {
 let live: Live | null = null;
 
 async function film(of: number, wisp: Engine, file: File, settings: object): Promise<Captured> {
-  const showing = new Showing(of, wisp);
-  const warnings = await showFilm(wisp, file, { ...settings, name: file.name }, (picture, share) => showing.frame(picture, share));
+  const warnings = await showFilm(wisp, file, { ...settings, name: file.name }, showing(of, wisp));
   const captured = wisp.finish();
   if (warnings.length > 0) captured.report.warnings = [...(captured.report.warnings ?? []), ...warnings];
   return captured;
 }
 
 async function pictures(of: number, wisp: Engine, files: File[], rate: number, settings: object): Promise<Captured> {
-  const showing = new Showing(of, wisp);
+  const show = showing(of, wisp);
   const collator = new Intl.Collator('en', { numeric: true });
   const sorted = files.toSorted((a, b) => collator.compare(a.name, b.name));
   wisp.begin({ ...settings, name: 'pictures', rate, pictures: true });
@@ -186,7 +178,7 @@ async function pictures(of: number, wisp: Engine, files: File[], rate: number, s
     const picture = rawOfBitmap(bitmap);
     bitmap.close();
     wisp.frame(picture, k / rate);
-    await showing.frame(picture, (k + 1) / sorted.length);
+    await show(picture, (k + 1) / sorted.length);
   }
   return wisp.finish();
 }

@@ -59,11 +59,8 @@ export class Reel {
 
   /** The picture nearest to a time; null if there is none. */
   at(seconds: number): Kept | null {
-    let best: Kept | null = null;
-    for (const picture of this.pictures) {
-      if (best === null || Math.abs(picture.seconds - seconds) < Math.abs(best.seconds - seconds)) best = picture;
-    }
-    return best;
+    const apart = (picture: Kept): number => Math.abs(picture.seconds - seconds);
+    return this.pictures.reduce<Kept | null>((best, picture) => (best === null || apart(picture) < apart(best) ? picture : best), null);
   }
 
   /** Multiplies all times, which converts frame numbers to seconds. */

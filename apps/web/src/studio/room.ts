@@ -2,8 +2,8 @@
 // sentences and never lose gathered sources.
 
 import './studio.css';
-import type { Library } from '@wisp/player';
-import type { Learned, PictureSettings, Recipe, Region, Seen, TableSettings, Watch } from '@wisp/studio';
+import type { Captured, Learned, PictureSettings, Recipe, Region, Seen, TableSettings, Watch } from '@wisp/studio';
+import type { App } from '../app.js';
 import type { Dropped } from '../drops.js';
 import { element } from '../panel/element.js';
 import { fetchPart, once } from '../part.js';
@@ -19,8 +19,9 @@ import { pickOf, unfold } from './picks.js';
 import { MAX_OF_FILE, Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
-import { nameInC, type Format, type Moving } from './panels/taking.js';
+import { nameInC, type Format } from './panels/taking.js';
 import { saveFile } from '../saving.js';
+import type { StudioDoor } from '../studio_door.js';
 import { emptied, newSession, sessionName, shownIn, thingOf, withTake, type Looked, type Session, type Take } from './session.js';
 import { LEARNING, LOOKING, STEP_WORDS, STEPS, type Step } from './steps.js';
 import { Strip } from './pictures/strip.js';
@@ -31,16 +32,6 @@ import { button, verdictHead } from './panels/verdict.js';
 import { Viewer } from './pictures/viewer.js';
 import { sentence, verdictOf, type Thing } from './words.js';
 import { Working } from './panels/working.js';
-
-/** Services of the page used by the studio. */
-export interface Host {
-  wisp: Library;
-  say(words: string): void;
-  /** plays a flame in the page's own scene, with the microphone */
-  blow(file: string, model: Uint8Array): Promise<void>;
-  /** saves some seconds of it there; returns a message about the result */
-  film(file: string, model: Uint8Array, kind: Moving): Promise<string>;
-}
 
 /** Share of a table's rows held out for validation. */
 const KEPT_BACK = 0.25;
@@ -73,7 +64,8 @@ export class Room {
   private readonly panel = element('div');
   private readonly spoken = element('p', { class: 'spoken', role: 'status', 'aria-live': 'polite' });
   private readonly viewer = new Viewer((region) => this.lookThere(region));
-  private readonly traces = new Traces();
+  readonly traces = new Traces();
+  private readonly app: App;
   private readonly invitation: Invitation;
   private session: Session = newSession();
   /** The worker that captures and learns, started at first use. Rejects with a sentence where this browser cannot run it. */
@@ -90,8 +82,9 @@ export class Room {
   /** incremented by each display: outdated work shows nothing */
   private turn = 0;
 
-  constructor(private readonly host: Host) {
-    this.invitation = new Invitation(host.wisp);
+  constructor(private readonly door: StudioDoor) {
+    this.app = door.app;
+    this.invitation = new Invitation(this.app.wisp);
     this.story.append(this.steps, this.panel, this.spoken);
     this.place.append(this.left, this.story, this.below);
     document.querySelector('header.top')?.after(this.place);
@@ -123,7 +116,7 @@ export class Room {
   take({ files, entries }: Dropped): void {
     unfold(files, entries).then(
       (found) => this.files(found),
-      () => this.host.say('What was dropped cannot be read.'),
+      () => this.say('What was dropped cannot be read.'),
     );
   }
 
@@ -150,7 +143,13 @@ export class Room {
     this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
   }
 
-  private announce(words: string): void {
+  /** Shows a message of the page. */
+  say(words: string): void {
+    this.app.notices.say(words);
+  }
+
+  /** A message for screen readers only. */
+  announce(words: string): void {
     this.spoken.textContent = words;
   }
 
@@ -189,7 +188,7 @@ export class Room {
 
   files(files: File[]): void {
     const pick = pickOf(files);
-    if (pick.kind === 'nothing') this.host.say(pick.words);
+    if (pick.kind === 'nothing') this.say(pick.words);
     else if (pick.kind === 'table') void this.table(pick.files[0] as File);
     else if (pick.kind === 'film') {
       this.waiting = pick.files;
@@ -244,7 +243,7 @@ export class Room {
   }
 
   /** Plots the tip during filming. */
-  private traceLive(): void {
+  traceLive(): void {
     this.traces.begin();
     this.below.replaceChildren(this.traces.place);
   }
@@ -313,7 +312,7 @@ export class Room {
     const take = this.looked;
     if (take === null) return;
     if (take.again === null) {
-      this.host.say('A film from the camera is not kept, only its outline. Film again to look elsewhere.');
+      this.say('A film from the camera is not kept, only its outline. Film again to look elsewhere.');
       this.viewer.showBox(null);
       return;
     }
@@ -333,7 +332,7 @@ export class Room {
     this.working = null;
     this.waiting = [];
     if (isAbort(error)) {
-      this.host.say(this.session.takes.length > 0 ? 'Stopped. What was gathered before is kept.' : 'Stopped.');
+      this.say(this.session.takes.length > 0 ? 'Stopped. What was gathered before is kept.' : 'Stopped.');
       this.back();
       return;
     }
@@ -359,25 +358,7 @@ export class Room {
     this.clear();
     const { turn } = this;
     try {
-      const filming = await Filming.open(await this.studio(), this.viewer, falls, {
-        done: (captured, reel, settings) => {
-          this.filming = null;
-          const count = this.session.takes.filter(({ film }) => film === null).length + 1;
-          this.keep({ name: count === 1 ? 'camera' : `camera ${count}`, captured, outlines: Outlines.of(captured), reel, film: null, settings, again: null });
-        },
-        failed: (words) => {
-          this.filming = null;
-          this.trouble('Nothing was learned from this', sentence(words), 'What was gathered before is kept. Film again, or choose a film from your phone.');
-        },
-        began: () => this.traceLive(),
-        seen: (seen, loud) => this.traces.add(seen, loud),
-        say: (words) => this.host.say(words),
-        announce: (words) => this.announce(words),
-        cancelled: () => {
-          this.filming = null;
-          this.back();
-        },
-      });
+      const filming = await Filming.open(await this.studio(), this.viewer, falls, this);
       if (turn !== this.turn) {
         filming.close();
         return;
@@ -389,6 +370,20 @@ export class Room {
     } catch (error) {
       if (turn === this.turn) this.trouble('There is no camera', wordsOf(error), 'What was gathered before is kept.');
     }
+  }
+
+  /** Takes what was filmed, or goes back where nothing was. */
+  filmed(shot: { captured: Captured; reel: Reel; settings: PictureSettings } | null): void {
+    this.filming = null;
+    if (shot === null) return this.back();
+    const count = this.session.takes.filter(({ film }) => film === null).length + 1;
+    this.keep({ ...shot, name: count === 1 ? 'camera' : `camera ${count}`, outlines: Outlines.of(shot.captured), film: null, again: null });
+  }
+
+  /** Says why filming gave nothing usable. */
+  notFilmed(words: string): void {
+    this.filming = null;
+    this.trouble('Nothing was learned from this', sentence(words), 'What was gathered before is kept. Film again, or choose a film from your phone.');
   }
 
   async learn(): Promise<void> {
@@ -405,10 +400,10 @@ export class Room {
     } catch (error) {
       if (turn !== this.turn) return;
       this.working = null;
-      if (isAbort(error)) this.host.say('Stopped. What was filmed is kept.');
+      if (isAbort(error)) this.say('Stopped. What was filmed is kept.');
       else {
         this.renew();
-        this.host.say(wordsOf(error));
+        this.say(wordsOf(error));
       }
       this.back();
       return;
@@ -448,14 +443,14 @@ export class Room {
   private async compare(outlines: Outlines | null, model: Uint8Array, file: string): Promise<string> {
     if (outlines === null) return 'There is no outline';
     const { ANSWERS, filmPairs, Viewing } = await fetchPart(() => import('../viewing/viewing.js'));
-    const pairs = filmPairs(this.host.wisp, model, outlines, ANSWERS);
+    const pairs = filmPairs(this.app.wisp, model, outlines, ANSWERS);
     if (pairs.length < 5) return 'The film is too short for it';
     new Viewing(pairs, { model: file, from: 'the film that it learned from' });
     return 'Answered';
   }
 
   private showResult(): void {
-    const { session, host } = this;
+    const { session, app, door } = this;
     const thing = thingOf(session);
     const { learned } = session;
     const take = session.takes.at(-1);
@@ -464,16 +459,16 @@ export class Room {
     const { outlines } = take;
     this.stepTo('blow', thing);
     if (outlines !== null && thing === 'flame') this.showFlame(take, outlines, learned.model);
-    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured), ...(thing === 'fall' ? fallsPlayed(host.wisp, learned.model, take.captured) : [])])));
+    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured), ...(thing === 'fall' ? fallsPlayed(app.wisp, learned.model, take.captured) : [])])));
     const file = `${sessionName(session)}.wisp`;
     this.showPanel(
       resultPanel(session, {
-        blow: () => void host.blow(file, learned.model).catch((error: unknown) => host.say(wordsOf(error))),
+        blow: () => void door.blow(file, learned.model).catch((error: unknown) => this.say(wordsOf(error))),
         compare: () => this.compare(outlines, learned.model, file),
         more: () => this.gather(),
         anew: () => this.anew(),
         again: (change) => this.learnAgain(change),
-        film: (kind) => host.film(file, learned.model, kind),
+        film: (kind) => door.film(file, learned.model, kind),
         make: (format) => this.make(format, learned.model),
         small: async () => (await this.learned(session, { paper: LINK_ORDER })).model,
       }),
@@ -492,12 +487,12 @@ export class Room {
   }
 
   private showFlame(take: Take, outlines: Outlines, model: Uint8Array): void {
-    const { host } = this;
+    const { wisp } = this.app;
     this.traces.fill(outlines);
-    this.duet = new Duet(host.wisp, take, outlines, model, (share) => this.traces.mark(share));
+    this.duet = new Duet(wisp, take, outlines, model, (share) => this.traces.mark(share));
     this.duet.loop.start();
     this.showLeft(this.duet.place);
-    this.below.replaceChildren(this.traces.place, new Strip(host.wisp, take, outlines, model).place);
+    this.below.replaceChildren(this.traces.place, new Strip(wisp, take, outlines, model).place);
   }
 
   private learnAgain(change: Partial<Recipe>): void {
@@ -535,7 +530,7 @@ export class Room {
         }),
       );
     } catch (error) {
-      this.host.say(wordsOf(error));
+      this.say(wordsOf(error));
     }
   }
 
@@ -553,7 +548,7 @@ export class Room {
         this.keep(take);
       }
     } catch (error) {
-      this.host.say(wordsOf(error));
+      this.say(wordsOf(error));
     }
   }
 }

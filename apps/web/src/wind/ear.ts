@@ -1,6 +1,6 @@
 // The page's microphone: opened by pressing Blow, used for wind only, and released by the next press.
 
-import type { Library } from '@wisp/player';
+import type { App } from '../app.js';
 import { MicrophoneError, openMicrophone, type Microphone, type MicrophoneTrouble, type Wind } from '@wisp/player/microphone';
 import type { Hearing } from '../panel/controls.js';
 
@@ -35,15 +35,10 @@ const HISS =
 
 const STEADY = 'It has become louder here: a fan, rain or an engine may pass for breath. ';
 
-export interface EarEvents {
-  wind(wind: number): void;
-  /** an error as a sentence for people */
-  trouble(words: string): void;
-  /** the microphone was closed, for any reason */
-  ended(): void;
-  /** tuning would help: reported at most once, with the reason */
-  untuned(why: 'too hard' | 'too easy'): void;
-}
+const UNTUNED = {
+  'too hard': 'Blow after blow, and it burns on. It can be tuned to your breath and this microphone.',
+  'too easy': 'This microphone is very sensitive: a soft breath may pass for a hard one. It can be tuned to your breath.',
+} as const;
 
 /** Requests of a guided calibration. */
 export type Asked = Parameters<Microphone['calibrate']>[0];
@@ -96,11 +91,7 @@ export class Ear {
   /** incremented by openings: one closed before permission is abandoned */
   private turn = 0;
 
-  constructor(
-    private readonly wisp: Library,
-    private readonly events: EarEvents,
-    private readonly overlay: boolean,
-  ) {}
+  constructor(private readonly app: App) {}
 
   /** Strength of breath, 0 to 1. */
   get level(): number {
@@ -113,7 +104,7 @@ export class Ear {
     const turn = ++this.turn;
     this.state = 'asking';
     try {
-      const microphone = await openMicrophone(this.wisp, {
+      const microphone = await openMicrophone(this.app.wisp, {
         ...(this.known === null ? {} : { calibration: this.known }),
         ...(this.device === undefined ? {} : { deviceId: this.device }),
         onWind: (frame) => {
@@ -129,7 +120,7 @@ export class Ear {
         onAsleep: (asleep) => {
           if (this.state !== 'off') this.state = asleep ? 'asleep' : 'listening';
           if (asleep) this.wind = this.heard = 0;
-          if (asleep) this.events.ended();
+          if (asleep) this.app.breath.deafen();
         },
         onLost: (error) => this.fail(error),
       });
@@ -140,7 +131,7 @@ export class Ear {
       this.microphone = microphone;
       this.state = 'listening';
       if (!microphone.raw) {
-        this.events.trouble('This browser or system smooths the sound of the microphone: blow a little harder.');
+        this.app.notices.say('This browser or system smooths the sound of the microphone: blow a little harder.');
       }
     } catch (error) {
       if (turn === this.turn) this.fail(error);
@@ -172,14 +163,14 @@ export class Ear {
     this.wind = 0;
     this.heard = 0;
     this.answered(false);
-    this.events.ended();
+    this.app.breath.deafen();
   }
 
   /** During a guided calibration, sound does not blow. */
   tune(on: boolean): void {
     this.tuning = on;
     this.offered = true;
-    if (on) this.events.ended();
+    if (on) this.app.breath.deafen();
   }
 
   /** Listens for one step of the calibration; returns whether it was heard. False when the microphone is off. */
@@ -213,7 +204,7 @@ export class Ear {
     if (this.stepped.length > 10 * READY) this.stepped.splice(0, READY);
     this.heard = confidence > 0.5 ? speed : 0;
     this.wind = this.tuning ? 0 : Math.max(frame.wind, this.byLoudness(frame));
-    if (!this.tuning) this.events.wind(this.wind);
+    if (!this.tuning) this.app.breath.hear(this.wind, this.app.stage.frames);
   }
 
   /** Whether sound above the quiet level may be taken for the requested blow. */
@@ -222,7 +213,7 @@ export class Ear {
     const rose = loud > RISES[this.asked] * Math.max(SILENT, Math.min(this.quiet, shareOf(this.stepped, 0.1)));
     if (rose && this.tuning && this.asked === 'blow hard') {
       this.plain = loud;
-      this.events.trouble(HISS);
+      this.app.notices.say(HISS);
     }
     return rose && this.tuning;
   }
@@ -245,20 +236,21 @@ export class Ear {
     else if (wind < BLOW.to) this.blowing = false;
   }
 
-  private offer(why: 'too hard' | 'too easy'): void {
+  /** Offers tuning, at most once. */
+  private offer(why: keyof typeof UNTUNED): void {
     this.offered = true;
-    this.events.untuned(why);
+    this.app.notices.say(UNTUNED[why], { words: 'Tune it to my breath', accept: () => this.app.parts?.tuning.open() });
   }
 
   /** Says once that a steady sound has begun since the room's level was learned. */
   private watchRoom(rise: number): void {
-    if (rise >= LOUDER && !this.louder) this.events.trouble(`${STEADY}${this.overlay ? 'Load this page again' : 'Press Blow twice'}, and I take it for the room.`);
+    if (rise >= LOUDER && !this.louder) this.app.notices.say(`${STEADY}${this.app.overlay ? 'Load this page again' : 'Press Blow twice'}, and I take it for the room.`);
     this.louder = rise >= LOUDER;
   }
 
   private fail(error: unknown): void {
     this.close();
     const trouble = error instanceof MicrophoneError ? error.trouble : 'failed';
-    this.events.trouble(((this.overlay && IN_OVERLAY[trouble]) || WORDS[trouble]) + ELSE);
+    this.app.notices.say(((this.app.overlay && IN_OVERLAY[trouble]) || WORDS[trouble]) + ELSE);
   }
 }

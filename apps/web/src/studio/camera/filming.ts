@@ -1,12 +1,13 @@
 // Filming with the camera: a preview, then half a minute with instructions.
 
-import type { Captured, LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
+import type { LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
 import { button, drawing, element } from '../../panel/element.js';
 import { Camera, KEPT_RATE, smallPicture } from './camera.js';
 import { wallField } from '../panels/rate.js';
 import { FallCount, Guide, hintOf, hintOfFalls } from './guide.js';
 import { around, Reel } from '../reel.js';
 import type { Viewer } from '../pictures/viewer.js';
+import type { Room } from '../room.js';
 
 /** Milliseconds between updates of the instructions. */
 const LOOK = 100;
@@ -17,22 +18,6 @@ const DARKER_EVERY = 900;
 /** Milliseconds without a picture after which filming ends. */
 const GIVES_UP = 6000;
 const ASLEEP = 'No picture comes from the camera: a call or another program may have it. It goes on when it is free.';
-
-export interface FilmingEvents {
-  /** filming succeeded */
-  done(captured: Captured, reel: Reel, settings: PictureSettings): void;
-  /** filming gave nothing usable; a sentence says why */
-  failed(words: string): void;
-  /** filming begins */
-  began(): void;
-  /** findings during filming, and loudness from 0 to 1; null: no microphone */
-  seen(seen: Seen, loud: number | null): void;
-  /** a message during filming */
-  say(words: string): void;
-  /** message for screen readers only */
-  announce(words: string): void;
-  cancelled(): void;
-}
 
 const ADVICE = {
   flame: 'One flame before something dark, large in the picture; the camera lies still, the microphone near. It takes half a minute:',
@@ -74,15 +59,15 @@ export class Filming {
   };
 
   /** Opens the camera, and for a flame the microphone. Throws a CameraTrouble with a sentence for people. */
-  static async open(studio: Studio, viewer: Viewer, falls: boolean, events: FilmingEvents): Promise<Filming> {
+  static async open(studio: Studio, viewer: Viewer, falls: boolean, room: Room): Promise<Filming> {
     let filming: Filming | null = null;
     const happens = {
       lost: () => filming?.lose(),
-      deaf: () => events.say('The microphone is gone: from here on the wind is not heard.'),
+      deaf: () => room.say('The microphone is gone: from here on the wind is not heard.'),
       loud: (level: number) => filming?.showLevel(level),
     };
     const camera = await Camera.open(happens, !falls);
-    filming = new Filming(studio, viewer, camera, falls, events);
+    filming = new Filming(studio, viewer, camera, falls, room);
     return filming;
   }
 
@@ -91,7 +76,7 @@ export class Filming {
     private readonly viewer: Viewer,
     private readonly camera: Camera,
     private readonly falls: boolean,
-    private readonly events: FilmingEvents,
+    private readonly room: Room,
   ) {
     this.settings = falls ? { looks_for: 'falls' } : {};
     this.guide = this.newGuide();
@@ -126,7 +111,7 @@ export class Filming {
   private fill(): void {
     const back = (): void => {
       this.close();
-      this.events.cancelled();
+      this.room.filmed(null);
     };
     const meter = element('div', { class: 'level', 'aria-hidden': 'true' }, this.level);
     for (const [name, words, seconds] of this.guide.plan) this.plan.append(element('li', { 'data-plan': name }, element('span', {}, words), element('small', {}, `${seconds} s`)));
@@ -166,7 +151,7 @@ export class Filming {
     this.state = 'filming';
     const said = await this.camera.lock();
     // Falling objects are detected by position, not by brightness, and the words would cover them.
-    if (said !== '' && !this.falls) this.events.say(said);
+    if (said !== '' && !this.falls) this.room.say(said);
     if (this.state !== 'filming') return;
     this.live?.cancel();
     this.reel = new Reel(1 / KEPT_RATE);
@@ -174,7 +159,7 @@ export class Filming {
     this.count = new FallCount();
     this.live = this.studio.live('camera', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
     this.camera.feed(this.live);
-    if (!this.falls) this.events.began();
+    if (!this.falls) this.room.traceLive();
     this.began = performance.now();
     this.word.textContent = 'Stop';
     this.button.classList.add('live');
@@ -187,7 +172,7 @@ export class Filming {
     this.viewer.show(seen);
     if (this.state !== 'filming') return;
     if (this.falls) this.count.see(seen, (performance.now() - this.began) / 1000);
-    else this.events.seen(seen, this.hears ? this.loud : null);
+    else this.room.traces.add(seen, this.hears ? this.loud : null);
   }
 
   private tick(): void {
@@ -213,7 +198,7 @@ export class Filming {
     this.ring.style.strokeDasharray = `${Math.round(100 * share)} 100`;
     this.viewer.say(words);
     for (const item of this.plan.children) item.toggleAttribute('aria-current', (item as HTMLElement).dataset.plan === act);
-    if (words !== this.act) this.events.announce(words);
+    if (words !== this.act) this.room.announce(words);
     this.act = words;
     if (act === 'done') this.finish('');
     else this.keepPicture(seconds);
@@ -247,7 +232,7 @@ export class Filming {
     if (this.state === 'filming') this.finish('The camera is gone; what was filmed till then is kept.');
     else if (this.state === 'looking') {
       this.close();
-      this.events.failed('The camera is gone. Plug it in, or choose a film from your phone.');
+      this.room.notFilmed('The camera is gone. Plug it in, or choose a film from your phone.');
     }
   }
 
@@ -260,16 +245,16 @@ export class Filming {
     this.word.textContent = 'One moment';
     this.button.classList.add('small-word');
     this.viewer.say('');
-    if (said !== '') this.events.say(said);
+    if (said !== '') this.room.say(said);
     live.finish().then(
       (captured) => {
         this.close();
-        this.events.done(captured, reel, settings);
+        this.room.filmed({ captured, reel, settings });
       },
       (error: unknown) => {
         this.close();
         reel.close();
-        this.events.failed(error instanceof Error ? error.message : String(error));
+        this.room.notFilmed(error instanceof Error ? error.message : String(error));
       },
     );
   }

@@ -8,12 +8,13 @@ export type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
 /** Subject: a flame with or without sound, or falling objects. */
 export type Filmed = 'flame' | 'mute flame' | 'falls';
 
-/** Seconds of each action. Without sound, blowing is left out. */
-const STILL = 4;
-const BLOW = 16;
-const OUT = 9;
-const STILL_ALONE = 20;
-const DROPS = 60;
+/** Actions of each subject, with their words and maximum seconds. Without sound, blowing is left out. */
+const PLANS: Readonly<Record<Filmed, readonly (readonly [act: Act, words: string, seconds: number])[]>> = {
+  falls: [['drop', 'Drop it, let it land, and again', 60]],
+  'mute flame': [['still', 'Hold still, let it flicker', 20]],
+  flame: [['still', 'Hold still, let it burn alone', 4], ['blow', 'Blow softly from the side, with pauses', 16], ['out', 'Blow it out', 9]],
+};
+
 /** Seconds without a flame, during blowing out, after which it counts as extinguished. */
 const IS_OUT = 1.2;
 /** Seconds of a breath with its rest, and the part that is breath. */
@@ -30,43 +31,35 @@ export interface Moment {
 }
 
 export class Guide {
+  readonly plan: (typeof PLANS)[Filmed];
   private gone = 0;
   private last = 0;
 
-  constructor(private readonly filmed: Filmed) {}
-
-  /** All actions, with the maximum seconds of each. */
-  get plan(): readonly (readonly [Act, string, number])[] {
-    if (this.filmed === 'falls') return [['drop', 'Drop it, let it land, and again', DROPS]];
-    if (this.filmed === 'mute flame') return [['still', 'Hold still, let it flicker', STILL_ALONE]];
-    return [
-      ['still', 'Hold still, let it burn alone', STILL],
-      ['blow', 'Blow softly from the side, with pauses', BLOW],
-      ['out', 'Blow it out', OUT],
-    ];
+  constructor(private readonly filmed: Filmed) {
+    this.plan = PLANS[filmed];
   }
 
   /** Action at a number of seconds after the start. `falls`: number of falls seen so far. */
   at(seconds: number, state: Seen['state'] | null, falls = 0): Moment {
     const passed = seconds - this.last;
     this.last = seconds;
-    if (this.filmed === 'falls') {
-      return { act: seconds >= DROPS ? 'done' : 'drop', words: wordsOfFalls(falls), share: Math.min(1, seconds / DROPS) };
+    let act: Act = 'still';
+    let [begun, end] = [0, 0];
+    for (const [name, , lasts] of this.plan) {
+      if (seconds >= end) [act, begun] = [name, end];
+      end += lasts;
     }
-    if (this.filmed === 'mute flame') {
-      const done = seconds >= STILL_ALONE;
-      return { act: done ? 'done' : 'still', words: 'Hold still. Let it flicker', share: Math.min(1, seconds / STILL_ALONE) };
-    }
-    const share = Math.min(1, seconds / (STILL + BLOW + OUT));
-    if (seconds < STILL) return { act: 'still', words: 'Hold still. Let it burn alone', share };
-    if (seconds < STILL + BLOW) {
-      const on = seconds - STILL;
-      const breath = BREATHS[Math.floor(on / ROUND) % BREATHS.length] as string;
-      return { act: 'blow', words: on % ROUND < BREATH ? breath : 'And let it stand up again', share };
-    }
-    this.gone = state === 'gone' ? this.gone + passed : 0;
-    const done = this.gone >= IS_OUT || seconds >= STILL + BLOW + OUT;
-    return { act: done ? 'done' : 'out', words: 'Now blow it out!', share };
+    this.gone = act === 'out' && state === 'gone' ? this.gone + passed : 0;
+    const done = this.gone >= IS_OUT || seconds >= end;
+    return { act: done ? 'done' : act, words: this.wordsOf(act, seconds - begun, falls), share: Math.min(1, seconds / end) };
+  }
+
+  /** Words for an action since some seconds. */
+  private wordsOf(act: Act, seconds: number, falls: number): string {
+    if (act === 'drop') return wordsOfFalls(falls);
+    if (act === 'out') return 'Now blow it out!';
+    if (act === 'still') return this.filmed === 'flame' ? 'Hold still. Let it burn alone' : 'Hold still. Let it flicker';
+    return seconds % ROUND < BREATH ? (BREATHS[Math.floor(seconds / ROUND) % BREATHS.length] as string) : 'And let it stand up again';
   }
 }
 

@@ -7,7 +7,6 @@ uniform vec3 uEye;
 uniform float uClock;
 out vec4 colour;
 
-const vec3 kMist = vec3(0.93, 0.80, 0.60);
 
 vec3 air(vec2 at) {
   vec3 low = vec3(0.96, 0.81, 0.57);
