@@ -207,12 +207,10 @@ export class App {
     });
   }
 
-  toggleSenses(): boolean {
+  toggleSenses(): void {
     const senses = this.parts?.senses;
     senses?.toggle();
-    const on = senses?.on === true;
-    this.parts?.drawer.showSenses(on);
-    return on;
+    this.parts?.drawer.showSenses(senses?.on === true);
   }
 
   pause(): void {

@@ -55,11 +55,7 @@ export function openDropped(app: App, { files, entries }: Dropped): void {
     return;
   }
   readDropped(file)
-    .then((bytes) =>
-      app.player.playFile(file.name, bytes).catch((error: unknown) => {
-        throw refusalOf(file.name, error);
-      }),
-    )
+    .then((bytes) => app.player.playFile(file.name, bytes))
     .then(() => {
       door?.leave();
       app.notices.say(`Playing ${file.name}.`);

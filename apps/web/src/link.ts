@@ -1,6 +1,6 @@
 // The part of a link after its #: scene, seed and settings, which are stored nowhere else.
 
-import { figuresOf, MAX_CANDLES } from '@wisp/player/parts/candle/room';
+import { MAX_CANDLES } from '@wisp/player/parts/candle/room';
 import { MAX_LEAVES } from '@wisp/player/parts/leaves/limits';
 
 export type SceneName = 'candle' | 'leaves';
@@ -78,9 +78,6 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
 
 /** Whether a transparent overlay is requested, for films and other people's pictures. */
 export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
-
-/** Scene options from the settings. */
-export const shownOf = ({ age, name, wish }: Readonly<Settings>): { figures: string; name: string; wish: string } => ({ figures: age > 0 ? figuresOf(String(age)) : '', name, wish });
 
 /**
  * Shortest link from its # on with these settings. `own`: this visitor's initial settings, since personal preferences

@@ -2,8 +2,9 @@
 
 import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
+import { figuresOf } from '@wisp/player/parts/candle/room';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
-import { shownOf, type SceneName, type Settings } from './link.js';
+import type { SceneName, Settings } from './link.js';
 import { fetchShipped, FLAME, LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
@@ -88,8 +89,8 @@ export class Player {
   }
 
   private sceneSettings(tab: SceneName | null): SceneSettings {
-    const { seed, noise, candles, leaves } = this.settings;
-    return { seed, noise, count: tab === 'leaves' ? leaves : candles, ...shownOf(this.settings) };
+    const { seed, noise, candles, leaves, age, name, wish } = this.settings;
+    return { seed, noise, count: tab === 'leaves' ? leaves : candles, figures: age > 0 ? figuresOf(String(age)) : '', name, wish };
   }
 
   private async play(bytes: Uint8Array, file: string, shipped: boolean, turn: number): Promise<void> {

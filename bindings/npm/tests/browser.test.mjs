@@ -7,7 +7,8 @@ import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
 import { executablePath, furnish, models, pack, quiet, serve, skip, until, watched, wavOf } from './chromium.mjs';
-import { Chance } from './lives.mjs';
+import { load } from '../dist/index.js';
+import { Chance, hashOfLife } from './lives.mjs';
 
 /** Two seconds of a room, two of blowing, as a WAV file. */
 function writeBreath(path) {
@@ -65,8 +66,6 @@ describe('in Chromium', { skip }, () => {
   // 1000 frames, so that the whole of the check in Node.js is not done again; the hash is what Node.js finds.
   for (const name of ['plain', 'vite']) {
     test(`a page made with ${name} plays with the bits that Node.js has, in a worker too`, async (t) => {
-      const { load } = await import('../dist/index.js');
-      const { hashOfLife } = await import('./lives.mjs');
       const expected = hashOfLife(await load(), readFileSync(join(models, 'leaf.wisp')), 1000);
       const page = await open(browser, name, []);
       const started = await page.evaluate("page.start('models/flame.wisp')");

@@ -11,16 +11,6 @@ let canvas: OffscreenCanvas | null = null;
 /** Reused buffer for a frame's planes, which avoids a megabyte of garbage per frame. */
 let room = new Uint8Array(0);
 
-/** Contents of a canvas as packed colours. */
-function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderingContext2D) => void): RawPicture {
-  if (canvas === null || canvas.width !== width || canvas.height !== height) canvas = new OffscreenCanvas(width, height);
-  const on = canvas.getContext('2d', { willReadFrequently: true })!;
-  draw(on);
-  const data = new Uint8Array(on.getImageData(0, 0, width, height).data.buffer);
-  const planes = [0, 1, 2].map((offset) => ({ offset, stride: 4 * width, step: 4 }));
-  return { layout: 'rgb', width, height, data, planes };
-}
-
 /**
  * Which of the two sets of weights made luma and colour differences. A film that states none is BT.601, as in the program
  * (src/capture/media/frame_picture.cpp), whatever the browser guesses from its size: `stated` is what its file says,
@@ -72,24 +62,19 @@ function turned(picture: RawPicture, quarters: number): RawPicture {
   return { ...picture, width: sideways ? height : width, height: sideways ? width : height, data: out, planes, shiftX: sideways ? shiftY : shiftX, shiftY: sideways ? shiftX : shiftY };
 }
 
-function redrawn(frame: VideoFrame, width: number, height: number, turn: number): RawPicture {
+/** A picture drawn to a canvas, reduced where it is large, as packed colours. */
+function redrawn(shown: VideoFrame | ImageBitmap, width: number, height: number, turn: number): RawPicture {
   const share = Math.min(1, Math.sqrt(MAX_PIXELS / (width * height)));
   const [wide, tall] = [Math.round(width * share), Math.round(height * share)];
-  const sideways = turn % 180 !== 0;
-  const [shownWidth, shownHeight] = sideways ? [tall, wide] : [wide, tall];
-  return drawn(shownWidth, shownHeight, (on) => {
-    on.setTransform(1, 0, 0, 1, shownWidth / 2, shownHeight / 2);
-    on.rotate((turn * Math.PI) / 180);
-    on.drawImage(frame, -wide / 2, -tall / 2, wide, tall);
-  });
+  const [across, down] = turn % 180 === 0 ? [wide, tall] : [tall, wide];
+  if (canvas === null || canvas.width !== across || canvas.height !== down) canvas = new OffscreenCanvas(across, down);
+  const on = canvas.getContext('2d', { willReadFrequently: true })!;
+  on.setTransform(1, 0, 0, 1, across / 2, down / 2);
+  on.rotate((turn * Math.PI) / 180);
+  on.drawImage(shown, -wide / 2, -tall / 2, wide, tall);
+  const data = new Uint8Array(on.getImageData(0, 0, across, down).data.buffer);
+  return { layout: 'rgb', width: across, height: down, data, planes: [0, 1, 2].map((offset) => ({ offset, stride: 4 * across, step: 4 })) };
 }
 
 /** A still picture. */
-export function rawOfBitmap(bitmap: ImageBitmap): RawPicture {
-  const share = Math.min(1, Math.sqrt(MAX_PIXELS / (bitmap.width * bitmap.height)));
-  const [width, height] = [Math.round(bitmap.width * share), Math.round(bitmap.height * share)];
-  return drawn(width, height, (on) => {
-    on.setTransform(1, 0, 0, 1, 0, 0);
-    on.drawImage(bitmap, 0, 0, width, height);
-  });
-}
+export const rawOfBitmap = (bitmap: ImageBitmap): RawPicture => redrawn(bitmap, bitmap.width, bitmap.height, 0);

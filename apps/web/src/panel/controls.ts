@@ -2,19 +2,14 @@
 
 import type { App } from '../app.js';
 import { MAX_CANDLES, MAX_LEAVES, type SceneName, type Settings } from '../link.js';
-import { byId, element } from './element.js';
-
-/** Scenes with a tab. A new scene needs a line here and one in player.ts. */
-const SCENES: readonly { name: SceneName; title: string }[] = [
-  { name: 'candle', title: 'Candle' },
-  { name: 'leaves', title: 'Leaves' },
-];
+import { byId } from './element.js';
 
 /** State of the microphone. */
 export type Hearing = 'off' | 'asking' | 'listening' | 'asleep';
 
 export class Controls {
-  private readonly tabs = new Map<SceneName, HTMLButtonElement>();
+  /** of the scenes; a new one needs a button in index.html and a line in player.ts */
+  private readonly tabs = [...byId('scenes', HTMLElement).querySelectorAll('button')];
   private readonly count = byId('count', HTMLInputElement);
   private readonly countName = byId('count-name', HTMLSpanElement);
   private readonly countShown = byId('count-shown', HTMLOutputElement);
@@ -28,12 +23,7 @@ export class Controls {
   private shownLevel = -1;
 
   constructor(private readonly app: App) {
-    const place = byId('scenes', HTMLElement);
-    for (const { name, title } of SCENES) {
-      const button = element('button', { type: 'button', 'data-scene': name, click: () => app.change({ scene: name }) }, title);
-      this.tabs.set(name, button);
-      place.append(button);
-    }
+    for (const button of this.tabs) button.addEventListener('click', () => app.change({ scene: button.dataset.scene as SceneName }));
     this.count.addEventListener('input', () => app.change(this.counted(this.count.valueAsNumber)));
     this.blow.addEventListener('click', () => app.toggleMicrophone());
     this.act.addEventListener('click', () => app.act());
@@ -42,7 +32,7 @@ export class Controls {
   /** Shows the selected tab, and the number of candles or leaves. */
   show(tab: SceneName | null, settings: Readonly<Settings>): void {
     this.tab = tab;
-    for (const [name, button] of this.tabs) button.setAttribute('aria-current', String(name === tab));
+    for (const button of this.tabs) button.setAttribute('aria-current', String(button.dataset.scene === tab));
     const leaves = tab === 'leaves';
     (this.count.closest('label') as HTMLElement).hidden = tab === null;
     this.countName.textContent = leaves ? 'Leaves' : 'Candles';

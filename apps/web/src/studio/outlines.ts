@@ -29,7 +29,6 @@ export class Outlines {
   private readonly xs: Float64Array[] = [];
   private readonly ys: Float64Array[] = [];
   private readonly spline: Spline;
-  private readonly control: Float64Array;
 
   /** Null for recordings of other things. */
   static of(captured: Captured): Outlines | null {
@@ -50,7 +49,6 @@ export class Outlines {
     this.points = this.xs.length;
     this.wind = series.find(({ role }) => role === 'input')?.samples ?? null;
     this.spline = new Spline(this.points, knotsOf(captured.csv) ?? evenKnots(this.points));
-    this.control = new Float64Array(2 * this.points);
     const last = this.points - 1;
     const middle = (columns: readonly Float64Array[], row: number): number =>
       ((columns[0]?.[row] as number) + (columns[last]?.[row] as number)) / 2;
@@ -69,19 +67,10 @@ export class Outlines {
     this.bounds = this.boundsOf(tops);
   }
 
-  get samples(): number {
-    return this.spline.samples;
-  }
-
-  /** Outline of a row in pixels, x and y alternating; false where there is none. */
-  line(row: number, into: Float32Array): boolean {
-    for (let k = 0; k < this.points; ++k) {
-      this.control[2 * k] = this.xs[k]?.[row] ?? NaN;
-      this.control[2 * k + 1] = this.ys[k]?.[row] ?? NaN;
-    }
-    if (!this.control.every(Number.isFinite)) return false;
-    this.spline.draw(this.control, into);
-    return true;
+  /** Outline of a row in pixels, x and y alternating; null where there is none. */
+  line(row: number): Float32Array | null {
+    const control = this.xs.flatMap((x, k) => [x[row] ?? NaN, this.ys[k]?.[row] ?? NaN]);
+    return control.every(Number.isFinite) ? this.spline.draw(control) : null;
   }
 
   private boundsOf(tops: readonly number[]): Region {

@@ -290,8 +290,8 @@ export class Room {
   /** Shows a moment near the middle of a camera's film, which is not kept, with its outline. */
   private showStill({ reel }: Take, outlines: Outlines): void {
     const kept = reel.at(0.4 * (outlines.rows / outlines.rate));
-    const line = new Float32Array(2 * outlines.samples);
-    if (kept !== null && outlines.line(Math.round(kept.seconds * outlines.rate), line)) this.viewer.still(kept, line);
+    const line = kept === null ? null : outlines.line(Math.round(kept.seconds * outlines.rate));
+    if (kept !== null && line !== null) this.viewer.still(kept, line);
   }
 
   leaveOut(take: Take): void {
@@ -462,7 +462,7 @@ export class Room {
     else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured), ...(thing === 'fall' ? fallsPlayed(app.wisp, learned.model, take.captured) : [])])));
     const file = `${sessionName(session)}.wisp`;
     this.showPanel(
-      resultPanel(session, {
+      resultPanel(session, learned, {
         blow: () => void door.blow(file, learned.model).catch((error: unknown) => this.say(wordsOf(error))),
         compare: () => this.compare(outlines, learned.model, file),
         more: () => this.gather(),

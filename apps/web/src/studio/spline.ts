@@ -27,12 +27,13 @@ export class Spline {
   private readonly weights: readonly Float64Array[];
 
   /** `samples`: number of points of the drawn line. */
-  constructor(points: number, knots: readonly number[], readonly samples = 56) {
+  constructor(points: number, knots: readonly number[], samples = 56) {
     this.weights = Array.from({ length: samples }, (_, k) => weightsAt(knots, points, k / (samples - 1)));
   }
 
   /** The line of control points; both with x and y alternating. */
-  draw(control: ArrayLike<number>, line: Float32Array): void {
+  draw(control: ArrayLike<number>): Float32Array {
+    const line = new Float32Array(2 * this.weights.length);
     this.weights.forEach((weights, k) => {
       let x = 0;
       let y = 0;
@@ -43,5 +44,6 @@ export class Spline {
       line[2 * k] = x;
       line[2 * k + 1] = y;
     });
+    return line;
   }
 }

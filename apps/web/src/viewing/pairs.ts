@@ -73,11 +73,7 @@ export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): 
   const points = (clips[0]?.outlines[0]?.length ?? 0) / 2;
   const spline = new Spline(points, evenKnots(points), POINTS);
   const made = shuffled([...clips.entries()]).slice(0, many).map(([k, { wind, outlines }], seed) => {
-    const lines = outlines.map((control) => {
-      const line = new Float32Array(2 * POINTS);
-      spline.draw(control.map((value) => value / 1000), line);
-      return line;
-    });
+    const lines = outlines.map((control) => spline.draw(control.map((value) => value / 1000)));
     return pairOf(model, { name: `rig ${k + 1}`, filmed: { rate: shown, outlines: lines }, wind: wind.map((one) => one / 1000), rate, before: before * rate }, seed + 1);
   });
   model.free();
@@ -88,14 +84,13 @@ export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): 
 export function filmPairs(wisp: Library, bytes: Uint8Array, film: Outlines, many: number): Pair[] {
   const model = wisp.model(bytes);
   const rows = Math.round(SECONDS * film.rate);
-  const line = new Float32Array(2 * film.samples);
-  const seen = (row: number): Float32Array | null => (film.line(row, line) ? line.map((value, k) => (k % 2 === 0 ? value - film.base.x : film.base.y - value) / film.height) : null);
+  const seen = (row: number): Float32Array | undefined => film.line(row)?.map((value, k) => (k % 2 === 0 ? value - film.base.x : film.base.y - value) / film.height);
   const starts = Array.from({ length: Math.floor((2 * (film.rows - rows)) / rows) }, (_, k) => rows + Math.floor((k * rows) / 2)).filter((from) => from + rows <= film.rows);
   const made: Pair[] = [];
   for (const from of shuffled(starts)) {
     if (made.length === many) break;
     const outlines = Array.from({ length: SECONDS * SHOWN }, (_, k) => seen(from + Math.floor((k * film.rate) / SHOWN)));
-    if (outlines.some((one) => one === null)) continue;
+    if (outlines.includes(undefined)) continue;
     const stretch = { name: `${(from / film.rate).toFixed(1)} s`, filmed: { rate: SHOWN, outlines: outlines as Float32Array[] }, wind: film.wind?.slice(from - rows, from + rows) ?? null, rate: film.rate, before: rows };
     made.push(pairOf(model, stretch, made.length + 1));
   }

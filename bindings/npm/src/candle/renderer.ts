@@ -1,6 +1,6 @@
 // Draws the candle's room with WebGL2: light is accumulated in an HDR picture and tone-mapped onto the canvas.
 
-import { drawToCanvas, hasRange, Program, Quad, Target, Warming } from '../stage/gl.js';
+import { drawToCanvas, hasRange, Program, Quad, Target, warming } from '../stage/gl.js';
 import type { SceneLook } from '../stage/scene.js';
 import type { After } from './after.js';
 import type { Stirring } from './air.js';
@@ -54,7 +54,7 @@ export interface CandlePicture {
 interface Room {
   surface: Program;
   light: Program;
-  warming: Warming;
+  warm: () => boolean;
 }
 
 interface Lamp {
@@ -71,7 +71,7 @@ export class CandleRenderer {
   private readonly programs: Record<'candle' | 'flame' | 'develop', Program>;
   /** programs per setting: an empty table, and a cake once loaded */
   private readonly rooms: Partial<Record<'table' | 'cake', Room>> = {};
-  private readonly warming: Warming;
+  private readonly warm: () => boolean;
   private readonly lights = new Float32Array(4 * MAX_LIGHTS);
   private readonly halos = new Float32Array(4 * MAX_LIGHTS);
   private readonly spread = new Float32Array(MAX_LIGHTS);
@@ -98,7 +98,7 @@ export class CandleRenderer {
       flame: new Program(gl, boardVertex, noise + flameFragment),
       develop: new Program(gl, fullVertex, noise + developFragment),
     };
-    this.warming = new Warming(Object.values(this.programs));
+    this.warm = warming(Object.values(this.programs));
   }
 
   /** Draws a picture of view.width × view.height pixels. Returns false while parts are still loading. */
@@ -150,10 +150,10 @@ export class CandleRenderer {
 
   /** Programs for a setting; null while those of a cake are loading. */
   private room(setting: Setting): Room | null {
-    if (!this.warming.done()) return null;
+    if (!this.warm()) return null;
     const name = setting.cake === null ? 'table' : 'cake';
     const there = this.rooms[name];
-    if (there !== undefined) return there.warming.done() ? there : null;
+    if (there !== undefined) return there.warm() ? there : null;
     if (name === 'table') {
       this.furnish(name, table);
       return null;
@@ -173,7 +173,7 @@ export class CandleRenderer {
     const source = noise + room + onIt;
     const surface = new Program(this.gl, fullVertex, source + surfaceFragment);
     const light = new Program(this.gl, fullVertex, source + lightFragment);
-    this.rooms[name] = { surface, light, warming: new Warming([surface, light]) };
+    this.rooms[name] = { surface, light, warm: warming([surface, light]) };
   }
 
   /** Loads the parts for the time after the first picture. */
@@ -187,8 +187,7 @@ export class CandleRenderer {
   }
 
   private ready(look: SceneLook): After | null {
-    if (this.after === null || look.plain) return null;
-    return this.after.warming.done() ? this.after : null;
+    return this.after !== null && !look.plain && this.after.warm() ? this.after : null;
   }
 
   /** Adapts the exposure to the amount of light. */

@@ -19,15 +19,10 @@ export class Program {
     gl.linkProgram(this.program);
   }
 
-  /** Whether it is usable without waiting for the compiler; true where this cannot be queried. */
-  private get ready(): boolean {
-    const told = this.gl.getExtension('KHR_parallel_shader_compile');
-    return told === null || this.gl.getProgramParameter(this.program, told.COMPLETION_STATUS_KHR) !== false;
-  }
-
-  /** Whether compilation is complete and its result has been read. */
+  /** Whether compilation is complete and its result has been read. Waits where the browser does not tell of the first. */
   warm(): boolean {
-    if (this.ready) this.use();
+    const told = this.gl.getExtension('KHR_parallel_shader_compile');
+    if (told === null || this.gl.getProgramParameter(this.program, told.COMPLETION_STATUS_KHR) !== false) this.use();
     return this.checked;
   }
 
@@ -95,18 +90,12 @@ function begun(gl: WebGL2RenderingContext, kind: number, source: string): WebGLS
   return shader;
 }
 
-/** Waits for programs one per frame, as all together would delay a frame. */
-export class Warming {
-  constructor(private readonly programs: Program[]) {}
-
-  /** Checks the next program. Returns true once all are usable. */
-  done(): boolean {
-    const next = this.programs[0];
-    if (next === undefined) return true;
-    if (next.warm()) this.programs.shift();
-    return false;
-  }
-}
+/** What checks the next of these programs, as all together would delay a frame. Returns true once all are usable. */
+export const warming = (programs: Program[]) => (): boolean => {
+  const [next] = programs;
+  if (next?.warm() === true) programs.shift();
+  return next === undefined;
+};
 
 export interface Vertices {
   array: WebGLVertexArrayObject;

@@ -17,7 +17,7 @@ export function offer({ load, openMicrophone }, worker) {
       bank.spawn();
       bank.advance(1e9);
       const points = bank.polylinesView().length;
-      return { version: wisp.version, simd: wisp.simd, points, load: loaded - began, first: performance.now() - began };
+      return { simd: wisp.simd, points, load: loaded - began, first: performance.now() - began };
     },
 
     async life(model, frames) {
@@ -52,8 +52,6 @@ export function offer({ load, openMicrophone }, worker) {
 
     calibration: () => microphone.calibration(),
     strongest: () => winds.reduce((most, { wind }) => Math.max(most, wind), 0),
-    heard: () => winds.length,
-    stop: () => microphone.stop(),
   };
   window.page = page;
 }

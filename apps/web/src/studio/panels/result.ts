@@ -35,10 +35,9 @@ function titleOfMeters(thing: Thing, learned: Learned): string {
   return isHeldOut(learned.report) ? 'On seconds that it had not seen' : 'How well it fits what it was learned from';
 }
 
-/** The panel of a session with a learned model. */
-export function resultPanel(session: Session, events: ResultEvents): HTMLElement {
-  const { learned, takes, recipe } = session;
-  if (learned === null) return element('div', { class: 'panel' });
+/** The panel of a session with its learned model. */
+export function resultPanel(session: Session, learned: Learned, events: ResultEvents): HTMLElement {
+  const { takes, recipe } = session;
   const thing = thingOf(session);
   const flame = thing === 'flame';
   const { report, curves, text } = learned;
@@ -60,7 +59,7 @@ export function resultPanel(session: Session, events: ResultEvents): HTMLElement
   panel.append(
     ...list('Take care', (report.warnings ?? []).map(sentence), 'warnings'),
     ...(flame ? list('To make it better', adviceOf(takes.map(({ captured }) => captured), report), 'advice') : []),
-    takingOf(session, events),
+    takingOf(session, learned, events),
     moreOf(recipe, text, flame ? plotsOf(curves) : null, events),
     element('div', { class: 'actions' }, button('Begin anew', 'anew', () => events.anew())),
   );

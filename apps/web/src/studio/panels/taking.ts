@@ -1,6 +1,6 @@
 // Export of results: model, recording, link, tag for a page, short film, files for other tools.
 
-import type { ExportSettings } from '@wisp/studio';
+import type { ExportSettings, Learned } from '@wisp/studio';
 import { MAX_PACKED_BYTES, packModel } from '../../model_link.js';
 import { element } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
@@ -32,12 +32,10 @@ export interface TakingEvents {
 export const nameInC = (name: string): string => name.normalize('NFKD').replace(/\W+/g, '_').replace(/^(?=\d)|^_+/, 'wisp_');
 
 /** The export buttons. */
-export function takingOf(session: Session, events: TakingEvents): HTMLElement {
-  const { learned, takes } = session;
-  if (learned === null) return element('div');
+export function takingOf(session: Session, { model }: Learned, events: TakingEvents): HTMLElement {
+  const { takes } = session;
   const name = sessionName(session);
   const thing = thingOf(session);
-  const { model } = learned;
   const outputs = outputsOf(session).length;
   const save = telling('The model', 'wisp', '', () => saveFile(new Blob([model.slice()], { type: 'application/octet-stream' }), `${name}.wisp`));
   const recordings = telling(takes.length > 1 ? 'The recordings' : 'The recording', 'recording', '', () => {

@@ -27,7 +27,6 @@ export class Duet {
   private readonly flame = element('canvas', { role: 'img', 'aria-label': 'The flame that learned from it, in the same wind' });
   private readonly video = element('video', { muted: true, playsinline: true, loop: true });
   private readonly play: Play;
-  private readonly outline: Float32Array;
   private readonly part: Region;
   private readonly address: string | null;
   private filmed = false;
@@ -45,7 +44,6 @@ export class Duet {
     private readonly moved: (share: number) => void,
   ) {
     this.play = new Play(wisp, outlines, model);
-    this.outline = new Float32Array(2 * outlines.samples);
     this.part = partOf(outlines);
     this.place.append(
       element('figure', {}, this.film, element('figcaption', {}, 'Your film')),
@@ -119,11 +117,12 @@ export class Duet {
       const kept = this.take.reel.at(row / this.outlines.rate);
       if (kept !== null) drawKept(context, kept, fit);
     }
-    if (!this.outlines.line(row, this.outline)) return;
+    const line = this.outlines.line(row);
+    if (line === null) return;
     context.lineJoin = 'round';
     context.strokeStyle = 'rgb(127 227 255 / 75%)';
     context.lineWidth = 1.5;
-    trace(context, this.outline, fit);
+    trace(context, line, fit);
     context.stroke();
   }
 

@@ -76,8 +76,8 @@ export class Strip {
     this.inside(context, cell, (fit) => {
       const kept = this.take.reel.at(row / this.outlines.rate);
       if (kept !== null) drawKept(context, kept, fit);
-      const line = new Float32Array(2 * this.outlines.samples);
-      if (!this.outlines.line(row, line)) return;
+      const line = this.outlines.line(row);
+      if (line === null) return;
       trace(context, line, fit);
       context.strokeStyle = '#7fe3ff';
       context.lineWidth = 1.2;
