@@ -61,12 +61,11 @@ function chainFacts(model: Model): Fact[] {
 function figuresOf(model: Model): HTMLElement[] {
   const { figures } = model.provenance;
   if (figures.length === 0) return [];
-  const made = element('dl', { class: 'figures' });
-  for (const { name, value } of figures) {
+  const made = figures.flatMap(({ name, value }) => {
     const { words, value: shown, good } = inWords(name, value);
-    made.append(element('dt', {}, words, ...(good === '' ? [] : [element('small', {}, `good: ${good}`)])), element('dd', {}, shown));
-  }
-  return [element('h3', {}, 'How well it does'), made];
+    return [element('dt', {}, words, ...(good === '' ? [] : [element('small', {}, `good: ${good}`)])), element('dd', {}, shown)];
+  });
+  return [element('h3', {}, 'How well it does'), element('dl', { class: 'figures' }, ...made)];
 }
 
 /** All facts, as shown in the drawer. */

@@ -5,38 +5,29 @@ const TARGET_HEIGHT = 0.93;
 const HALF_VIEW = Math.tan((0.5 * 46 * Math.PI) / 180);
 const NEAR = 0.2;
 const FAR = 30;
+const DOWN = Math.atan2(EYE[2] - TARGET_HEIGHT, -EYE[1]);
+/** Sine and cosine of the eye's pitch, downwards. */
+const PITCH = [Math.sin(DOWN), Math.cos(DOWN)] as const;
 
 export class LeafCamera {
   readonly eye = EYE;
   /** world to clip space, column-major */
   readonly matrix = new Float32Array(16);
-  /** sine and cosine of the eye's pitch (downwards) */
-  private readonly sine: number;
-  private readonly cosine: number;
+  readonly looksDown = PITCH;
   aspect = 1;
   width = 1;
   height = 1;
-
-  constructor() {
-    const down = Math.atan2(EYE[2] - TARGET_HEIGHT, -EYE[1]);
-    this.sine = Math.sin(down);
-    this.cosine = Math.cos(down);
-  }
 
   /** Half extents of the view at a distance of one metre: across and up. */
   get half(): readonly [number, number] {
     return [HALF_VIEW * this.aspect, HALF_VIEW];
   }
 
-  get looksDown(): readonly [number, number] {
-    return [this.sine, this.cosine];
-  }
-
   frame(width: number, height: number): void {
     this.width = width;
     this.height = height;
     this.aspect = width / Math.max(1, height);
-    const { sine: s, cosine: c } = this;
+    const [s, c] = PITCH;
     // Rows: right is x; up is (0, s, c); the view direction is (0, c, −s).
     const fx = 1 / (HALF_VIEW * this.aspect);
     const fy = 1 / HALF_VIEW;
@@ -52,15 +43,16 @@ export class LeafCamera {
 
   /** Half width of the view at depth y, at ground level. */
   halfWidth(y: number): number {
-    return (y - EYE[1]) * this.cosine * HALF_VIEW * this.aspect;
+    return (y - EYE[1]) * PITCH[1] * HALF_VIEW * this.aspect;
   }
 
   /** Position (x and z) shown by a pixel at depth y. */
   at(pixelX: number, pixelY: number, y: number): [number, number] {
     const across = ((2 * pixelX) / this.width - 1) * HALF_VIEW * this.aspect;
     const up = ((2 * pixelY) / this.height - 1) * HALF_VIEW;
-    const wayY = this.cosine + up * this.sine;
-    const wayZ = -this.sine + up * this.cosine;
+    const [s, c] = PITCH;
+    const wayY = c + up * s;
+    const wayZ = -s + up * c;
     const far = (y - EYE[1]) / wayY;
     return [EYE[0] + across * far, EYE[2] + wayZ * far];
   }

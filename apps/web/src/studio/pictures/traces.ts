@@ -53,19 +53,19 @@ export class Traces {
 
   /** Shows a recording. */
   fill({ wind, lean, rows, rate }: Outlines): void {
-    this.seconds = rows / rate;
-    this.marker.hidden = true;
-    this.lines = linesOf('Wind', wind, lean);
-    // A resize observer does not report an element reinserted at the same size.
-    this.draw();
+    this.show(linesOf('Wind', wind, lean), rows / rate);
   }
 
   /** Starts empty; findings are added as they arrive. */
   begin(): void {
     this.live = { lean: [], loud: [] };
-    this.lines = [];
-    this.seconds = 0;
+    this.show([], 0);
+  }
+
+  private show(lines: Line[], seconds: number): void {
+    [this.lines, this.seconds] = [lines, seconds];
     this.marker.hidden = true;
+    // A resize observer does not report an element reinserted at the same size.
     this.draw();
   }
 
