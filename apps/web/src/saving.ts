@@ -48,14 +48,14 @@ async function happen(app: App): Promise<void> {
   }
 }
 
-/** Records the picture meanwhile as a GIF. */
+/** Records these seconds as a GIF. */
 export async function saveGif(app: App): Promise<string> {
   const { gifOf } = await fetchPart(() => import('./gif.js'));
   void happen(app);
   return saveFile(await gifOf(app.stage.canvas, lasts(app)), 'wisp.gif');
 }
 
-/** Records the picture meanwhile as a film. */
+/** Records these seconds as a film. */
 export async function saveLoop(app: App): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';

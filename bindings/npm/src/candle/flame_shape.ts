@@ -50,7 +50,9 @@ export class FlameShape {
 
   /** The outline in a picture with y down: x and y alternating, in pixels, with its base at a place. */
   placed(unit: number, x: number, y: number): Float32Array {
-    return Float32Array.from({ length: 2 * this.count }, (_, k) => (k % 2 === 0 ? x + unit * (this.points[1.5 * k] as number) : y - unit * (this.points[1.5 * (k - 1) + 1] as number)));
+    const line = new Float32Array(2 * this.count);
+    for (let k = 0; k < this.count; ++k) line.set([x + unit * (this.points[3 * k] as number), y - unit * (this.points[3 * k + 1] as number)], 2 * k);
+    return line;
   }
 
   private roundBase(outline: Float32Array, height: number): void {
