@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "model/chain_rows.hpp"
 #include "model/payload.hpp"
 
 namespace wisp {

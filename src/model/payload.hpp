@@ -1,10 +1,5 @@
 #pragma once
 // A model as a FlatBuffer, and back. Shapes are checked here, contents in check().
-//
-// Rows and rates of a chain's segments are integers, stored as differences from a prediction, in Rice codes. R. F.
-// Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979. Lossless. Motion is smooth, so a row is
-// predicted by the cubic through the rows before it (a straight line or a parabola at first), and a rate by the
-// parabola through the first or last three rows.
 
 #include <cstddef>
 #include <cstdint>
@@ -39,12 +34,5 @@ wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBu
 
 /// Errors: an enumeration that this program does not know, or probabilities whose number does not fit the histories.
 Result<ChainModel> read_chain(const file::Chain& stored);
-
-/// Serialises the rows and rates of a chain.
-std::vector<std::uint8_t> packed_segments(const ChainModel& chain);
-
-/// Reads them into a chain whose other fields are set.
-/// Errors: bytes that are not of this code, too few or too many.
-Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& chain);
 
 }  // namespace wisp

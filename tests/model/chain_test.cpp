@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/hash.hpp"
-#include "model/payload.hpp"
+#include "model/chain_rows.hpp"
 #include "model/damaged_bytes.hpp"
 #include "model/sample_chain.hpp"
 #include "paths.hpp"

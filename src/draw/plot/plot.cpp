@@ -3,6 +3,7 @@
 #include <cairo-svg.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "draw/plot/plot_parts.hpp"
+#include "draw/plot/plot_scale.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
