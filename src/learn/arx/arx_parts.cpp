@@ -147,8 +147,11 @@ Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
     facts.offset.push_back(point.offset);
     facts.scale.push_back(point.scale);
   }
-  static_cast<RowCounts&>(facts) = {state.rows, state.orders.history(), state.episodes_used, state.episodes_skipped,
-                                    state.rows_left_out};
+  facts.rows = state.rows;
+  facts.first_sample = state.orders.history();
+  facts.episodes_used = state.episodes_used;
+  facts.episodes_skipped = state.episodes_skipped;
+  facts.rows_left_out = state.rows_left_out;
   return facts;
 }
 
