@@ -77,9 +77,7 @@ std::vector<float> windowed_sinc(int taps, double cutoff) {
   return rounded;
 }
 
-Turn turn_of(double share) {
-  return sin_cos((share > 0.5 ? share - 1 : share) * 2 * kPi);
-}
+Turn turn_of(double share) { return sin_cos((share > 0.5 ? share - 1 : share) * 2 * kPi); }
 
 double power_of_zero(double zero, double frequency_hz, double rate_hz) {
   const double difference = 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;

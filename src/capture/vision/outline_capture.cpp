@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "base/statistics.hpp"
-#include "capture/vision/survey.hpp"
 #include "capture/vision/candle_look.hpp"
-#include "capture/vision/film_look.hpp"
 #include "capture/vision/edge_cloud.hpp"
+#include "capture/vision/film_look.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
+#include "capture/vision/survey.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

@@ -2,7 +2,6 @@
 // One instance of a segment chain: its position in a segment, the segment's placement, and the offset by which it meets
 // its neighbours (run/chain/chain_joins.hpp).
 
-
 #include "run/chain/chain_choice.hpp"
 #include "run/chain/chain_program.hpp"
 #include "run/chain/rigid.hpp"

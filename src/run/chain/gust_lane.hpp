@@ -1,7 +1,6 @@
 #pragma once
 // Velocity change of one instance of a segment chain due to wind. Source: section 4.4 of the paper.
 
-
 #include "run/chain/chain_program.hpp"
 #include "run/chain/rigid.hpp"
 

@@ -1,6 +1,5 @@
 // The leaf's equations: what carries air, what costs energy, what the wind does.
 
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
