@@ -170,6 +170,12 @@ TEST_F(Clip, AFlameIsDrawnOnTheCandleOfItsFilm) {
     EXPECT_GT(at_pixel(0.5, 0.6)[0], 180);
     EXPECT_LT(at_pixel(0.02, 0.1)[0], 20);
   }
+  // Frames of the part are beside their own rows without being told of it again.
+  const std::string strip =
+      "validate " + at("m.wisp") + " " + at("rec.csv") + " --clip " + at("clip.mp4") + " --film-strip ";
+  ASSERT_EQ(wisp(strip + at("a.png")).status, 0);
+  ASSERT_EQ(wisp(strip + at("b.png") + " --frames 11:90").status, 0);
+  EXPECT_EQ(file_text(at("a.png")), file_text(at("b.png")));
   for (const char* flags : {" -o out.csv", " --instances 2 -o out.png", " --camera 20 -o out.png"}) {
     const Said said = wisp(run + " --clip " + at("rec.csv") + flags);
     EXPECT_EQ(said.status, 2) << flags;

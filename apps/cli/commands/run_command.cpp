@@ -354,14 +354,12 @@ Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& pl
   }
   const auto curve = curve_of(play.model);
   if (!curve) return curve.error();
-  auto recording = Result<Recording>(Recording());
-  if (is_table(path)) {
-    recording = read_csv(path);
-  } else {
+  const auto captured_from = [&]() -> Result<Recording> {
+    if (is_table(path)) return read_csv(path);
     auto captured = capture(path, {.curve = *curve}, terminal.progress());
-    if (!captured) return captured.error();
-    recording = std::move(captured->recording);
-  }
+    return captured ? std::move(captured->recording) : Result<Recording>(captured.error());
+  };
+  const auto recording = captured_from();
   if (!recording) return recording.error();
   constexpr int kHeight = 720;
   auto film = filmed_flame(*recording, kHeight);

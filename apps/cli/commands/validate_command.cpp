@@ -37,6 +37,7 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
     if (!recording) return recording.error();
     subject.recording = std::move(*recording);
     if (arguments.has("clip")) subject.clip.path = arguments.text("clip");
+    subject.clip.first_frame = first_frame_of(subject.recording);
   } else {
     auto options = capture_options(arguments);
     if (!options) return options.error();

@@ -39,12 +39,16 @@ double height_of(const Outline& outline) {
   return farthest;
 }
 
-int attribute_size(const Recording& recording, const char* name) {
+}  // namespace
+
+int number_attribute(const Recording& recording, const char* name) {
   const auto values = numbers_attribute(recording, name);
   return values && *values && (*values)->size() == 1 ? static_cast<int>((**values)[0]) : 0;
 }
 
-}  // namespace
+std::size_t first_frame_of(const Recording& recording) {
+  return static_cast<std::size_t>(std::max(1, number_attribute(recording, "first_frame")) - 1);
+}
 
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
                           const std::function<Result<void>(std::size_t, const std::function<Image()>&)>& visit) {
@@ -171,13 +175,10 @@ Result<FilmedFlame> filmed_flame(const Recording& recording, int height) {
   if (!source || heights.empty()) {
     return Error{recording.source + ": does not name the film that it was captured from, or has no outline"};
   }
-  const std::array size{attribute_size(recording, "width"), attribute_size(recording, "height")};
+  const std::array size{number_attribute(recording, "width"), number_attribute(recording, "height")};
   FilmedFlame out(*rows, median_of(std::move(heights)), size, {}, height);
-  ClipFrames clip{.path = std::string(*source)};
+  ClipFrames clip{.path = std::string(*source), .first_frame = first_frame_of(recording)};
   if (std::filesystem::is_directory(clip.path)) clip.rate_hz = recording.rate_hz;
-  if (const int first = attribute_size(recording, "first_frame"); first > 0) {
-    clip.first_frame = static_cast<std::size_t>(first) - 1;
-  }
   if (const auto watched = out.watch(clip, *rows); !watched) return watched.error();
   if (!out.known()) return Error{clip.path.string() + ": no frame of it has an outline of " + recording.source};
   return out;

@@ -23,6 +23,12 @@ struct ClipFrames {
   std::size_t first_frame = 0;
 };
 
+/// The value of an attribute that is one number, such as the clip's width; 0 where it is not recorded.
+int number_attribute(const Recording& recording, const char* name);
+
+/// The clip's frame of the first row, 0-based.
+std::size_t first_frame_of(const Recording& recording);
+
 /// Visits the clip's frames that have a row in the recording, up to `last_row`.
 /// Errors: the clip cannot be read; those of `visit`.
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,

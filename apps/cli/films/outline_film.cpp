@@ -51,13 +51,12 @@ void draw_row(Image& image, const OverlayContent& content, std::size_t row, cons
 }
 
 Result<int> attribute_number(const Recording& recording, const char* name) {
-  const auto values = numbers_attribute(recording, name);
-  if (!values) return values.error();
-  if (!*values || (*values)->size() != 1 || (**values)[0] < 16 || (**values)[0] > kLargestImageSide) {
+  const int value = number_attribute(recording, name);
+  if (value < 16 || value > kLargestImageSide) {
     return Error{recording.source + ": does not say its picture's " + name +
                  "; validate against the clip itself for an overlay"};
   }
-  return static_cast<int>((**values)[0]);
+  return value;
 }
 
 std::string seconds_text(double seconds) {

@@ -118,12 +118,6 @@ std::vector<std::size_t> liveliest_rows(const OutlineRows& captured, double rate
   return rows;
 }
 
-// Width or height of the clip that a recording was captured from, pixels; 0 where it is not recorded.
-int clip_size(const Recording& recording, const char* side) {
-  const auto value = numbers_attribute(recording, side);
-  return value && *value && (*value)->size() == 1 ? static_cast<int>((**value)[0]) : 0;
-}
-
 }  // namespace
 
 Result<void> draw_validation(const ValidatedOutline& found, const Model& model, const ValidationSubject& subject,
@@ -140,8 +134,8 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
         .captured = found.captured,
         .synthesized = found.played,
         .pixels_per_unit = found.pixels_per_unit,
-        .clip_width = clip_size(subject.recording, "width"),
-        .clip_height = clip_size(subject.recording, "height"),
+        .clip_width = number_attribute(subject.recording, "width"),
+        .clip_height = number_attribute(subject.recording, "height"),
         .flame = is_flame(model),
         .synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized, in the same wind"};
     if (auto ok = write_film_strip(pictures.film_strip, subject.clip, content); !ok) return ok;
