@@ -5,8 +5,12 @@
 function(wisp_one_definition program)
   add_executable(${program})
   foreach(target IN LISTS ARGN)
-    target_sources(${program} PRIVATE $<TARGET_OBJECTS:${target}>)
     get_target_property(type ${target} TYPE)
+    # A group of layers, such as capture, has no objects of its own: its layers are in the list.
+    if(type STREQUAL "INTERFACE_LIBRARY")
+      continue()
+    endif()
+    target_sources(${program} PRIVATE $<TARGET_OBJECTS:${target}>)
     if(type STREQUAL "STATIC_LIBRARY")
       target_link_libraries(${program} PRIVATE ${target})
     endif()

@@ -1,5 +1,6 @@
 #include "flags/capture_flags.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "flags/recordings.hpp"
@@ -90,11 +91,9 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
                                                   Terminal& terminal) {
   auto options = capture_options(arguments);
   if (!options) return options.error();
-  if (std::ranges::all_of(paths, [](const std::string& path) { return is_table(path); })) {
-    if (auto ok = refuse_flags(arguments, {"points", "channel", "flame", "dark", "region", "wind-measure"}, paths[0]);
-        !ok)
-      return ok.error();
-  }
+  const bool tables = std::ranges::all_of(paths, [](const std::string& path) { return is_table(path); });
+  const auto ok = refuse_flags(arguments, {"points", "channel", "flame", "dark", "region", "wind-measure"}, paths[0]);
+  if (tables && !ok) return ok.error();
   const auto recording_of = [&](const std::string& path) -> Result<Recording> {
     if (is_table(path)) {
       auto table = read_table(path, arguments);
