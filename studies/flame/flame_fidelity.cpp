@@ -41,7 +41,8 @@ void write_windows(std::ostream& out, const std::string& side, std::size_t clip,
   const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / kMaxWindows);
   const FeatureWindows windows = thinned(motion_windows(stretches, rows, hop), kMaxWindows);
   for (std::size_t k = 0; k < windows.size(); ++k) {
-    out << side << ',' << clip << ',' << windows.blocks[k];
+    constexpr std::size_t kBlockWindows = 4;  // windows in a row that are too alike to be learned from and judged on
+    out << side << ',' << clip << ',' << k * hop / (kBlockWindows * rows);
     for (double value : windows.window(k)) out << ',' << value;
     out << '\n';
   }
