@@ -182,4 +182,11 @@ Result<void> check_outputs(const Command& command, const Arguments& arguments) {
   return {};
 }
 
+Result<void> refuse(const Arguments& arguments, std::initializer_list<const char*> flags, const std::string& why) {
+  for (const char* flag : flags) {
+    if (arguments.given(flag)) return Error{"--" + std::string(flag) + " " + why};
+  }
+  return {};
+}
+
 }  // namespace wisp::cli

@@ -79,12 +79,11 @@ struct SampleRange {
 /// Whether a text is a sample range A:B with 1 <= A <= B.
 bool is_sample_range(const std::string& text);
 
-/// Values of the arguments, given by the user or defaults; the parser has checked them against their Kind.
+/// Values of the arguments, given() by the user or defaults; the parser has checked them against their Kind.
 class Arguments {
  public:
   bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
   bool on(std::string_view flag) const { return has(flag); }
-  /// Whether the user gave it.
   bool given(std::string_view flag) const { return has(flag) && !defaults_.contains(flag); }
   const std::string& text(std::string_view flag) const { return values_.at(std::string(flag)); }
   int integer(std::string_view flag) const;
@@ -106,6 +105,9 @@ class Arguments {
   std::set<std::string, std::less<>> defaults_;  // flags in values_ that have their default
   std::vector<std::string> positionals_;
 };
+
+/// Errors: one of the flags was given by the user; the message is the flag and `why`.
+Result<void> refuse(const Arguments& arguments, std::initializer_list<const char*> flags, const std::string& why);
 
 /// A command: its words (`learn arx`), arguments, flags and function. `run` returns the error of exit status 1.
 struct Command {

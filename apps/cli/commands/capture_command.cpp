@@ -116,18 +116,15 @@ std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
 // The light of a clip, or a photodiode's trace, normalised to mean 1.
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
-  if (is_table(path)) {
-    if (auto ok = refuse_flags(arguments, {"region", "frames"}, path); !ok) return ok.error();
-  } else if (arguments.given("channel")) {
-    return Error{"--channel is of a table, and " + path + " is a clip"};
-  }
   if (!is_table(path)) {
+    if (auto ok = refuse(arguments, {"channel"}, "is of a table, and " + path + " is a clip"); !ok) return ok.error();
     Arguments of_clip = arguments;
     of_clip.set("channel", "luma");
     const auto options = capture_options(of_clip);
     if (!options) return options.error();
     return capture_brightness(path, *options, terminal.progress());
   }
+  if (auto ok = refuse(arguments, {"region", "frames"}, of_clips(path)); !ok) return ok.error();
   auto recording = read_table(path, arguments, {.outputs = {arguments.text("channel")}});
   if (!recording) return recording;
   Channel light = std::move(recording->channels[*find_channel(*recording, arguments.text("channel"))]);

@@ -189,25 +189,20 @@ std::optional<PlantLanguage> plant_language(const Model& model, const std::strin
 
 // Reports flags without effect as errors, since the user expects an effect.
 Result<void> check_flags(const Arguments& arguments, const std::string& extension, bool is_source) {
-  const auto refuse = [&](const char* flag, const char* fallback, const std::string& why) -> Result<void> {
-    if (!arguments.has(flag) || arguments.text(flag) == fallback) return {};
-    return Error{"--" + std::string(flag) + " does nothing to a " + extension + " file, which " + why};
-  };
+  const std::string nothing = "does nothing to a " + extension + " file, which ";
   if (is_source) {
-    static const std::map<const char*, const char*> of_play = {
-        {"seconds", "4"}, {"loop", ""}, {"wind", "0"}, {"noise", "on"}, {"size", ""}, {"seed", "1"}, {"input", ""}};
-    for (const auto& [flag, fallback] : of_play) {
-      if (auto ok = refuse(flag, fallback, "is the model itself and plays for ever"); !ok) return ok;
-    }
+    const auto why = nothing + "is the model itself and plays for ever";
+    auto ok = refuse(arguments, {"seconds", "loop", "wind", "noise", "size", "seed", "input"}, why);
+    if (!ok) return ok;
   }
   if (extension != ".png") {
-    if (auto ok = refuse("columns", "", "is no atlas"); !ok) return ok;
+    if (auto ok = refuse(arguments, {"columns"}, nothing + "is no atlas"); !ok) return ok;
   }
   if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop"))) {
     return Error{"--input does not go with --columns, or with --loop, which is a steady play"};
   }
-  if (extension == ".glb") return refuse("size", "", "is in metres");
-  return refuse("instances", "1", "holds one");
+  if (extension == ".glb") return refuse(arguments, {"size"}, nothing + "is in metres");
+  return refuse(arguments, {"instances"}, nothing + "holds one");
 }
 
 Result<void> run_export(const Arguments& arguments, Terminal& terminal) {

@@ -344,20 +344,22 @@ Result<Play> prepare(const Arguments& arguments) {
 // Watches the film of --clip.
 Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& play) {
   if (!arguments.has("clip")) return {};
-  const std::string& path = arguments.text("clip");
-  const bool numbers = std::filesystem::path(arguments.text("output")).extension() == ".csv";
-  const bool round = arguments.has("camera") || play.orbit > 0;
-  if (numbers || round || !is_flame(play.model) || arguments.integer("instances") != 1) {
-    return Error{"--clip " + path +
-                 ": a film's candle carries one flame, seen from where it was filmed, in a picture or a "
-                 "film; leave --clip out, or the other flags"};
-  }
+  const std::string &path = arguments.text("clip"), &out = arguments.text("output");
+  auto beside = refuse(arguments, {"camera", "orbit", "instances"},
+                       "does not go with --clip: a film's candle carries one flame, seen from where it was filmed");
+  if (!beside) return beside;
+  if (out.ends_with(".csv")) return Error{"--clip draws pictures, and " + out + " has numbers; expected .png or .mp4"};
+  if (!is_flame(play.model))
+    return Error{"--clip draws a flame, and " + arguments.positional() + " is not one's model"};
   const auto curve = curve_of(play.model);
   if (!curve) return curve.error();
   const auto captured_from = [&]() -> Result<Recording> {
     if (is_table(path)) return read_csv(path);
-    auto captured = capture(path, {.curve = *curve}, terminal.progress());
-    return captured ? std::move(captured->recording) : Result<Recording>(captured.error());
+    auto captured = capture(path, {.flame = 1, .curve = *curve}, terminal.progress());
+    if (!captured) return captured.error();
+    const ReportVerdict& verdict = *captured->report.verdict;
+    if (!verdict.usable) return Error{path + ": its flame is not found: " + verdict.reason};
+    return std::move(captured->recording);
   };
   const auto recording = captured_from();
   if (!recording) return recording.error();

@@ -31,8 +31,8 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
                                      Terminal& terminal) {
   ValidationSubject subject;
   if (is_table(path)) {
-    if (auto ok = refuse_flags(arguments, {"channel", "flame", "dark", "region", "wind-measure"}, path); !ok)
-      return ok.error();
+    auto ok = refuse(arguments, {"channel", "flame", "dark", "region", "wind-measure"}, of_clips(path));
+    if (!ok) return ok.error();
     auto recording = read_table(path, arguments);
     if (!recording) return recording.error();
     subject.recording = std::move(*recording);

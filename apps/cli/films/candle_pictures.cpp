@@ -35,10 +35,10 @@ CandlePictures::CandlePictures(const Model& model, int count, int points)
   points_.resize(scenes_.size() * static_cast<std::size_t>(points));
 }
 
-void CandlePictures::draw_on(FilmedFlame film) {
+void CandlePictures::draw_on(const FilmedFlame& film) {
   width_ = film.view().width;
   height_ = film.view().height;
-  film_ = std::move(film);
+  film_ = &film;
 }
 
 void CandlePictures::blow(const Bank& bank, float wind) {

@@ -25,8 +25,8 @@ class CandlePictures {
 
   /// Draws on the candle of a film from now on, in its view's size.
   ///
-  /// Precondition: one outline, and film.known().
-  void draw_on(FilmedFlame film);
+  /// Precondition: one outline, film.known(), and the film outlives the pictures.
+  void draw_on(const FilmedFlame& film);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -50,7 +50,7 @@ class CandlePictures {
   std::vector<float> polylines_;
   std::vector<Point> points_;
   std::optional<LiveFlames> candles_;  // empty: draws plain shapes
-  std::optional<FilmedFlame> film_;
+  const FilmedFlame* film_ = nullptr;
   Image image_;
 };
 

@@ -14,11 +14,25 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Rows whose frames the look is learned from: the rows shown, and others in the clip's first minute.
-std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std::size_t> rows) {
-  constexpr std::size_t kLessons = 48, kLast = 1800;
-  const std::size_t count = std::min(captured.size(), kLast);
-  for (std::size_t row = 0; row < count; row += std::max<std::size_t>(1, count / kLessons)) rows.push_back(row);
+using Place = std::array<double, 2>;
+
+// Middle of an outline's base.
+Place base_of(const Outline& outline) {
+  return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
+}
+
+// Rows whose frames the look is learned from: the rows shown, and others in the clip's first minute. Of a camera that
+// moves, whose surroundings pass by, only a few frames around the middle one with an outline.
+std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std::size_t> rows, bool stands) {
+  constexpr std::size_t kLessons = 48, kLast = 1800, kPassing = 24;
+  std::vector<std::size_t> seen;
+  for (std::size_t row = 0; row < captured.size(); ++row) {
+    if (!captured[row].empty()) seen.push_back(row);
+  }
+  const std::size_t middle = seen.empty() ? 0 : seen[seen.size() / 2];
+  const std::size_t first = stands ? 0 : middle - std::min(middle, kPassing / 2);
+  const std::size_t last = std::min(captured.size(), stands ? kLast : first + kPassing);
+  for (std::size_t row = first; row < last; row += 1 + (last - first) / kLessons) rows.push_back(row);
   std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
@@ -33,7 +47,7 @@ bool is_out(const OutlineRows& captured, std::size_t row) {
 }
 
 double height_of(const Outline& outline) {
-  const double x = (outline.front()[0] + outline.back()[0]) / 2, y = (outline.front()[1] + outline.back()[1]) / 2;
+  const auto [x, y] = base_of(outline);
   double farthest = 0;
   for (const auto& point : outline) farthest = std::max(farthest, std::hypot(point[0] - x, point[1] - y));
   return farthest;
@@ -71,7 +85,7 @@ Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
 
 Outline in_units(Outline outline, double pixels_per_unit) {
   if (outline.empty()) return outline;
-  const double x = (outline.front()[0] + outline.back()[0]) / 2, y = (outline.front()[1] + outline.back()[1]) / 2;
+  const auto [x, y] = base_of(outline);
   for (auto& point : outline) point = {(point[0] - x) / pixels_per_unit, (y - point[1]) / pixels_per_unit};
   return outline;
 }
@@ -82,37 +96,36 @@ FilmedFlame::FilmedFlame(const OutlineRows& captured, double pixels_per_unit, st
   std::vector<double> across, down;
   for (const Outline& outline : captured) {
     if (outline.empty()) continue;
-    across.push_back((outline.front()[0] + outline.back()[0]) / 2);
-    down.push_back((outline.front()[1] + outline.back()[1]) / 2);
+    across.push_back(base_of(outline)[0]);
+    down.push_back(base_of(outline)[1]);
   }
-  double beside = space.beside * unit_, above = space.above * unit_;
+  left_ = right_ = space.beside * unit_;
+  above_ = space.above * unit_;
   below_ = space.below * unit_;
   if (!across.empty()) {
     middle_ = {median_of(across), median_of(down)};
     std::vector<double> away = across;
-    for (double& x : away) x = std::abs(x - middle_.x);
+    for (double& x : away) x = std::abs(x - middle_[0]);
     stands_ = median_of(away) < 0.05 * unit_;
-    const auto [left, right] = std::ranges::minmax(stands_ ? std::vector{middle_.x} : across);
-    const auto [top, bottom] = std::ranges::minmax(stands_ ? std::vector{middle_.y} : down);
+    const auto [left, right] = std::ranges::minmax(stands_ ? std::vector{middle_[0]} : across);
+    const auto [top, bottom] = std::ranges::minmax(stands_ ? std::vector{middle_[1]} : down);
     if (clip_size[0] > 0) {
-      beside = std::clamp(std::min(left, clip_size[0] - right), space.least_beside * unit_, beside);
-      above = std::clamp(top, space.least_above * unit_, above);
+      left_ = std::clamp(left, space.least_beside * unit_, left_);
+      right_ = std::clamp(clip_size[0] - right, space.least_beside * unit_, right_);
+      above_ = std::clamp(top, space.least_above * unit_, above_);
       below_ = std::clamp(clip_size[1] - 1 - bottom, 0.05 * unit_, below_);
     }
   }
-  width_ = 2 * beside;
-  height_ = above + below_;
-  const double scale = height / height_;
-  view_ = {.width = 2 * static_cast<int>(std::lround(width_ * scale / 2)),
+  const double scale = height / (above_ + below_);
+  view_ = {.width = 2 * static_cast<int>(std::lround((left_ + right_) * scale / 2)),
            .height = height,
            .unit = static_cast<float>(unit_ * scale)};
-  view_.base = {static_cast<float>(view_.width) / 2, static_cast<float>(above * scale)};
+  view_.base = {static_cast<float>(left_ * scale), static_cast<float>(above_ * scale)};
   look_ = FilmLook(view_);
 }
 
-FilmedFlame::Place FilmedFlame::base_in(const Outline& outline) const {
-  if (stands_ || outline.empty()) return middle_;
-  return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
+Place FilmedFlame::base_in(const Outline& outline) const {
+  return stands_ || outline.empty() ? middle_ : base_of(outline);
 }
 
 std::vector<Point> FilmedFlame::in_view(const Outline& outline) const {
@@ -120,24 +133,25 @@ std::vector<Point> FilmedFlame::in_view(const Outline& outline) const {
   const double scale = view_.unit / unit_;
   std::vector<Point> points;
   for (const auto& [x, y] : outline) {
-    points.push_back({view_.base.x + static_cast<float>((x - base.x) * scale),
-                      view_.base.y + static_cast<float>((y - base.y) * scale)});
+    points.push_back({view_.base.x + static_cast<float>((x - base[0]) * scale),
+                      view_.base.y + static_cast<float>((y - base[1]) * scale)});
   }
   return points;
 }
 
 Image FilmedFlame::cut(const Outline& outline, const Image& frame) const {
   const Place base = base_in(outline);
-  const int width = static_cast<int>(std::lround(width_)), height = static_cast<int>(std::lround(height_));
-  const int left = static_cast<int>(std::lround(base.x + 0.5 - width_ / 2));
-  const int top = static_cast<int>(std::lround(base.y + 0.5 + below_ - height_));
+  const int width = static_cast<int>(std::lround(left_ + right_));
+  const int height = static_cast<int>(std::lround(above_ + below_));
+  const int left = static_cast<int>(std::lround(base[0] + 0.5 - left_));
+  const int top = static_cast<int>(std::lround(base[1] + 0.5 - above_));
   return resized(crop(frame, {left, top, width, height}), view_.width, view_.height);
 }
 
 Result<std::map<std::size_t, Image>> FilmedFlame::watch(const ClipFrames& clip, const OutlineRows& captured,
                                                         const std::vector<std::size_t>& shown) {
   std::map<std::size_t, Image> views;
-  const std::vector<std::size_t> rows = lesson_of(captured, shown);
+  const std::vector<std::size_t> rows = lesson_of(captured, shown, stands_);
   auto wanted = rows.begin();
   if (clip.path.empty() || rows.empty()) return views;
   auto read =

@@ -70,18 +70,14 @@ class FilmedFlame {
   Image draw(std::span<const Point> outline, float light = 1) const;
 
  private:
-  struct Place {
-    double x = 0, y = 0;
-  };
-
-  Place base_in(const Outline& outline) const;
+  std::array<double, 2> base_in(const Outline& outline) const;
   std::vector<Point> in_view(const Outline& outline) const;
   Image cut(const Outline& outline, const Image& frame) const;
 
   double unit_;
-  Place middle_{};  // the median base
+  std::array<double, 2> middle_{};  // the median base
   bool stands_ = true;
-  double width_ = 0, height_ = 0, below_ = 0;  // the view in the clip's pixels
+  double left_ = 0, right_ = 0, above_ = 0, below_ = 0;  // space of the view about the base, the clip's pixels
   FilmView view_;
   FilmLook look_;
 };

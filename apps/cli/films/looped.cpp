@@ -10,16 +10,6 @@
 namespace wisp::cli {
 namespace {
 
-// Rejects flags that contradict a loop, which has constant conditions.
-Result<void> check_flags(const Arguments& arguments) {
-  for (const char* flag : {"frames", "input", "relight", "steer", "clip"}) {
-    if (arguments.has(flag)) {
-      return Error{"--" + std::string(flag) + " does not go with --loop, a loop of so many seconds in a constant wind"};
-    }
-  }
-  return {};
-}
-
 Result<void> write_film(const Model& model, const Take& taken, const std::string& path, Terminal& terminal) {
   if (!std::holds_alternative<OutlineView>(model.view)) {
     return Error{path + ": only a loop of an outline is a film; write its numbers (.csv), or export a .glb"};
@@ -81,7 +71,10 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
 }
 
 Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal) {
-  if (auto ok = check_flags(arguments); !ok) return ok;
+  // A loop has constant conditions.
+  auto constant = refuse(arguments, {"frames", "input", "relight", "steer", "clip"},
+                         "does not go with --loop, a loop of so many seconds in a constant wind");
+  if (!constant) return constant;
   const std::string& path = arguments.text("output");
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension != ".csv" && extension != ".mp4") {

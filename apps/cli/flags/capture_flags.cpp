@@ -77,23 +77,18 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
   return options;
 }
 
-Result<void> refuse_flags(const Arguments& arguments, std::initializer_list<const char*> of_clips,
-                          const std::string& table) {
-  for (const char* flag : of_clips) {
-    if (!arguments.given(flag)) continue;
-    return Error{"--" + std::string(flag) + " is of a clip, and " + table +
-                 " is a table; give the clip, or leave it out"};
-  }
-  return {};
+std::string of_clips(const std::string& table) {
+  return "is of a clip, and " + table + " is a table; give the clip, or leave it out";
 }
 
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal) {
   auto options = capture_options(arguments);
   if (!options) return options.error();
-  const bool tables = std::ranges::all_of(paths, [](const std::string& path) { return is_table(path); });
-  const auto ok = refuse_flags(arguments, {"points", "channel", "flame", "dark", "region", "wind-measure"}, paths[0]);
-  if (tables && !ok) return ok.error();
+  if (std::ranges::all_of(paths, [](const std::string& path) { return is_table(path); })) {
+    auto ok = refuse(arguments, {"points", "channel", "flame", "dark", "region", "wind-measure"}, of_clips(paths[0]));
+    if (!ok) return ok.error();
+  }
   const auto recording_of = [&](const std::string& path) -> Result<Recording> {
     if (is_table(path)) {
       auto table = read_table(path, arguments);

@@ -17,9 +17,8 @@ std::vector<Flag> capture_flags(const std::string& flame);
 /// Errors: a value out of range.
 Result<ClipCapture> capture_options(const Arguments& arguments);
 
-/// Errors: one of the flags `of_clips` is given, although `table` is read instead of a clip.
-Result<void> refuse_flags(const Arguments& arguments, std::initializer_list<const char*> of_clips,
-                          const std::string& table);
+/// Why a flag of clips is refused where a table is read.
+std::string of_clips(const std::string& table);
 
 /// Recordings of outlines: tables are read, other files are captured, with the curve shape of the first. A bad one is
 /// an error or, with --skip-bad, skipped and listed.

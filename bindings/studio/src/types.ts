@@ -101,7 +101,7 @@ export interface Recipe {
   sources?: string[];
   seed?: number;
   /** for falls with noisy positions: odd number of rows for velocities; default 0 */
-  smooth?: number;
+  smooth_rows?: number;
   /** lags of outputs and inputs of an ARX model; 0: default */
   order?: number;
   /** outline as in the paper: order of one system per control point; 0: shape components */

@@ -225,7 +225,7 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     }
     const smooth = ['--smooth', '5'];
     const program = JSON.parse(wisp('learn', 'leaf', join(folder, 'paper.csv'), ...smooth, '-o', join(folder, 'paper.wisp'), '--json'));
-    const fit = (await Engine.start(ofChains)).learn([readFileSync(join(folder, 'paper.csv'))], { kind: 'leaf', name: 'paper', smooth: 5 });
+    const fit = (await Engine.start(ofChains)).learn([readFileSync(join(folder, 'paper.csv'))], { kind: 'leaf', name: 'paper', smooth_rows: 5 });
     assert.deepEqual([fit.report.usable, fit.report.mode_sizes], [program.usable, program.mode_sizes]);
   });
 

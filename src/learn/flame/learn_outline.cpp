@@ -33,10 +33,8 @@ bool driven_by_nothing(const OutlineSummary& summary) {
 bool are_silent(std::span<const Recording> recordings) {
   const auto is_zero = [](double u) { return !(std::abs(u) > 0); };
   for (const Recording& recording : recordings) {
-    for (std::size_t c : channels_with_role(recording, Role::kInput)) {
-      const auto& samples = recording.channels[c].samples;
-      if (!std::all_of(samples.begin(), samples.end(), is_zero)) return false;
-    }
+    for (std::size_t c : channels_with_role(recording, Role::kInput))
+      if (!std::ranges::all_of(recording.channels[c].samples, is_zero)) return false;
   }
   return true;
 }
@@ -83,8 +81,9 @@ std::pair<std::size_t, std::size_t> seen_rows(const Recording& recording) {
   return {first, last};
 }
 
-// A film in which a flame is lit, shaded or blown out has no one spread that play could keep. Where the spread is what
-// a film without inputs is refused for, the longest part that is usable is learned: three quarters, or half of it.
+// Play of a whole film in which a flame is lit, shaded or blown at has another spread than the film. Where a single
+// film without inputs is refused for that, three quarters of it and then half are tried, at its start, middle and end;
+// of the first usable parts, the one whose spread is kept best is learned.
 Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                               const Progress& progress) {
   auto whole = fit_what_drives(recordings, recipe, progress);
@@ -102,6 +101,7 @@ Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const Outli
       const auto last = first + static_cast<std::size_t>(share * rows);
       const Recording part = slice(recordings.front(), first, last);
       auto fit = fit_outline({&part, 1}, without_inputs, progress);
+      if (!fit && fit.error().message == kStopped) return fit;
       if (!fit || !fit->summary.usable.verdict || (best && off(*best) <= off(*fit))) continue;
       fit->summary.usable.reason += "; learned from frames " + std::to_string(first + 1) + " to " +
                                     std::to_string(last) + " of " + std::to_string(recordings.front().rows()) +

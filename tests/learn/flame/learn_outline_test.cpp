@@ -55,24 +55,40 @@ TEST(LearnOutline, TheReportHasEveryPromisedField) {
   EXPECT_EQ(fit.report.verdict->usable, fit.model.training.usable.verdict);
 }
 
-// A flame that flickers, then grows to twice its size once: play that keeps either part's spread cannot keep both.
-TEST(LearnOutline, OfAFilmThatChangesTheLongestSteadyPartIsLearned) {
+// A flame of 900 rows that flickers, and from row 690 on grows to twice its size: no model keeps the spread of both.
+Recording growing_flame() {
   const std::size_t rows = 900, steady = 690;
   Recording film = made::outline_recording({.rows = rows, .shock = 0.003});
   for (Channel& channel : film.channels) {
+    const double middle = channel.name.ends_with(".x") ? 320 : 400;
     for (std::size_t row = steady; row < rows; ++row) {
       const double grown = 1 + static_cast<double>(row - steady) / static_cast<double>(rows - steady);
-      channel.samples[row] = (channel.name.ends_with(".x") ? 320 : 400) +
-                             grown * (channel.samples[row] - (channel.name.ends_with(".x") ? 320 : 400));
+      channel.samples[row] = middle + grown * (channel.samples[row] - middle);
     }
   }
-  const Fit fit = learned({film}, {});
+  return film;
+}
+
+TEST(LearnOutline, OfAFilmThatChangesTheLongestSteadyPartIsLearned) {
+  const Fit fit = learned({growing_flame()}, {});
   EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;
   EXPECT_THAT(fit.report.verdict->reason, HasSubstr("learned from frames 1 to 675 of 900 alone"));
   EXPECT_EQ(fit.model.training.usable.reason, fit.report.verdict->reason);
   const auto rows_used =
       figure<std::int64_t>(fit.report, "samples.learned") + figure<std::int64_t>(fit.report, "samples.held_out");
   EXPECT_EQ(rows_used, 675);
+}
+
+TEST(LearnOutline, WhoStopsItWhilePartsAreTriedHasStoppedIt) {
+  const std::vector film{growing_flame()};
+  double before = 0;
+  const auto fit = learn_outline(film, {}, [&](std::string_view, double share) {
+    const bool again = share < before;  // the whole was learned, and a part begins
+    before = share;
+    return !again;
+  });
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(fit.error().message, kStopped);
 }
 
 TEST(LearnOutline, KeepsTheCandleThatTheFirstFilmWithOneShows) {

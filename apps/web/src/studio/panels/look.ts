@@ -24,12 +24,12 @@ export function partOfSeen({ threshold, channel, flames, frame, state, moving }:
 function factsOf({ captured }: Take): Fact[] {
   const { report, rows, rate } = captured;
   const facts: Fact[] = [['Length', `${(rows / rate).toFixed(1)} s, ${Math.round(rate * 100) / 100} frames a second`]];
-  const [falls, whole, missed] = ['falls', 'whole', 'missed'].map((name) => figure(report, name)) as [number | null, number | null, number | null];
+  const [falls, whole, missed] = [figure(report, 'falls'), figure(report, 'whole'), figure(report, 'missed')];
   if (falls !== null) {
     facts.push(['Falls', `${falls}${whole === null || whole === falls ? '' : `, ${whole} of them whole`}${missed ? `, and ${missed} that could not be followed` : ''}`]);
     facts.push(['Tilt', String(within(report, 'tilt_reason') ?? '')]);
   }
-  const [tracked, frames, threshold] = ['tracked', 'frames', 'threshold'].map((name) => figure(report, name)) as [number | null, number | null, number | null];
+  const [tracked, frames, threshold] = [figure(report, 'tracked'), figure(report, 'frames'), figure(report, 'threshold')];
   if (tracked !== null && frames !== null) facts.push(['Outline', `in ${tracked.toLocaleString('en')} of ${frames.toLocaleString('en')} pictures`]);
   const channel = within(report, 'channel');
   if (threshold !== null && typeof channel === 'string') facts.push(['Its edge', `${Math.round(threshold)} of 255 in ${COLOURS[channel] ?? channel}`]);
