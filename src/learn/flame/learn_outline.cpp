@@ -33,8 +33,8 @@ bool driven_by_nothing(const OutlineSummary& summary) {
 bool are_silent(std::span<const Recording> recordings) {
   const auto is_zero = [](double u) { return !(std::abs(u) > 0); };
   for (const Recording& recording : recordings) {
-    for (std::size_t c : channels_with_role(recording, Role::kInput))
-      if (!std::ranges::all_of(recording.channels[c].samples, is_zero)) return false;
+    for (const Channel& one : recording.channels)
+      if (one.role == Role::kInput && !std::all_of(one.samples.begin(), one.samples.end(), is_zero)) return false;
   }
   return true;
 }
