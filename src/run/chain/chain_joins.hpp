@@ -1,13 +1,13 @@
 #pragma once
-// Computation of joins between consecutive segments: the placement of the next one, and the curves by which neighbours
-// meet. Joins are rare, so lanes of several blocks are processed in parallel.
+// Joins of consecutive segments: the rotation of the next segment, and the offsets by which both segments meet in one
+// state. Joins are rare, so lanes of several blocks are computed in parallel.
 //
-// Neighbours meet half-way: at a join, attitude, its rate and velocity are the means of one segment's end and the
-// other's beginning. Each segment's share of the difference is spread over the whole segment: by a smooth curve for
-// each number of a quaternion, in world axes, normalised for display, and by a linearly changing velocity. Half the
-// difference over twice the time of a one-sided fade (D. Bollo, Inertialization, GDC 2018) has an eighth of its
-// curvature, which recorded motion has little of. This requires the next segment while one is played, so it is drawn
-// when a segment begins.
+// At a join, attitude, attitude rate and velocity are the means of one segment's end and the next one's beginning. Each
+// segment takes half of the difference as an offset that fades: along a smooth curve for each number of the quaternion
+// (world axes, normalised for display), linearly for velocity. Segments shorter than two blends fade over their whole
+// length, longer ones over `blend_steps` at each end. Half of the difference over a whole segment has an eighth of the
+// curvature of all of it over half a segment (a one-sided fade: D. Bollo, Inertialization, GDC 2018); recorded motion
+// has little curvature. A segment fades towards its successor, so the successor is drawn when the segment begins.
 //
 // The curve of each number is two parabolas, stored as differences from row to row: two additions per number.
 
@@ -20,7 +20,7 @@
 
 namespace wisp {
 
-/// Lanes of several blocks with the same event, as many as are processed in parallel.
+/// Lanes, from several blocks, that join or begin to fade in this step: at most kMost, computed in parallel.
 template <class N>
 struct ChainParty {
   static constexpr int kMost = N::kLanes;
@@ -55,7 +55,7 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// Returns the placement of segments `next` at the ends of `before`, rotated by `turn`, and the differences there.
+  /// Returns the rotations of segments `next` that follow `before`, rotated by `turn`, and the gaps at those joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);
@@ -72,14 +72,14 @@ class ChainJoins {
              bounded(taken(oriented(turn, end.change), oriented(next_turn, start.change))), slipped}};
   }
 
-  /// Offsets of segments, as in ChainPlayed.
+  /// Offset curves of segments; the members are those of ChainPlayed.
   struct Curves {
     std::array<Quaternion<Values>, 4> lean;
     std::array<Vector3<Values>, 2> slip;
   };
 
-  /// Computes the curves of segments that begin at `height` from the previous segments, which they differ from by
-  /// `from`, and, for short ones, also to the next.
+  /// Computes the offset curves at the beginning of segments, which fade out the gap `from` to the previous segment.
+  /// Short segments also fade towards `to`, the gap to the next. `height`: where the segments begin, metres.
   Curves meeting(const Segments& segments, const Values& height, const ChainGap<Values>& from,
                  const ChainGap<Values>& to) const {
     Segments over{}, led{};
@@ -98,7 +98,7 @@ class ChainJoins {
     return curves;
   }
 
-  /// Begins the curves of longer segments towards the next ones.
+  /// Computes the offset curves at the end of longer segments, which lead from no offset to the gap `to`.
   Curves leaving(const Segments& segments, const Values& height, const ChainGap<Values>& to) const {
     Segments over;
     over.fill(program_.blend_steps);
@@ -158,7 +158,7 @@ class ChainJoins {
 
   static std::size_t edge_number(std::uint32_t segment, bool end) { return std::size_t{2} * segment + (end ? 1 : 0); }
 
-  // Returns the rotation of a successor. If heading is kept, a whole turn prevents the quaternion's sign from jumping.
+  // Returns the rotation of a successor. Where heading is kept it changes by 0, or by 360° to keep a quaternion's sign.
   ChainTurn<Values> turn_after(const ChainTurn<Values>& turn, const Edge& end, const Edge& start) const {
     const Turn more = turn_between_edges(start, end);
     const auto cos = turn.half_cos * more.cos - turn.half_sin * more.sin;
@@ -185,7 +185,7 @@ class ChainJoins {
     return {chosen(is_long, turn.cos, one), chosen(is_long, turn.sin, zero)};
   }
 
-  // Like turn_between() of one lane: half of an angle, the larger of cosine and sine first.
+  // As turn_between() in rigid.hpp: of the half angle's cosine and sine, the larger is computed first, for accuracy.
   static Turn turn_between_velocities(const Vector3<Values>& from, const Vector3<Values>& to) {
     const auto zero = number(0.0f), half = number(0.5f);
     const auto along = to[0] * from[0] + to[1] * from[1];
@@ -208,7 +208,7 @@ class ChainJoins {
     return turned<Values>(turn.cos_scale, turn.sin_scale, stored);
   }
 
-  // Returns the curves over `steps` steps from the difference at the beginning to that at the end.
+  // Returns offset curves of `steps` steps, from the gap at their beginning to the gap at their end.
   Curves spread(const Segments& steps, const ChainGap<Values>& from, const ChainGap<Values>& to) const {
     Real slope[kLanes], count[kLanes];
     const float* row[kLanes];

@@ -65,8 +65,8 @@ struct ChainPlayed {
   // Placement of the segment: base + turn(scale · row). Velocity offsets move the base.
   Vector3<Number> base{};
   ChainTurn<Number> turn{};
-  // Offset of the orientation, its first and second differences, and the second one of the latter half; offset of the
-  // base, and its difference.
+  // Offsets at joins. lean: offset of the orientation, its first difference, its second difference, and the second
+  // difference of the latter half of the curve. slip: distance by which a step moves the base, and its difference.
   std::array<Quaternion<Number>, 4> lean{};
   std::array<Vector3<Number>, 2> slip{};
   // The ground: progress of coming to rest, 0 to 1; below 0: it falls.
@@ -138,7 +138,7 @@ inline void each_played(A& a, B& b, Visit visit) {
   visit(a.left, b.left);
 }
 
-/// Stored quaternions that no rotation about z aligns better than this are not rotated.
+/// Minimum agreement of two stored quaternions after the best rotation about z; below it, no rotation is made.
 inline constexpr float kMinTurn = 1e-3f;
 
 /// Bound of differences at joins.
@@ -204,7 +204,7 @@ class ChainMover {
     lane.turn = turn_of(half_cos, half_sin, program_, [](float x) { return Real(x); });
   }
 
-  /// Places the beginning of a segment at a body; returns the difference between them.
+  /// Places a segment's beginning at a body's position and heading; returns the remaining gaps of attitude and rates.
   ChainGap<Real> place(Lane& lane, std::uint32_t segment, const Body& body) const {
     const HalfTurn<Real> turn = turn_to(segment, body);
     place(lane, segment, body.position, turn.cos, turn.sin);
@@ -227,8 +227,8 @@ class ChainMover {
   /// Rows of a segment at which its offset changes: whole numbers, −1 for none.
   struct Rows {
     float steps;       ///< the last row
-    float quiet_from;  ///< rows from here have no offset
-    float quiet_to;    ///< up to here; no row if both joins overlap
+    float quiet_from;  ///< the first row without an offset
+    float quiet_to;    ///< the last row without an offset; 0 if the offsets of both joins overlap
     float turn;        ///< the first row of the latter half of a curve
     float last_turn;   ///< the same for the second curve
     float curve;  ///< the row after which the curve to the next segment begins, if it does not begin with the segment

@@ -18,8 +18,8 @@ struct GustProgram {
   std::array<float, 3> vertical{};
 };
 
-/// A curve between given values and slopes: two parabolas. Second differences as factors of the change of value, beyond
-/// the first slope, and of the change of slope.
+/// A curve of two parabolas between given values and slopes. The second difference of each half is `way` times the
+/// change of value beyond that of the first slope, plus `change` times the change of slope.
 struct ChainSpread {
   std::array<float, 2> way{};     ///< factors of the first half, and of the latter
   std::array<float, 2> change{};  ///< factors of the first half, and of the latter

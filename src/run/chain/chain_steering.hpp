@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// Number of candidates per mode if any of its segments may follow.
+/// Number of candidates drawn per mode if all segments of the mode may follow (--best-of 0).
 inline constexpr std::uint32_t kAnyOf = 8;
 
 /// Approximates e^−x with heavier tails: (1 + x/256)^−256. Precondition: x >= 0.
@@ -94,7 +94,7 @@ class ChainSteering {
     const Real own = Real(static_cast<float>(program.steps(segment)));
     const Real beyond = lane.left - own;
     const Real left = beyond > zero ? beyond * Real(program.step_seconds) : zero;
-    // If the time ends within the segment, the part played until then.
+    // Share of the segment that is played before the target time.
     const Real played = beyond > zero ? one : lane.left / own;
     const Real kept = left / (left + Real(program.memory) + Real(program.step_seconds));
     const std::int16_t* lead = program.lead.data() + std::size_t{3} * segment;
