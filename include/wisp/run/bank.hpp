@@ -56,7 +56,7 @@ Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 /// Returns the duration of one step of a model, in the whole nanoseconds that banks use.
 std::chrono::nanoseconds step_time(const Model& model);
 
-/// Share of the trained or seen range by which inputs and outputs may exceed it, on either side.
+/// Share of the width of the trained range by which inputs and outputs may exceed it, on either side.
 inline constexpr double kRangeMargin = 0.5;
 
 /// A flame as a light source.
@@ -118,7 +118,7 @@ class Bank {
   InstanceId at(int slot) const;
 
   /// Sets the inputs of every instance from the next step on: slots() × input_count(), in the inputs' units. Numbers
-  /// outside the trained range and kRangeMargin are clamped to it; NaN counts as 0.
+  /// are clamped to the trained range extended by kRangeMargin; NaN counts as 0.
   void set_inputs(std::span<const float> values);
 
   /// Sets equal inputs for every instance: input_count() values.
@@ -128,9 +128,9 @@ class Bank {
   bool set_inputs(InstanceId id, std::span<const float> values);
 
   /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper.
-  /// A segment chain has no residual noise, only a random walk: at 0 the likeliest mode follows, as the best-joining
-  /// segment. Instances then differ by their initial heading alone, and their motion eventually becomes periodic. Any
-  /// other scale leaves a chain unchanged.
+  /// A segment chain has no residual noise, only random choices: at 0 it always takes the likeliest mode, and the
+  /// segment of it that joins best. Instances then differ by their initial heading alone, and their motion eventually
+  /// becomes periodic. Any other scale leaves a chain unchanged.
   void set_noise(float scale);
   float noise() const;
 
@@ -145,7 +145,7 @@ class Bank {
   void step(int count, std::span<const float> inputs = {}, std::span<float> outputs = {});
 
   /// Advances time: makes the steps that are due in it, and interpolates outputs between the last two steps (one step
-  /// of latency). Negative time counts as 0, longer time than BankOptions::longest_advance as that.
+  /// of latency). Negative time counts as 0, time above BankOptions::longest_advance as longest_advance.
   /// Returns the number of steps made.
   int advance(std::chrono::nanoseconds time);
 
@@ -157,8 +157,8 @@ class Bank {
   /// thread.
   void set_crew(const Crew& crew);
 
-  /// Reads all outputs: slots() × output_count(), in the outputs' units, clamped to the seen range and kRangeMargin
-  /// (those of an extinguished or shrinking flame lie between there and 0). A chain's positions are not clamped.
+  /// Reads all outputs: slots() × output_count(), in the outputs' units. They are clamped to the trained range extended
+  /// by kRangeMargin, then multiplied by a flame's size (LitState::size). A chain's positions are not clamped.
   void outputs(std::span<float> values) const;
 
   /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.

@@ -25,8 +25,8 @@ struct Cost {
 };
 
 /// Counts the operations of one frame of one instance, with an outline read as a polyline of `polyline_points` (0:
-/// control points only), while every input is at its highest: signed wind blows from one side, and after a reversal
-/// costs the other side's operations too, for as long as the model's history reaches.
+/// control points only). Every input is at its highest value, as a step skips regressors that have been 0 for the whole
+/// history; the worst frame is also sought among frames whose inputs swing between 0 and that value.
 /// Comparisons, conversions and moves are not arithmetic and are not counted.
 /// Errors: those of Bank::create().
 Result<Cost> count_operations(const Model& model, int polyline_points = 32);

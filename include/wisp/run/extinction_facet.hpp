@@ -34,8 +34,8 @@ class ExtinctionFacet {
   /// Reads the states of all: at least Bank::slots() values; an empty slot does not burn and never did.
   void states(std::span<LitState> states) const;
 
-  /// Lights an extinguished instance: it comes from its remaining size and shape to a recorded event and starts at the
-  /// operating point, undamaged. A burning one continues. Returns false when `id` is not valid.
+  /// Lights an extinguished instance, undamaged: its remaining size and shape blend into a recorded re-ignition, then
+  /// into dynamics restarted at the operating point. A burning one continues. Returns false when `id` is not valid.
   bool relight(InstanceId id);
 
   /// Extinguishes an instance, whatever the wind, if it burns. Returns false when `id` is not valid.

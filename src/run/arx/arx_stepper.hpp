@@ -100,8 +100,8 @@ class ArxStepper : public ChannelHistory<N> {
   /// Returns whether step_alone() steps a bank's only instance. It ignores modes, so it is unavailable if kGroup is 1.
   bool steps_alone() const { return alone_.there(); }
 
-  /// Makes `count` steps of it, two or more, equal to so many calls of step() with a turn() between. For each
-  /// regressor, fill(k, first, of, out) writes its values for `of` steps from `first` on; take(first, of, deviations)
+  /// Makes `count` >= 2 steps of the only instance, equal to `count` calls of step() with a turn() between. For each
+  /// regressor k, fill(k, first, of, out) writes its values for `of` steps from `first` on; take(first, of, deviations)
   /// receives the results. Returns the number of steps in which an output was clamped.
   template <class Fill, class Take>
   std::uint64_t step_alone(const Moment<N>& moment, int count, Fill fill, Take take) {
@@ -138,7 +138,7 @@ class ArxStepper : public ChannelHistory<N> {
   /// Returns the mode that made a lane's newest sample; none before the first step.
   std::optional<int> mode(int block, int lane) const { return modes_.mode(block, lane); }
 
-  /// Returns the number of multiplications of a step: coefficients of A and B of one mode, and the selection of a mode.
+  /// Returns the number of multiplications of a step: coefficients of A and B that are nonzero in at least one mode.
   std::int64_t multiply_adds() const {
     return static_cast<std::int64_t>(program_.coefficients.size() / modes_.count());
   }
@@ -196,11 +196,11 @@ class ArxStepper : public ChannelHistory<N> {
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
 
-  // Whether to compute two rows at once: registers hold their sums and as many values again.
+  // Whether to compute two rows at once: only if registers hold both rows' sums and as many other values.
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 
-  // Computes outputs from i on whose sums are over the same samples: each sample is read once for all of them.
+  // Computes kRows outputs from i on. Their sums use the same samples, each of which is read once for all rows.
   template <int kRows, int kBlocks>
   void make_rows(int i, const Step<kBlocks>& step) const {
     using Values = BlockReals<N, kBlocks>;
@@ -344,7 +344,7 @@ class ArxStepper : public ChannelHistory<N> {
     return choice.template pick<Values>(program_.constant.data() + i * modes_.count());
   }
 
-  // Descending, since a shock of an output is added to that and later ones.
+  // In descending order: a sum takes the place of its output's standard normal number, which later outputs also use.
   void start_all(int block, const Choice& choice) {
     Real* newest = ring_.sample(block, 0);
     for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
