@@ -81,9 +81,9 @@ std::pair<std::size_t, std::size_t> seen_rows(const Recording& recording) {
   return {first, last};
 }
 
-// Play of a whole film in which a flame is lit, shaded or blown at has another spread than the film. Where a single
-// film without inputs is refused for that, three quarters of it and then half are tried, at its start, middle and end;
-// of the first usable parts, the one whose spread is kept best is learned.
+// A flame that is lit, shaded or blown at in part of a film plays with another spread than the film. If a single film
+// is refused for that and its model has no inputs, parts of three quarters, then of half of it, at start, middle and
+// end, are learned instead. Of the first length with usable parts, the one whose play keeps its spread best is taken.
 Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                               const Progress& progress) {
   auto whole = fit_what_drives(recordings, recipe, progress);

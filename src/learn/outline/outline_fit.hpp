@@ -73,8 +73,8 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
 double followed_percent(const OutlineSummary& summary);
 constexpr double kMinFollowedPercent = 5;
 
-/// Whether the model may be used, judged by its free play, not by its one-step fit, which rewards stillness. Contains
-/// the first reason against it or a sentence in its favour.
+/// Returns whether the model is usable, with the first reason against it or a sentence in its favour; `code` receives
+/// the violated criterion's code. Free play is judged, not the one-step fit: a model that hardly moves also fits well.
 Usable outline_verdict(const OutlineSummary& summary, std::string* code = nullptr);
 
 /// The training record for the model's file, without extinction rule and cost.

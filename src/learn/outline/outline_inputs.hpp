@@ -1,9 +1,9 @@
 #pragma once
-// Inputs of an outline: conversion to the model's units, split by sign, and mirror image.
+// Inputs of an outline: conversion to the model's units, and the regressors made from them.
 //
-// A wind of 1 is the 95th percentile of the training wind while it blows. Its sign is represented by two non-negative
-// inputs, NAME+ and NAME-, because a linear model of the signed wind would answer opposite gusts with opposite changes
-// of height.
+// A wind of 1 is the 95th percentile of the training wind while it blows. Its size and its signed value are separate
+// regressors, each also as square root and square, because a linear model of the signed wind alone would answer
+// opposite gusts with opposite changes of height.
 
 #include <cstdint>
 #include <span>
@@ -64,7 +64,7 @@ inline constexpr double kSettleSeconds = 0.5;
 /// Flags per row: 1 where every input has been calm for kSettleSeconds within its episode (everywhere without inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// Flags of rows at rest; of calm rows where less than 0.5 s of rest is seen; none where less than 0.5 s of calm is.
+/// Flags of the rows at rest if they last at least 0.5 s in total, else of calm rows if they do; else empty.
 std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
 /// Height in pixels that equals 1 in the model. With inputs it is the median over undisturbed rows, some of which may
@@ -75,7 +75,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 
 /// Kinds of regressors made from inputs.
 struct RegressorShape {
-  bool powers = false;  ///< |NAME|, its square root and square, then the same signed, in place of NAME
+  bool powers = false;  ///< six regressors in place of NAME: |NAME|, its root and square, then these with NAME's sign
 };
 
 /// Names of the regressors of inputs, in the model's order (regressor_count(InputShape)).

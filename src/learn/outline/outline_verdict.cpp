@@ -58,8 +58,8 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        "neighbouring frames differ by {figure} % of what frames picked at random do, at most {limit}: the outline is "
        "more noise than movement; film it larger, sharper or at a higher rate",
        0, "noise"},
-      // Shapes at the edge of the recorded range are clamped invisibly: up to 21 per mille in films whose play has no
-      // foreign shape. A divergent play is clamped in hundreds.
+      // A few clamped frames are invisible: up to 21 in 1000 in plays that show no shape foreign to the recording. A
+      // divergent play is clamped in hundreds of 1000 frames.
       {1000 * trial.held_share, Bound::kAtMost, 50,
        "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1,
        "clamped"},

@@ -10,11 +10,11 @@
 namespace wisp {
 namespace {
 
-// Lags of the input that are matched, over 0.15 s and denser at recent times, which matter most. Earlier wind is in the
-// state of the dynamics; matching it too would cost jumps, each of which adds unrecorded noise.
+// Lags at which input histories are compared: over 0.15 s, denser at recent times, which matter most. Earlier wind acts
+// through the state of the dynamics; comparing it too would cause more jumps, each of which adds unrecorded noise.
 constexpr double kLagSeconds[] = {0, 1.0 / 60, 3.0 / 60, 5.0 / 60, 9.0 / 60};
-constexpr double kTolerance = 0.2;       // in wind: less jumps more often, more plays residuals that do not fit
-constexpr double kLongestSeconds = 1.5;  // maximum time between jumps, against audible repetition of the recording
+constexpr double kTolerance = 0.2;       // in units of wind: less causes more jumps, more admits unfit residuals
+constexpr double kLongestSeconds = 1.5;  // maximum time between jumps, so that play does not visibly repeat the film
 constexpr double kCalm = 0.04;           // in units of wind: less does not move a flame at rest
 constexpr double kMargin = 0.01;  // in units of wind: below a microphone's resolution; a larger one blurs the search
 constexpr double kMinSeconds = 1;
@@ -47,8 +47,8 @@ std::vector<double> signed_input(const Recording& recording, const PreparedOutli
   return samples_of(recording, prepared.inputs.front().name);
 }
 
-// Whether wind begins after calm. A recorded calm ends there, so that a flame at rest in lasting calm is not moved by
-// the residuals of a gust, even of one within the tolerance.
+// Whether wind begins after calm. A stretch ends there: otherwise a flame in lasting calm could replay on into a
+// recorded gust within the tolerance, and move by its residuals.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }

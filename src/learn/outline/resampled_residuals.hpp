@@ -1,11 +1,11 @@
 #pragma once
-// Resampled residuals of an outline: recorded shocks are replayed, so that no distribution has to be assumed.
+// Resampled residuals of an outline: recorded residuals are replayed as shocks, so no distribution has to be assumed.
 //
 // Source: the bootstrap of residuals in blocks (H. R. Künsch, "The jackknife and the bootstrap for general stationary
 // observations", Annals of Statistics 17 (1989), section 2.4; for residuals of autoregressions D. A. Freedman, "On
 // bootstrapping two-sided confidence intervals in linear models", 1984). Departure: blocks have no fixed length. A
-// block lasts as long as input and trend match those of its recording, and the next begins where they match again. So
-// the nonlinear and asymmetric part of the response to the input is replayed along with the noise.
+// block ends when another row's recorded input history is nearer to the present one by more than a tolerance, or after
+// 1.5 s. So the nonlinear and asymmetric part of the response to the input is replayed along with the noise.
 
 #include <span>
 
@@ -20,9 +20,9 @@ inline constexpr double kLargestStored = 127;  ///< largest 8-bit number of a st
 /// Nearest whole number of scales, within ±`largest`; 0 where the scale is 0.
 double stored(double value, double scale, double largest = kLargestStored);
 
-/// One-step residuals of the prepared recordings under dynamics with a shape, 8 bits per component, prepared for
-/// resampling; an input from the other side plays mirror images. Empty where less than a second remains.
-/// Errors: as predict().
+/// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component; an input of
+/// opposite sign plays mirror images. Empty if the model has inputs and less than a second of rows is complete.
+/// Errors: as predict(); no two consecutive complete rows.
 ///
 /// Precondition: the dynamics have a shape.
 Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
