@@ -98,20 +98,20 @@ std::optional<double> seconds_of(std::string_view unit);
 /// 31.01.2024 13:05:00, or since midnight of a time of day alone; nothing for other text.
 std::optional<double> seconds_of_date(std::string_view text);
 
-/// Resamples a recording with rows at `times` to even steps of their median by linear interpolation, or by the last
-/// sample where a channel moves in steps; rate_note reports the unevenness of the clock and the interpolation error.
-/// Gaps of more than 1.5 steps are missing samples. Errors: time decreases, or half of the steps are not typical.
+/// Resamples rows at `times` to even steps, the mean of those near the median: by linear interpolation, or by the last
+/// sample where a channel moves in steps. rate_note reports the unevenness of the clock and the interpolation error.
+/// Gaps of more than 1.5 steps are missing samples. Errors: time does not increase; most steps are far from the median.
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Step of time, in the column's unit.
 struct TimeStep {
   double step = 0;       ///< between rows
-  double tolerance = 0;  ///< tolerance: a hundredth, or the rounding error of the written digits, at most half a step
+  double tolerance = 0;  ///< largest deviation of an even step: 1 %, or the digits' rounding error up to half a step
 };
 
-/// Determines the step of the first rows, as long as they are even: of the steps compatible with the written digits,
-/// the one with the shortest number of rows per second, or of seconds: 0.033, 0.067, 0.100 are thirty rows per second.
-/// Nothing if time does not increase from the first row to the second. `resolution`: of the last written digit.
+/// Determines the step from the first rows, as far as they are even: of the steps that agree with the written digits,
+/// the one with the fewest digits, as a step or as rows per second: 0.033, 0.067, 0.100 give 30 rows per second. Nothing
+/// if the second time is not later than the first. `resolution`: value of the last written digit; `seconds`: per unit.
 ///
 /// Precondition: two times or more.
 std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);

@@ -19,8 +19,8 @@ struct RecordingVerdict {
 /// Returns the verdict; nothing if the recording has none.
 std::optional<RecordingVerdict> verdict_of(const Recording& recording);
 
-/// Returns why a model of these recordings is not usable, however well it plays: one was captured as not usable.
-/// Nothing if none was.
+/// Returns a reason if one of these recordings was captured as not usable: a model of them is then not usable, however
+/// well it plays. Nothing if none was.
 std::optional<std::string> refused_by_capture(std::span<const Recording> recordings);
 
 /// Sets the verdict attributes.

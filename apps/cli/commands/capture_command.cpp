@@ -100,8 +100,8 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
-// Number of samples in the start-up of a lamp or an amplifier: samples within the first second below all later ones,
-// where the first is less than half of the later mean.
+// Number of samples during which a lamp or an amplifier starts up: the first ones that are below all samples after the
+// first second. 0 if the first sample is at least half of the mean.
 std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
   const auto second = std::min(light.size(), static_cast<std::size_t>(std::max(1.0, rate_hz)));
   if (second == light.size() ||

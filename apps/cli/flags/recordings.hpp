@@ -46,7 +46,7 @@ bool leave_out(const std::string& path, const Error& error, const Arguments& arg
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
                                            Terminal& terminal, const CsvOptions& otherwise = {});
 
-/// Rows of `flag` (1-based, inclusive; the second of --range), or all rows where the flag is not given.
+/// Returns the rows that `flag` (for several recordings: --range) selects, 1-based, inclusive; all if it is not given.
 /// Errors: the range reaches beyond the recording.
 Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
 Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments);

@@ -27,8 +27,8 @@ Result<void> write_arx_figures(const std::filesystem::path& folder, const Model&
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);
 
-/// Reads the recording for validating such a model, within --range. --inputs and --outputs, if given, name the columns
-/// of the model's channels in the model's order; a table without a rate takes the model's.
+/// Reads the recording on which a model with plain outputs is validated, within --range. --inputs and --outputs, if
+/// given, name the columns of the model's channels, in the model's order; a table without a rate takes the model's.
 /// Errors: as read_table() and in_range(); a number of names other than the model's number of channels.
 Result<Recording> table_for(const Model& model, const std::string& path, const Arguments& arguments);
 

@@ -3,8 +3,8 @@
 //
 // Source: L. Ljung, System Identification (2nd ed.), section 3.2 (k-step prediction), 16.4 (fit); J_k as in
 // L.-M. Reissell and D. K. Pai (2001), section 3.4. A k-step prediction of y(t) uses outputs up to y(t−k) and all
-// inputs up to t; its error is Σ F_j e(t−j) over j < k, F the impulse response of the noise, which is how it is
-// computed.
+// inputs up to t. Its error is computed as Σ F_j e(t−j) over j < k, with F the impulse response from noise to
+// output.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -66,8 +66,8 @@ struct PredictionFigures {
 struct FigureOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};
   InitialState initial = InitialState::kMeasured;
-  std::optional<int> first_sample;  ///< first row of an episode for one step, 0-based, at least the model's history;
-                                    ///< unset: the model's history
+  std::optional<int> first_sample;  ///< first row of an episode that is predicted one step ahead, 0-based, at least
+                                    ///< the model's history; unset: the model's history
 };
 
 /// Prediction errors over all recordings together, for each number of steps.

@@ -143,8 +143,8 @@ VectorXd delayed(const VectorXd& series, Index samples) {
   return out;
 }
 
-// ∂ step / ∂ θ, samples × d_total: a coefficient of A gives −(step of its output), one of B the step itself, each
-// delayed and filtered by the noise response.
+// Gradient of the step response in the coefficients, samples × d_total: for A, −(step response of the multiplied
+// output); for B of this input, the unit step; both delayed by the lag and filtered by the noise response.
 MatrixXd step_slopes(const ArxModel& model, int output, int input, const MatrixXd& step) {
   const int ny = model.orders.outputs();
   const Index samples = step.rows();

@@ -1,8 +1,8 @@
 #pragma once
 // Responses of an ARX model: poles, zeros, step and frequency response, with confidence bands.
 //
-// Source: L. Ljung, System Identification (2nd ed.), sections 2.1–2.3 (impulse and frequency response) and 9.4 (how the
-// covariance of the coefficients becomes one of anything computed from them, by Gauss' approximation formula).
+// Source: L. Ljung, System Identification (2nd ed.), sections 2.1–2.3 (impulse and frequency response) and 9.4 (Gauss'
+// approximation formula: covariance of a function of the coefficients from theirs and from the function's gradient).
 
 #include <complex>
 #include <span>
