@@ -41,7 +41,7 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "dia
 /// Objective of the estimation.
 enum class ArxFocus {
   kPrediction,  ///< one-step prediction: least squares
-  kSimulation,  ///< free simulation: of least squares and 15 or 30 lags under a kernel, what simulates held-out rows best
+  kSimulation,  ///< free simulation: least squares or 15 or 30 lags under a kernel, what simulates held-out rows best
   kAuto,        ///< least squares, or such lags under a kernel if they simulate held-out rows significantly better
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// Edge points along a region's boundary with sub-pixel accuracy (section 3.1 of the paper): the direction is the
-// picture's Sobel gradient; the position is where brightness crosses the level along it, which a thresholded picture
-// gives only to half a pixel. The edge points of an outline are ordered from the base's left over the tip to the base's
+// Edge points along a region's boundary with sub-pixel accuracy (section 3.1 of the paper): each lies where the
+// brightness along the picture's Sobel gradient crosses the level. The pixels of a thresholded picture would locate it
+// to half a pixel only. The edge points of an outline are ordered from the base's left over the tip to the base's
 // right, each with its position along the path.
 //
 // The outline is open at the base. Its two corners are the boundary's extreme points towards lower left and lower
@@ -70,7 +70,7 @@ struct EdgeCloud {
   std::vector<double> way;       ///< arc length up to each point, pixels
   std::size_t left_corner = 0;   ///< index of the point at the base's left corner
   std::size_t right_corner = 0;  ///< … and at its right corner
-  double left_out = 0;           ///< area between that line and the underside; 0 if it is followed
+  double left_out = 0;           ///< area between that straight line and the underside; 0 if the underside is followed
 };
 
 /// The part of a picture in which a boundary was followed.
@@ -95,8 +95,8 @@ void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options);
 /// once per model, from a few outlines, and kept only if they fit better.
 ///
 /// Knots divide a density into equal amounts: part uniform, part the outlines' mean bending (C. de Boor, A Practical
-/// Guide to Splines, chapter XII, similarly distributes knots by a power of a derivative). Several weights of bending
-/// and ends at the base are tried; the best is kept.
+/// Guide to Splines, chapter XII, similarly distributes knots by a power of a derivative). Several powers of the
+/// bending and uniform shares are tried; the best is kept.
 struct CurveShape {
   std::vector<double> knots;  ///< full clamped knot vector
   std::vector<double> pace;   ///< curve parameter at equally spaced positions of a cloud (EdgeCloudOptions::pace)

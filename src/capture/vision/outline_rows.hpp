@@ -1,7 +1,7 @@
 #pragma once
-// Findings of each frame, their assembly to the rows of a recording, and the verdict whether its outline is a usable
-// flame's, and if not, why: two logistic models of the facts, monotone in every fact, fitted by tools/fit_verdict.py to
-// films and scenes with human labels.
+// Findings of each frame, their assembly to the rows of a recording, and the verdict whether its outline is usable and
+// why. The verdict is made by two logistic models of the facts (flame or not; outline right or not), monotone in every
+// fact, fitted by tools/fit_verdict.py to films and scenes with human labels.
 
 #include <cstdint>
 #include <vector>
@@ -39,8 +39,8 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
 
-/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is the heaviest fact
-/// without which the verdict would be yes; absence of a flame is tested first.
+/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is the fact with the
+/// largest penalty that alone prevents the verdict "flame" or, where a flame is likely, the verdict "usable".
 void judge_outline(CaptureReport& report);
 
 }  // namespace wisp

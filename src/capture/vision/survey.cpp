@@ -122,7 +122,7 @@ LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
 std::vector<Candidate> scan_levels(const PictureGrid& grid, const PictureGrid& luma, PixelChannel channel,
                                    const Picture& format, const Evidence& evidence) {
   std::vector<std::vector<Candidate>> levels;
-  // One level more than can be chosen: the area left there shows how steep the rim is below.
+  // One level more than can be chosen: the area left at that level shows how steep the rim is at the level below.
   for (int level = 2 * kLevelStep; brightness(format, channel, level) < kHighestLevel + kLevelStep;
        level += kLevelStep) {
     levels.push_back(find_candidates(grid, luma, level, evidence));
@@ -155,8 +155,8 @@ bool same_place(const Candidate& a, const Candidate& b) {
   return !intersection(usual_place(a.seen), usual_place(b.seen)).empty();
 }
 
-// The likeliest candidate, and others in its channel and level that are nearly as likely: flames in one picture are
-// alike, lit surroundings are as bright only at other levels, and lamps do not move. Largest first.
+// The likeliest candidate, and those of its channel and level that are nearly as likely, as bright and as mobile, the
+// largest first. This selects the other flames, which are alike, but no lit surroundings and no lamps.
 std::vector<Candidate> places(const std::vector<Candidate>& candidates, const SurveyOptions& options) {
   std::vector<Candidate> out;
   const Candidate& best = candidates.front();
@@ -173,7 +173,7 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   return out;
 }
 
-// Brightness of an object and of its surroundings, whose brighter quarter counts, as it may brighten further.
+// Brightness of an object (median) and of its surroundings (upper quartile, as their brighter part may brighten).
 struct Brightness {
   double inside = 0;
   double outside = 0;
@@ -193,8 +193,8 @@ std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const 
   return Brightness{median(std::move(inside)), *quarter};
 }
 
-// Level slightly more than halfway from the surroundings to the object. There its area depends little on the rim's
-// blur, and its glow, which stays below halfway, is excluded.
+// Level slightly above halfway between the brightness of the surroundings and of the object. At this level the object's
+// area depends little on the rim's blur, and the glow, which is darker, is excluded.
 int half_way(const Brightness& bright) {
   return static_cast<int>(bright.outside + kHalfWay * (bright.inside - bright.outside));
 }
@@ -211,8 +211,8 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
   return best;
 }
 
-// Whether a candidate is an equally good view of the object. Motion is ignored: a part moves more than the whole, and
-// for a nearly still flame it is chance.
+// Whether a candidate shows the object as well as `thing` does. Motion is not compared: a part of an object moves more
+// than the whole, and the measured motion of a nearly still flame is random.
 bool as_good(const Candidate& c, const Candidate& thing) {
   return c.stands == thing.stands && c.likeness >= kNearlyAsLikely * thing.likeness &&
          c.light >= kNearlyAsBright * thing.light && c.softness <= thing.softness && c.seen.size() >= thing.seen.size();
@@ -238,9 +238,9 @@ std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& h
   return views;
 }
 
-// The object at its level in the channel that shows most of it. Where one channel shows only a flame's bright core, or
-// feet divided by the wick, another shows the whole; clips of one camera are so treated alike. A glow or wax would be
-// larger too, but with a softer rim. Repeated from a larger view, as a core overlaps little with the whole.
+// The object at its level, in the channel that shows the largest area of it: another channel may show only the bright
+// core of a flame, or feet divided by the wick. A glow or wax is larger too, but as_good() excludes its softer rim.
+// The search is repeated from each larger view, as a view of the core overlaps little with the whole flame.
 Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
                 const Region& area, bool dark) {
   Candidate best = settled(thing, candidates, pictures, area, dark);
@@ -333,7 +333,7 @@ Error nothing_found(bool dark) {
 
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
   assert(step >= 1);
-  // Neighbours are mostly equal, and a count must be stored before its next increment: four histograms take turns.
+  // Neighbouring pixels mostly increment the same count, and each would wait for the last: four histograms alternate.
   std::array<std::array<std::uint32_t, 256>, 4> counts{};
   for (int y = step / 2; y < image.height; y += step) {
     const std::uint8_t* row = image.row(y);

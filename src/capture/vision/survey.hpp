@@ -70,7 +70,7 @@ struct Candidate {
   double contrast = 255;     ///< brightness minus that of its surroundings, levels, once its level is final
   double softness = 0;       ///< share of its area that changes with the level
   double likeness = 0;       ///< combined evidence from still pictures: larger is likelier
-  double score = 0;          ///< … and from movement
+  double score = 0;          ///< likeness combined with evidence from movement
 };
 
 /// Finds all candidates in one channel at one level.
@@ -128,8 +128,8 @@ struct Survey {
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
 
-/// Side on which the object is held: below, unless the border on another side (and not the lower one) cuts it off in
-/// nearly all pictures, or it lies on its side, where the end that moves less is taken.
+/// Side on which the object is held: below, unless another border (and not the lower one) cuts it off in nearly all
+/// pictures. Of an object much wider than high it is the left or right end that moves less.
 BaseSide base_side(const Survey& survey, const Region& area);
 
 }  // namespace wisp

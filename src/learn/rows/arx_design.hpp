@@ -1,6 +1,6 @@
 #pragma once
-// Orders of a model from a few numbers, and the design of its regression: a layout of the lagged channels (columns) that
-// all output rows need, and for each output row its columns in that layout.
+// Orders of a model from a few numbers, and the design of its regression: a layout of the lagged channels (columns) of
+// all output rows, and for each output row its columns in that layout.
 
 #include <Eigen/Core>
 #include <vector>

@@ -120,8 +120,8 @@ double clockwise_area(std::span<const PointMm> polygon) {
 namespace {
 
 constexpr double kLevel = 0.3;  // light of glowing soot at the contour: half of full brightness in the camera's picture
-constexpr double kCut = 0.03;   // height of the base above the lowest point, as a share of the flame's: the round
-                                // bottom of a contour has no corners to fix control points to
+constexpr double kCut = 0.03;   // share of the flame's height that is cut off below to form the base: the round bottom
+                                // of a contour has no corners that fix the first and last control point
 constexpr int kSamplesPerCell = 3;
 constexpr int kContourPoints = 200;
 constexpr double kTipShare = 0.02;
@@ -144,8 +144,8 @@ Extent lit_extent(const RigLight& light, double level) {
   return e;
 }
 
-// Returns the largest closed contour, in millimetres. The lattice ends in the dark outside the grid, so that a flame
-// that leaves the grid is closed along its rim.
+// Returns the largest closed contour, in millimetres. The lattice extends beyond the grid, where it is dark, so the
+// contour of a flame that leaves the grid is closed along the grid's border.
 std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   const Extent e = lit_extent(light, level);
   if (e.right < e.left) return {};

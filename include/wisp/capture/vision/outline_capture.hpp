@@ -49,12 +49,12 @@ struct FilmFacts {
 /// Features that distinguish the outline of a flame from that of another object. Shares are of rows with an outline.
 struct OutlineFacts {
   std::size_t rows = 0;            ///< number of rows from the first outline until the flame stays extinguished
-  std::size_t absent = 0;          ///< number of those without an outline whose frame is not a repeated one
-  std::size_t blown = 0;           ///< number of those for which the flame was blown out: see excuse_absence()
+  std::size_t absent = 0;          ///< number of these rows without an outline, repeated frames not counted
+  std::size_t blown = 0;           ///< number of absent rows in which the flame was blown out: see excuse_absence()
   std::size_t seen_from = 0;       ///< index of the first row with an outline
-  std::size_t still = 0;           ///< number of earlier rows that show the object motionless
-  std::size_t other_before = 0;    ///< number of earlier rows, if most of them show another bright object elsewhere
-  std::size_t other_after = 0;     ///< number of rows after the last outline, on the same condition
+  std::size_t still = 0;           ///< number of rows before it that show the object motionless
+  std::size_t other_before = 0;    ///< number of rows before it, if most show another bright object elsewhere; else 0
+  std::size_t other_after = 0;     ///< number of rows after the last outline, if most show such an object; else 0
   bool fades_out = false;          ///< the object dims before the last outline, as in a fade to black
   double lost = 0;                 ///< share of the clip's rows without a frame, filled or not
   double repeated = 0;             ///< share of the clip's rows whose frame repeats the previous one
@@ -69,7 +69,7 @@ struct OutlineFacts {
   double taper = 0;                ///< median reduction of the width from the middle to near the tip
   double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
   double width = 0;                ///< median width across the axis, over height
-  bool burns = true;               ///< the first frames show a lit object that moves; else the film's last ones decided
+  bool burns = true;               ///< the survey found a lit object that moves; false: none was found until the end
   double light = 0;                ///< luma over the largest possible one
   double contrast = 255;           ///< brightness of the object minus that of its surroundings, levels of 255
   double clipped = 0;              ///< share of the object that is saturated in every channel

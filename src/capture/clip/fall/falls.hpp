@@ -1,6 +1,6 @@
 #pragma once
-// Falls in a film: objects before a wall in one frame, the wall estimated from the film's other frames; falls among the
-// tracks of objects over frames; the report: whether they are usable for learning, why there are none, their figures.
+// Falls in a film: estimates the wall (the static background) from all frames, finds the objects before it in each
+// frame, tracks them, selects the falls, and reports their figures and whether they are usable, or why there are none.
 
 #include <cstddef>
 #include <cstdint>
