@@ -23,7 +23,7 @@ Section high_pass(double frequency_hz, double q, double rate_hz);
 Section low_pass(double frequency_hz, double q, double rate_hz);
 Section band_pass(double frequency_hz, double q, double rate_hz);
 
-/// A low-pass of odd symmetry about its middle tap: windowed sinc (Hamming) with gain 1 at 0 Hz.
+/// A linear-phase low-pass: windowed sinc (Hamming), symmetric about its middle, with gain 1 at 0 Hz.
 ///
 /// Precondition: taps >= 1, 0 < cutoff < 0.5 (as a share of the sample rate).
 std::vector<float> windowed_sinc(int taps, double cutoff);
@@ -71,8 +71,8 @@ class Filter {
     return y;
   }
 
-  /// Sets state below −300 dB to 0. Called once per hop, it prevents denormal numbers, which some machines flush to
-  /// zero and others do not: even the fastest filter here decays by less than 18 digits in a hop.
+  /// Sets state below −300 dB (1e-15) to 0. Called once per hop, it prevents denormal numbers (below 1e-38), which only
+  /// some machines flush to zero: in a hop even the fastest filter decays by less than 18 of the 23 decades between.
   void hush() {
     const T least = T(1e-15F);
     const bool quiet = d1_ < least && T(-1e-15F) < d1_ && d2_ < least && T(-1e-15F) < d2_;

@@ -57,9 +57,9 @@ T likeness_of(const Features<T>& f) {
   return sigmoid(z);
 }
 
-/// Keeps likeness at the end of a gust, which decays in soft puffs that by themselves sound like anything. For half a
-/// second after certain blowing (50 ms of it), likeness is kept while the sound only gets softer; a beginning voice
-/// gets louder.
+/// Keeps likeness at the end of a gust, whose soft puffs the classifier alone cannot distinguish from other sounds. For
+/// half a second after certain blowing (50 ms of it), likeness is kept while the sound only gets softer; a beginning
+/// voice gets louder.
 template <class T>
 class Tail {
  public:
@@ -184,8 +184,8 @@ class Kernel {
     for (auto& channel : channels_) {
       const T voice = channel.bands.push(channel.decimator.value());
       channel.history.push(voice);
-      // The level's band is the voice band with a rise above 300 Hz, which flattens its falling spectrum and so reduces
-      // the variance of a frame's level. Below 300 Hz it is flat, for microphones that pass mainly low frequencies.
+      // A level is the power of the voice band after a filter that rises above 300 Hz. The filter flattens the falling
+      // spectrum, so a frame's level varies less; below, it is flat for microphones that pass mainly low frequencies.
       const T levelled = voice - T(d_.level_zero) * channel.before;
       channel.before = voice;
       frame_band_ = frame_band_ + levelled * levelled;
@@ -218,7 +218,7 @@ class Kernel {
     likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
   }
 
-  /// Whether there is sound that began more than two hops ago: a voice takes as long to show its period.
+  /// Whether there is sound, and it began more than two hops ago: in the first two hops a voice shows no period yet.
   bool judged(T voice_sum) const {
     const T newest = T(d_.power_approach) * voice_sum * per_hop_;
     return T(kMinJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;

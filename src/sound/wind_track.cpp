@@ -118,8 +118,8 @@ constexpr float kBlowingConfidence = 0.5F;  // threshold of probable blowing
 constexpr float kWindHeard = 0.05F;         // in wind units: minimum that is reported as wind
 constexpr double kShortestPuff = 0.1;       // minimum seconds above half of a puff's maximum
 
-// A knock exceeds `wind` for at most `seconds`, with no more such wind for as long before and after it, as the short
-// peaks of a gust have, and reaches at least `peak`: sound far too strong for wind also rings in a room.
+// A knock exceeds `wind` for at most `seconds` and reaches `peak`. Unlike a gust's short peaks it has no such wind for
+// `seconds` before and after. Knocks far stronger than wind (the first entry) ring in the room, so they last longer.
 struct Knock {
   float wind, peak;
   double seconds;
@@ -213,8 +213,8 @@ BandMeans band_means(const Spectra& spectra, const Seen& seen, const std::vector
   return means;
 }
 
-/// Wind of a frame: the measurement where it sounds like wind; the estimate between a voice's harmonics where it does
-/// not, or where a voice raises the measurement far above that.
+/// Wind of a frame: `measured` for sound like wind. For foreign sound, and where `measured` is far above `between` (a
+/// voice over wind), the smaller of both. `between` is estimated between a voice's harmonics.
 float wind_of(float measured, bool foreign, float between) {
   constexpr float kMuch = 1.35F;
   constexpr float kAtLeast = 0.08F;
@@ -236,8 +236,8 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   return frames;
 }
 
-/// Removes knocks on the table, which read as wind: in nearly calm recordings, as many times its maximum. A knock
-/// decays while it sounds, faster than any blow: it is replaced by the larger of the wind before and after it.
+/// Replaces knocks on the table by the larger of the wind before and after. They are measured as wind, in nearly calm
+/// recordings as many times the real maximum, but decay faster than any blow: to half of their peak in kShortestPuff.
 /// `seconds_at` gives the beginning of a frame.
 template <class SecondsAt>
 void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const SecondsAt& seconds_at) {

@@ -69,7 +69,7 @@ struct LeafPairsOptions {
   int clones = 32;           ///< clones per gust, 1 … 10000
 };
 
-/// Equal falls with a gust each, and without. Episodes k of both begin alike; clones of one gust are consecutive.
+/// The same falls with one gust each and without: episode k starts from one state in both. Clones are consecutive.
 struct LeafPairs {
   Recording windy;
   Recording calm;

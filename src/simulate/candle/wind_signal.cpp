@@ -83,8 +83,8 @@ std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
   return wind;
 }
 
-// Draughts of a closed room, independent of the options for gusts: the brightness then varies by 0.6 to 1.6 % over ten
-// seconds, by 1.0 % on average of eight. With draughts a third as strong the flame is refused as a lamp.
+// Draughts of a closed room, independent of the options for gusts. A flame's brightness then varies by 0.6 to 1.6 %
+// over ten seconds (mean of eight: 1.0 %). With a third of these draughts a capture mistakes the flame for a lamp.
 WindSignalOptions draughts(const WindSignalOptions& o) {
   return {
       .most = 0.05, .noise = 0.015, .bandwidth_hz = 1, .gust = 0, .rest_share = 0, .both_sides = true, .seed = o.seed};
