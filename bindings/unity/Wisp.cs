@@ -437,7 +437,7 @@ namespace Wisp
         public void End(ulong instance) { Native.Check(Native.wisp_bank_end(handle, instance)); }
         public bool IsAlive(ulong instance) { return Native.wisp_bank_alive(handle, instance) != 0; }
 
-        /// <summary>Sets inputs from the next step on: slots x inputs; one row for all; one instance's.</summary>
+        /// <summary>Sets inputs from the next step on: of all slots (slots x inputs), one row for all, or of one.</summary>
         public void SetInputs(float[] values) { Native.Check(Native.wisp_bank_set_inputs(handle, values, Native.Count(values))); }
         public void SetCommonInputs(params float[] values) { Native.Check(Native.wisp_bank_set_common_inputs(handle, values, Native.Count(values))); }
         public void SetInputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_set_instance_inputs(handle, instance, values, Native.Count(values))); }

@@ -57,7 +57,7 @@ inline std::uint32_t dithered(float code, float dither) {
 
 /// Ordered noise in [0, 1) that spreads rounding over neighbouring pixels: interleaved gradient noise (J. Jimenez, Next
 /// Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014), in fixed point. The same for every
-/// frame, so that video does not boil.
+/// frame, so that video does not flicker.
 inline float dither_at(int x, int y) {
   const std::uint32_t along = static_cast<std::uint32_t>(x) * 288237660U + static_cast<std::uint32_t>(y) * 25070368U;
   const auto spread = static_cast<std::uint32_t>(static_cast<std::uint64_t>(along) * 888907844U >> 24);

@@ -108,7 +108,7 @@ function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneS
   };
 }
 
-/** Milliseconds between checks for sound: after two silent ones it sleeps, after two more while awake it is reopened. */
+/** Milliseconds between checks for sound; silent checks until it counts as asleep; silent checks until it is reopened. */
 const LOOK_EVERY = 500;
 const ASLEEP = 2;
 const STUCK = 4;

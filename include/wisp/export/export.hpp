@@ -27,7 +27,7 @@ struct TakeOptions {
   std::vector<float> schedule{};
 };
 
-/// Frames of a model at its own rate, recorded after the model has settled.
+/// Frames of a model at its own rate, after it has settled; a fall that does not loop is recorded from its start.
 struct Take {
   double rate_hz = 0;
   bool loop = false;
@@ -89,8 +89,8 @@ struct FirmwareSource {
 /// Exports a model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library,
 /// and only operations defined by the standard, so that every processor plays the same numbers from the same seed.
 /// Shocks are drawn from 17 quantiles of the residuals if the model has them, else normal. `name` prefixes all names.
-/// Errors: not exactly one output; an input; a chain; more than 16 modes or 32 lags; a coefficient of 8 or more; a name
-/// that is no C identifier.
+/// Errors: not exactly one output; an input; a chain; more than 16 modes or 32 lags; a coefficient of 8 or more, or a
+/// mode's coefficients of 24 or more together; a name that is no C identifier.
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
 
 /// Languages in which plant_text() exports a plant.

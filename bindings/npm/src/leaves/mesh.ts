@@ -2,11 +2,11 @@
 // the outline out. y along the midrib to the tip, x across, z out of the upper side; x and y are in units of half the
 // leaf's width and length.
 
-/** Coordinate along of the stalk's end. */
+/** Position of the stalk's end along the midrib. */
 const STALK = -0.28;
 
 export interface LeafMesh {
-  /** x, y, z of each, then across (−1 … 1) and along (below 0 the stalk, 1 the tip) */
+  /** per vertex x, y, z, then the position across (−1 … 1) and along the midrib (below 0: the stalk; 1: the tip) */
   vertices: Float32Array;
   indices: Uint16Array;
 }
