@@ -111,7 +111,7 @@ struct TimeStep {
 
 /// Determines the step from the first rows, as far as they are even: of the steps that agree with the written digits,
 /// the one with the fewest digits, as a step or as rows per second: 0.033, 0.067, 0.100 give 30 rows per second.
-/// Nothing if the second time is not after the first. `resolution`: value of the last written digit; `seconds`: a unit.
+/// Nothing if the second time is not later. `resolution`: value of the last written digit; `seconds`: per unit of time.
 ///
 /// Precondition: two times or more.
 std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);
