@@ -17,7 +17,7 @@ struct ModeRows {
   const std::vector<double>& constant;
 };
 
-// Taps of output i: inputs first, then past outputs, the newest last: only one product depends on the previous step.
+// Taps of output i: inputs, then past outputs. Each channel's newest sample is last, as the previous step is done late.
 std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRows> modes,
                                  const std::vector<double>& units, int i) {
   std::vector<ModeWeights> taps;

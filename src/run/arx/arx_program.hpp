@@ -28,13 +28,13 @@ struct ArxProgram {
   int regressors = 0;
   int depth = 0;  ///< number of stored samples, the one being made included
   int modes = 1;
-  std::size_t shocks = 0;  ///< number of shocks added; known while measuring, when all arrays are empty
+  std::size_t shocks = 0;  ///< number of shocks of all outputs; known while measuring too, when arrays are empty
   std::span<TapRun> runs;
   std::span<std::uint32_t> row_end;    ///< per output, one past its last run
-  std::span<std::uint32_t> twin;       ///< per output, number of taps if equal to the next but for coefficients, else 0
+  std::span<std::uint32_t> twin;       ///< per output, number of taps if the next differs in coefficients only, else 0
   std::span<float> coefficients;       ///< taps × modes; those of A are negated: a step only adds
   std::span<float> constant;           ///< outputs × modes
-  std::span<std::uint32_t> shock;      ///< per shock, output whose standard normal number it is
+  std::span<std::uint32_t> shock;      ///< per shock, output whose standard normal number it scales
   std::span<std::uint32_t> shock_end;  ///< per output, one past its last shock
   std::span<float> shock_size;         ///< shocks × modes
   ResampledProgram resampled;          ///< residuals to play instead; empty: Gaussian shocks
@@ -42,7 +42,7 @@ struct ArxProgram {
 
 /// A tap's or shock's coefficient in every mode, in channel units.
 struct ModeWeights {
-  std::uint32_t channel;  ///< channel of a tap as in TapRun; of a shock the output of its standard normal number
+  std::uint32_t channel;  ///< of a tap as in TapRun; of a shock the output whose standard normal number it scales
   std::uint32_t lag;
   std::vector<float> of_mode;
 };

@@ -57,7 +57,7 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
-  /// Advances every block's ring by `samples`; the newest is then to be computed.
+  /// Advances every block's ring by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) {
     ChannelHistory<N>::turn(samples);
     resampled_.turn(samples);
@@ -67,8 +67,8 @@ class ArxStepper : public ChannelHistory<N> {
   static constexpr int kGroup = Modes::kGroup;
   static constexpr bool kGroupsVary = false;
 
-  /// Computes the newest samples of consecutive blocks, one or kGroup, whose first has this moment: each coefficient is
-  /// read once for all, and independent sums fill the processor's pipelines.
+  /// Computes the newest samples of kBlocks consecutive blocks (1 or kGroup); `moment` is that of the first. Each
+  /// coefficient is read once for all blocks, and independent sums fill the processor's pipelines.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
     std::uint64_t quiet = ~std::uint64_t{0};
@@ -97,7 +97,7 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  /// Returns whether step_alone() steps a bank's only instance. It ignores modes, so it is unavailable if kGroup is 1.
+  /// Returns whether step_alone() supports the model. It ignores modes, so it is not for steppers whose kGroup is 1.
   bool steps_alone() const { return alone_.there(); }
 
   /// Makes `count` >= 2 steps of the only instance, equal to `count` calls of step() with a turn() between. For each
@@ -118,7 +118,7 @@ class ArxStepper : public ChannelHistory<N> {
     }
     ring_.turn(count - 1);
     alone_.end(ring_);
-    std::fill_n(quiet_.begin(), program_.regressors, 0);  // not counted in this kernel
+    std::fill_n(quiet_.begin(), program_.regressors, 0);  // step_alone() does not count quiet steps
     return clamped;
   }
 
@@ -190,7 +190,7 @@ class ArxStepper : public ChannelHistory<N> {
     Real* newest;      // its newest sample
     std::size_t stride;
     Choice choice;
-    std::uint64_t quiet;     // one bit for each of the first regressors
+    std::uint64_t quiet;     // bit k < kQuietBits: regressor k is quiet
     std::uint32_t* clamped;  // one flag per lane
 
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
@@ -254,7 +254,7 @@ class ArxStepper : public ChannelHistory<N> {
   }
 
   // A regressor that has been 0 in all lanes over the whole history, such as calm wind, contributes nothing. Skipping
-  // it changes no bit (settle() converts −0 to 0). Returns one bit for each of the first regressors.
+  // it changes no bit (settle() converts −0 to 0). Returns bit k for regressor k < kQuietBits.
   std::uint64_t count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
     const Real* newest = this->regressors(block);

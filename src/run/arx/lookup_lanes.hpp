@@ -44,7 +44,7 @@ class LookupLanes {
   bool is_over(int block, int lane, std::uint32_t played) const { return played >= length(block, lane); }
 
   /// Compares this step's share of candidates. `played`: the current block's rows so far, then earlier blocks, newest
-  /// first; `left`: number of rows that follow in its stretch.
+  /// first; `left`: number of rows that follow the current one in its stretch.
   void look(int block, int lane, std::span<const PlayedRows> played, std::uint32_t left) {
     const std::uint32_t all = length(block, lane), now = played[0].count;
     if (now == 0 || now > all) return;
@@ -55,7 +55,7 @@ class LookupLanes {
     for (std::uint32_t group = first; group < end; ++group) compare(block, lane, group, aim, played, ahead);
   }
 
-  /// Records a block of rows as played and begins another one; returns its first row.
+  /// Records a block of rows as played and draws the next one by two random words. Returns the next block's first row.
   std::uint32_t jump(int block, int lane, PlayedRows played, std::uint32_t where, std::uint32_t how_long,
                      std::span<const std::uint32_t> left) {
     count(block, lane, played);
@@ -88,8 +88,8 @@ class LookupLanes {
 
  private:
   static constexpr float kNone = 1e30f;       // cost of a missing candidate
-  static constexpr float kBarred = 10;        // cost added to a row that is excluded, unless all are
-  static constexpr float kForgotten = 1e-3f;  // share of the play counts that decays per step
+  static constexpr float kBarred = 10;        // cost added to an excluded row, which is chosen only for want of others
+  static constexpr float kForgotten = 1e-3f;  // share of the play counts that decays per played row
   static constexpr float kMostCounted = 1e7f;
   static constexpr int kLength = 0, kWeight = 1, kCost = 2, kPlace = kCost + kNearestPlaces;
   static constexpr int kCount = kPlace + kNearestPlaces, kValues = kCount + static_cast<int>(kPlayedParts);

@@ -1,5 +1,5 @@
 #pragma once
-// Active mode of an ARX model in every lane of a block: the only one, or of a switched model one chosen by a chain.
+// Active mode in every lane of a block: the only mode of an ARX model, or that of a switched model's Markov chain.
 
 #include <cstdint>
 #include <optional>
@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kAnyWord = 0xffffffffU;
 struct ModeProgram {
   int modes = 0;
   int outputs = 0;
-  /// (modes + 1) × modes, from every mode and from before the first step; a random word selects the first mode whose
-  /// threshold exceeds it or is kAnyWord.
+  /// (modes + 1) × modes: a row for each previous mode, and a last one for the first step. A random word selects the
+  /// first mode whose threshold exceeds it or is kAnyWord.
   std::span<std::uint32_t> thresholds;
 };
 
@@ -60,7 +60,7 @@ class SingleMode {
 };
 
 /// Modes of a switched model. Coefficients are gathered lane by lane, so that the arithmetic is that of a single mode,
-/// whatever their number. The chain takes one random word.
+/// whatever the number of modes. The chain takes one random word per step.
 template <class N>
 class ModeLanes {
  public:
@@ -84,7 +84,7 @@ class ModeLanes {
   struct Choice {
     std::uint32_t mode[kLanes];
 
-    /// Returns, in every lane, the number of the lane's mode.
+    /// Returns, in every lane, the element of `of_mode` that belongs to the lane's mode.
     template <class Values>
     Values pick(const float* of_mode) const {
       Real picked[kLanes];
@@ -123,7 +123,7 @@ class ModeLanes {
  private:
   static constexpr float kNoMode = -1.0f;
 
-  // Makes one step of every lane's Markov chain. Its word follows those of the shocks.
+  // Makes one step of every lane's Markov chain. Its random word follows those of the shocks.
   Choice walk(int block, const Moment<N>& moment) const {
     Choice choice;
     const auto modes = static_cast<std::uint32_t>(program_.modes);

@@ -7,7 +7,7 @@
 // With a driving input, a jump searches for the rows with the nearest input past (related methods in animation: D.
 // Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016): one
 // descent of a k-d tree to a leaf, whose rows are compared. The search runs only in steps in which the next row's
-// distance exceeds the tolerance.
+// distance exceeds the tolerance, a stretch ends, or a block has reached its longest duration.
 //
 // For a 3-D body the input is a horizontal vector. A row's components along the wind apply along the wind's direction
 // at the jump to that row; those across come from another row of similar strength, mirrored at random: a second search
@@ -72,7 +72,7 @@ class ResampledLanes {
   /// Advances every block's past by `samples`.
   void turn(int samples = 1) { past_.turn(samples); }
 
-  /// Records the input of a block's step, with or without noise: [regressor][lane].
+  /// Records a block's input, [regressor][lane]; called in every step, with or without noise.
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
     for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {
@@ -80,7 +80,7 @@ class ResampledLanes {
     }
   }
 
-  /// Advances every lane of a block that is in use.
+  /// Advances the lanes in use of a block.
   void step(int block, const Moment<N>& moment) {
     for (int k = 0; k < lives(); ++k) {
       const Life life{block, k * blocks_ + block, k};
@@ -136,9 +136,9 @@ class ResampledLanes {
   }
 
  private:
-  // State layout: twice the row, plus one for its mirror image; steps since the jump; and both for the last row of
-  // every earlier block, newest first.
-  static constexpr float kMaxSum = 1e15f;  // bound on any input past in units of its range
+  // State layout: twice the row, plus one for its mirror image; number of rows played since the jump; and both for the
+  // last row of every earlier block, newest first.
+  static constexpr float kMaxSum = 1e15f;  // bound on the sum of an input's past, in channel units
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;
   static constexpr int kAge = 1;
@@ -146,7 +146,7 @@ class ResampledLanes {
 
   static constexpr int kVectorRegressors = 3;  // regressors per component of a vector
 
-  // One search for rows: of the residuals along the wind, and for a body a second one of those across it.
+  // A search for rows: number 0 finds residuals along the wind; 1, for a body only, those across it. `at`: its state.
   struct Life {
     int block;
     int at;
@@ -235,14 +235,14 @@ class ResampledLanes {
     }
   }
 
-  // Next rows of a block's lanes, and the lanes that must jump.
+  // Next places (2 · row, plus 1 for the mirror image) of a block's lanes, and the lanes that must jump.
   struct Places {
     std::uint32_t next[kLanes];
     bool forced[kLanes];
   };
 
-  // Input past at each lag, and whether it came from the other side: then mirror images are searched for, with the
-  // past's sign reversed.
+  // Input past at each lag. Where its sum is negative (`right`), its sign is reversed for the search, and the row found
+  // is played as its mirror image.
   struct Heard {
     Real wind[kMaxResampledLags][kLanes];
     bool right[kLanes];
@@ -281,14 +281,14 @@ class ResampledLanes {
     }
   }
 
-  // Computes the distance of the input's past from that of the next rows: the sum of absolute differences over lags,
-  // which chooses as well as their squares at half the operations.
+  // Computes the distance of the input's past from that of the next rows: the sum of absolute differences over lags. It
+  // chooses as well as a sum of squares and takes half of the operations.
   void go_on(const Life& life, const Places& places, Real (&ahead)[kLanes]) const {
     const float* wind[kLanes];
     Real mirrored[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t next = places.next[lane];
-      // A lane that must jump has no next row, and its stretch may have ended.
+      // A lane that must jump may be in its stretch's last row: reads that row; the result is unused.
       wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
       mirrored[lane] = Real(next % 2 != 0 && program_.across == 0 ? 1.0f : 0.0f);
     }
@@ -325,7 +325,7 @@ class ResampledLanes {
     return load<Reals<N>>(vector) * load<Reals<N>>(x) + load<Reals<N>>(vector + kLanes) * load<Reals<N>>(z);
   }
 
-  // The direction is that of the vector sum; for zero it is x.
+  // Measures the input's past along the direction of its vector sum; along x if the sum is 0.
   void hear_vector(int block, Heard& heard) const {
     auto x = all<Reals<N>>(0.0f), z = x, one = all<Reals<N>>(1.0f);
     for (const std::uint32_t lag : program_.lags) {
@@ -378,8 +378,8 @@ class ResampledLanes {
     }
   }
 
-  // Rows that the lanes played recently, or will play without a jump: above `low`, up to `high`. A mirrored place is
-  // half a row above its row, which admits no other row.
+  // Rows that the lanes played recently, or will play without a jump: above `low`, up to `high`. A mirrored place adds
+  // half a row to both, which changes no comparison with whole rows.
   struct Recent {
     float low[1 + kRecentBlocks][kLanes];
     float high[1 + kRecentBlocks][kLanes];
@@ -474,8 +474,8 @@ class ResampledLanes {
     }
   }
 
-  // Chooses the place after a leaf: the next row, if its cost `ahead` exceeds the best one's by at most the tolerance,
-  // else one of the nearest.
+  // Chooses a seeker's next place: the next row, if its distance `ahead` exceeds the leaf's best by at most the
+  // tolerance, else a random one of the nearest. If the whole leaf is excluded: the next row, or the leaf's last.
   std::uint32_t jump(const Life& life, int seeker, const Seekers& seekers, const Heard& heard, const Nearest& nearest,
                      std::uint32_t word, const Real* ahead) {
     const int lane = seekers.lane[seeker];

@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxUnits = 1e9;      // bound of a residual or a wind, in ranges: no sum overflows
+constexpr double kMaxUnits = 1e9;      // bound on a residual or wind in channel units: no sum overflows
 constexpr std::uint32_t kMinLeft = 6;  // fewest rows after a jump's target, if any row has that many
 
 float bounded(double value) {
@@ -77,8 +77,8 @@ class PastTree {
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
     if (node >= program_.nodes.size()) return;
     const std::uint32_t lag = widest(begin, end);
-    // Equal rows are shuffled, so that a leaf holds calm rows of several stretches: one stretch may have been played
-    // entirely just now. Heap sort takes little code and no memory.
+    // Equal rows are shuffled, so that a leaf holds calm rows of several stretches: those of a single stretch may all
+    // be excluded as just played. Heap sort takes little code and no memory.
     const auto scattered = [](std::uint32_t row) { return row * 0x9E3779B1U; };
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
       const float x = past(a, lag), y = past(b, lag);
@@ -193,8 +193,8 @@ void fill_sides(const Model& model, const ResampledResiduals& resampled, Resampl
   }
 }
 
-// Chosen on four films (docs/studies/still-flames.md): shortest and longest time between jumps; number of rows excluded
-// as targets; time ahead over which usage is counted; and the weight of usage beside distances.
+// Chosen on four films (docs/studies/still-flames.md): shortest and longest time between jumps; duration of the rows
+// excluded as targets, beside the next row and as recently played; time ahead whose usage counts; weight of usage.
 constexpr double kShortestSeconds = 0.4;
 constexpr double kLongestSeconds = 1.2;
 constexpr double kBesideSeconds = 0.3;
@@ -208,7 +208,7 @@ std::uint32_t steps_of(double seconds, const Model& model) {
   return static_cast<std::uint32_t>(std::clamp(std::round(seconds * model.rate_hz), 1.0, kMaxSteps));
 }
 
-// Rows × outputs: deviations from the operating point when each row is played, after earlier rows of its stretch.
+// Returns the outputs' deviations (rows × outputs) when each stretch is played from its first row on, beginning at 0.
 std::vector<double> states_of(const ArxModel& arx, std::span<const std::uint32_t> left) {
   const ResampledResiduals& resampled = arx.noise.resampled;
   const std::size_t ny = resampled.scale.size();
@@ -281,8 +281,8 @@ void fill_positions(const Model& model, const ArxModel& arx, std::span<const std
   }
 }
 
-// Returns rows followed by as many as the shortest block has, or the longest stretch; a large number is subsampled
-// evenly.
+// Returns the rows from which a stretch still has at least `shortest` rows, that row included (or as many as the
+// longest stretch has), evenly subsampled to at most kMaxPlaces.
 std::vector<std::uint32_t> places_of(const std::vector<std::uint32_t>& ends, std::uint32_t shortest) {
   std::uint32_t longest = 0;
   for (std::size_t k = 0; k < ends.size(); ++k) longest = std::max(longest, ends[k] - (k > 0 ? ends[k - 1] : 0));

@@ -1,6 +1,6 @@
 #pragma once
-// Resampled residuals compiled for stepping: in channel units, with a k-d tree over every row's input past; or, to
-// replay rows without a driving input, as jump targets, each with the model's state when it was recorded.
+// Resampled residuals compiled for stepping, in channel units. With a driving input: a k-d tree over the input pasts of
+// jump targets. Without one: a list of jump targets, each with the model's position and speed there.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Number of state components by which targets are compared: those that contribute most to motion.
+/// Largest number of state components by which targets are compared: those that contribute most.
 inline constexpr int kMaxTraits = 6;
 /// Largest number of targets; more rows are subsampled evenly.
 inline constexpr std::uint32_t kMaxPlaces = 128;
@@ -25,9 +25,9 @@ inline constexpr std::uint32_t kPlayedParts = 32;
 struct LookupProgram {
   int traits = 0;              ///< number of position components, and of speed components; 0: no lookup
   std::uint32_t places = 0;    ///< number of jump targets
-  std::uint32_t shortest = 1;  ///< fewest steps from one jump to the next; fewer where a stretch ends
+  std::uint32_t shortest = 1;  ///< fewest steps between jumps, unless a stretch ends before
   std::uint32_t longest = 1;
-  std::uint32_t beside = 0;       ///< number of rows, on either side of the natural successors, excluded as targets
+  std::uint32_t beside = 0;       ///< number of rows, on either side of the next row, excluded as targets
   std::uint32_t recent = 0;       ///< number of recently played rows excluded as targets
   std::uint32_t part_rows = 1;    ///< rows of each part but the last
   float coverage = 0;             ///< cost of usage: this × the counts of a target's two parts / the total count
@@ -35,7 +35,7 @@ struct LookupProgram {
   std::span<float> position;      ///< row × traits, scaled to total variance 1 over all components
   std::span<float> place;         ///< group × (position, speed) × kPlacesAtOnce
   std::span<std::uint32_t> row;   ///< per target, the row that is played first
-  std::span<std::uint8_t> ahead;  ///< per target, the two parts that contain its next half second
+  std::span<std::uint8_t> ahead;  ///< per target, the parts of the rows 1/8 s and 3/8 s after it
 
   bool empty() const { return traits == 0; }
   std::uint32_t groups() const { return (places + kPlacesAtOnce - 1) / kPlacesAtOnce; }
@@ -62,11 +62,11 @@ struct Candidates {
 };
 
 struct ResampledProgram {
-  int outputs = 0;  ///< 0: no resampling
-  int across = 0;   ///< for a body, number of last outputs across the input; as many before them are along it
-  int sides = 1;    ///< 2: input of the opposite sign plays mirror images
-  int toward = -1;
-  float tolerance = 0;  ///< tolerance of the sum over lags
+  int outputs = 0;      ///< 0: no resampling
+  int across = 0;       ///< for a body: the last `across` outputs are across the input, as many before them along it
+  int sides = 1;        ///< 2: input of the opposite sign plays mirror images
+  int toward = -1;      ///< index of the driving regressor; −1: none
+  float tolerance = 0;  ///< tolerated sum over lags of absolute input differences
   float margin = 0;     ///< distance from a node's value within which the side is random
   std::uint32_t longest = 1;
   int depth = 1;  ///< steps of input past that are read, the present one included
@@ -77,12 +77,12 @@ struct ResampledProgram {
   std::span<std::uint32_t> now;    ///< per row, its index in `wind`
   std::span<std::uint8_t> turned;  ///< per row: 1 if the tree holds its mirror image's past
   std::span<PastNode> nodes;       ///< children of node k are 2k + 1 and 2k + 2; each halves its rows
-  std::span<Candidates> leaves;    ///< child k of the tree is leaf k − nodes
+  std::span<Candidates> leaves;    ///< a child index k beyond the nodes is leaf k − nodes.size()
   std::span<float> leaf_wind;      ///< leaf × lag × candidate: past as stored in the tree, infinite for a missing one
   std::span<std::uint32_t> order;  ///< rows, leaf after leaf: for building the tree
   std::span<std::uint16_t> from;   ///< side × columns: output whose residual is taken
-  std::span<float> factor;         ///< side × columns, factor of that residual: 1, or −1 on the mirrored side
-  std::span<float> unit;           ///< per output across: factor from its residual to its own unit
+  std::span<float> factor;         ///< side × columns, its factor: 1; mirrored: ± the ratio of the channels' units
+  std::span<float> unit;           ///< per output across: factor from the unit of the output along to its own
   LookupProgram lookup;            ///< used without a driving input
 
   bool empty() const { return outputs == 0; }

@@ -23,7 +23,7 @@ class TimeLanes {
   static constexpr int kLanes = N::kLanes;
   /// False in builds for size.
   static constexpr bool kThere = WISP_BLOCKS_AT_ONCE > 1;
-  /// Number of steps between reading inputs and writing outputs.
+  /// Largest number of steps whose inputs are read, and whose outputs are written, together.
   static constexpr int kAtOnce = 8 * kLanes;
 
   TimeLanes(const ArxProgram& program, Arena& arena)
@@ -33,7 +33,7 @@ class TimeLanes {
   /// Returns whether this kernel supports the model.
   bool there() const { return past_ > 0; }
 
-  /// Copies the history of a bank's first lane, in which lag 0 is still to be computed.
+  /// Copies the history of a bank's first lane; its sample at lag 0 is still to be computed.
   void begin(const SampleRing<N>& ring) {
     for (int lag = 1; lag < past_; ++lag) {
       const Real* sample = ring.sample(0, static_cast<std::uint32_t>(lag));
@@ -51,11 +51,11 @@ class TimeLanes {
     }
   }
 
-  /// Returns the address for the regressors of coming steps, kAtOnce of each.
+  /// Returns the address for the values of regressor k in the coming steps, at most kAtOnce.
   Real* regressors(int k) { return newest(1 + k); }
 
-  /// Makes up to kAtOnce steps, with shocks of those sizes, one per entry of program.shock, or without. Returns the
-  /// outputs, and adds the number of steps in which they were clamped to `clamped`.
+  /// Makes up to kAtOnce steps. `shock_sizes`: one per entry of program.shock; empty: no shocks. Returns the outputs'
+  /// deviations, and adds to `clamped` the number of steps in which the output was clamped.
   const Real* step(const ArxProgram& program, const OutputChannel& output, std::span<const float> shock_sizes,
                    const Moment<N>& moment, int count, std::uint64_t& clamped) {
     for (int first = 0; first < count; first += kLanes) {
@@ -111,7 +111,7 @@ class TimeLanes {
   }
 
   // Adds past outputs to the newest value one at a time, since a vector of them would wait for the last store. Returns
-  // whether it was clamped, which is rare: the next step does not wait for the comparison.
+  // whether it was clamped. This is rare, so the predicted branch lets the next step start before the comparison ends.
   static bool finish(const ArxProgram& program, const OutputChannel& output, Real* newest) {
     Real sum = *newest;
     for (const TapRun& run : program.runs) {
@@ -130,7 +130,7 @@ class TimeLanes {
   }
 
   int past_;              // number of stored samples, 0 if the model is unsupported
-  std::span<Real> rows_;  // [channel][step], after the past ones: outputs, then regressors
+  std::span<Real> rows_;  // [channel][step], the past_ stored samples first; channel 0 is the output
 };
 
 }  // namespace wisp
