@@ -233,7 +233,7 @@ std::size_t record_size(const Bank::State& s) {
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
-// Returns whether `value` is `low` plus a whole number of steps; any number if step is 0. Counters and indices in a
+// Returns whether `value` is `low` plus a whole number of steps; always true if `step` is 0. Counters and indices in a
 // bank are small enough to be exact in single precision.
 bool on_grid(float value, float low, float step) { return !(step > 0) || std::fmod(value - low, step) == 0; }
 
@@ -272,7 +272,7 @@ struct SlotRecord {
 };
 
 // Visits the saved state of a slot, in order. With extinction: the wind, the damage, whether it is lit, its sizes, its
-// event, its offset and the share of that which is left, and the times of lighting and extinction.
+// event, the shares of the offset that are left, the times of lighting and extinction, and the offset.
 void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   std::uint32_t alive = s.alive[slot];

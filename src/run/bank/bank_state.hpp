@@ -13,7 +13,7 @@
 
 namespace wisp {
 
-// A step number that no instance reaches. Steps from before a bank was restored wrap around to just below the largest
+// A step number that no instance reaches. Steps before a bank was restored wrap around to just below the largest
 // number, so "never" lies in the middle.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
 // Whether a block may make many steps before the next block makes its first. Builds for size make one step at a time,
@@ -140,8 +140,8 @@ struct Bank::State {
   std::span<float> event;           // index of the next step's size in the extinction's sizes, or kNoEvent
   std::span<float> left;            // share of the offset that is applied, 0 … 1
   std::span<float> previous_left;   // share before the last step
-  std::span<float> offset;          // [block][moved][lane]: of the shown variables from the event's or the dynamics';
-                                    // of an extinguished instance the shown variables themselves
+  std::span<float> offset;          // [block][moved][lane]: shown variables minus the event's or the dynamics'; of an
+                                    // extinguished instance the shown variables themselves
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
   std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
 

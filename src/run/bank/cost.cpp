@@ -45,7 +45,7 @@ float share_of(Course course, std::uint64_t step) {
   return course == Course::kSwinging ? static_cast<float>(step % kSwing) / kSwing : 1.0f;
 }
 
-// Operations of one step: the mean over kFrames steps, rounded, and the largest.
+// Operations of one step: the rounded mean, and the maximum, over kFrames steps.
 struct StepCount {
   OperationCount mean;
   std::int64_t most = 0;
@@ -138,7 +138,7 @@ ExtinctionCount count_extinction(const Model& model) {
     live<CountingNumbers>(rule, {&wind, &harm, &lit});
   });
   const OperationCount shrinking = count([&] {
-    // What is seen of recorded components; of a model without them, the size that it comes to.
+    // Interpolates each recorded component; for a model without recorded components, the size.
     for (std::size_t k = 0; k < std::max<std::size_t>(recorded, 1); ++k) size = nearer(size, CountingReal(1.0f), 0.5f);
     const auto now = load<Reals<CountingNumbers>>(&size);
     shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());

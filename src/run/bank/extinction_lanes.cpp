@@ -15,7 +15,7 @@ constexpr double kStirs = 0.1;         // share of the level above which wind en
 constexpr double kJoinSeconds = 0.06;  // duration of the cross-over from decay to re-ignition
 constexpr double kLeaveSeconds = 0.2;  // duration of the cross-over from re-ignition to the dynamics
 
-// Returns the number of steps in a duration, at least one.
+// Returns the number of steps in a duration, 1 to 1000.
 std::size_t steps_in(double seconds, double step) {
   return static_cast<std::size_t>(std::clamp(std::round(seconds / step), 1.0, 1000.0));
 }

@@ -2,7 +2,7 @@
 // The rule of extinction (wisp/model/extinction.hpp), applied block by block.
 //
 // An instance has a damage, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes
-// three operations, and one to read the wind; during a recorded event, some for each component and displayed output.
+// three operations, and one to read the wind; during a recorded event, more for each component and displayed output.
 
 #include <cstdint>
 #include <span>
@@ -26,8 +26,8 @@ struct ExtinctionProgram {
   float recovery = 0;       ///< reduction of the damage per step below the level
   float stirs = 0;          ///< wind that ends the replay of re-ignition
   float join = 0;           ///< reduction of the offset's share per step of re-ignition
-  std::span<float> sizes;   ///< kEventEnds, then sizes of all events, each followed by the steps of the cross-over to
-                            ///< the dynamics as negative shares of it, the last of them kEventEnds
+  std::span<float> sizes;   ///< kEventEnds; then for each event its sizes, and the steps of its cross-over to the
+                            ///< dynamics as negative shares, the last of them kEventEnds
   std::span<float> shapes;  ///< components in the plane for every size; empty: no event has shapes
   std::span<std::uint32_t> dying;     ///< start index of each event
   std::span<std::uint32_t> catching;  ///< start index of each event
@@ -45,7 +45,7 @@ ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
 /// Hashes the program, continuing from the hash `before`; returns `before` without a rule.
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
 
-/// Returns the strength of the rule's input, lanes_of(input). NaN counts as calm.
+/// Returns the strength of the rule's input, at most rule.most; lanes_of(input) reads an input. NaN counts as 0.
 template <class N, class LanesOf>
 inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) {
   const auto zero = all<Reals<N>>(0.0f);

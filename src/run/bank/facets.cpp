@@ -111,7 +111,7 @@ namespace {
 
 constexpr int kBodyLanes = Bank::State::kLanes;
 
-// Computes a ring from two points of each outline, front and side view, that are equally far from the tip.
+// Computes a ring from two points each of the outlines in front and side view, equally far from the tip.
 std::array<float, kRingNumbers> ring_of(const Bank::State& s, int ring, int lane) {
   const int points = s.polyline.points;
   const auto at = [&](int side, int point, int coordinate) {
@@ -130,7 +130,7 @@ void write_lane(const Bank::State& s, int lane, float* out) {
 
 }  // namespace
 
-// Computes the outlines of a block in front and side view.
+// Computes a block's control points in front and side view and, if `lines_too`, their polylines.
 void Bank::State::see_round(int block, bool lines_too) const {
   for (int side : {0, 1}) {
     float* points = round_points.data() + static_cast<std::size_t>(side) * visible * kBodyLanes;

@@ -1,4 +1,4 @@
-// This file is compiled once for every vector width, each time in its own namespace (-Dwisp=wisp_avx2): templates and
+// This file is compiled once for every vector width, each in its namespace (#define wisp wisp_avx2): templates and
 // inline functions with wide vectors must not be linked into code for a narrow machine. tests/house lists the symbols
 // of the wide objects.
 
@@ -16,7 +16,7 @@
 namespace wisp {
 namespace {
 
-// Returns a value in the first lane and 0 in the others. Through memory, a load would have to wait for the store.
+// Returns a value in the first lane and 0 in the others. It stays in registers: a load would wait for the store.
 Reals<LiveNumbers> alone(float value) {
   auto lanes = all<Reals<LiveNumbers>>(0.0f);
   first_part(value, lanes.part[0]);
@@ -47,7 +47,7 @@ void Bank::State::take_inputs(int block, const LanesOf& lanes_of) {
   store(blowing<LiveNumbers>(extinction, lanes_of), wind.data() + block * kLanes);
 }
 
-// Reads rows of all slots. Lanes beyond the last slot are written too; spawning an instance there clears them.
+// Reads the block's rows of `all_rows`. Writes lanes beyond the last slot too; spawning an instance there clears them.
 void Bank::State::set_inputs(int block, const float* all_rows) {
   const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
   const int count = std::min(kLanes, rows - block * kLanes);
@@ -74,7 +74,7 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahe
           rows - block * kLanes};
 }
 
-// Makes all steps of some blocks before those of the next, while their history is in the cache.
+// Makes all steps of one group of blocks before those of the next group, while its history is in the cache.
 std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::visit(
@@ -147,7 +147,7 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
   return count_of_clamped;
 }
 
-// Steps a bank of one instance with one output; inputs and outputs of one step per lane pass through one vector.
+// Steps a bank of one instance with one output; its inputs and outputs are converted with one step per lane.
 template <class Dynamics>
 std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
   const auto regressors_at = [&](int k, int first, int count, float* out) {
@@ -179,7 +179,7 @@ std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
   return count_of_clamped;
 }
 
-// Returns a mask of the block's living and lit instances with a clamped output.
+// Returns the number of the block's living and lit instances with a clamped output.
 std::uint32_t Bank::State::count_clamped(int block, const std::uint32_t* flags) const {
   if (!any(load<Words<LiveNumbers>>(flags))) return 0;
   std::uint32_t count = 0;
@@ -359,7 +359,7 @@ void Bank::State::show_events(int block) {
   }
 }
 
-// Returns whether the dynamics alone show every instance of a block, at full size, so that nothing would change a bit.
+// Returns whether every instance of a block is shown by the dynamics alone, at full size: its outputs need no change.
 bool Bank::State::is_whole(int block) const {
   bool whole = true;
   for (int lane = 0; lane < kLanes; ++lane) whole &= event[block * kLanes + lane] == kNoEvent;

@@ -25,7 +25,7 @@ struct Steps {
   bool show = true;               ///< whether the outputs of the last step are made readable
 };
 
-/// Functions of one vector width. State and steps have types of their own for every width, of equal layout: addresses.
+/// Functions of one vector width. Every width has its own types State and Steps, of equal layout, passed as void*.
 struct FramePath {
   const char* width;
   void (*set_inputs)(void* state, const float* values);
@@ -40,8 +40,8 @@ struct FramePath {
 /// Returns the frame paths that this machine can run, the narrowest first.
 std::span<const FramePath* const> frame_paths();
 
-/// Returns the widest frame path, or the one that the environment variable WISP_WIDTH names.
-/// Errors: WISP_WIDTH names none of them.
+/// Returns the widest frame path, or the one that the environment variable WISP_WIDTH names (ignored in a build with
+/// one path). Errors: WISP_WIDTH names none of them.
 Result<const FramePath*> choose_frame_path();
 
 }  // namespace wisp

@@ -59,7 +59,7 @@ void for_each_run(std::span<const double> knots, int points, Add add) {
   for (int point = 0; point < points;) {
     PolylineRun run = run_from({knots, step}, basis(knots, at(point)), at(point));
     const int span = span_of(point);
-    // The last point is a control point and needs no run.
+    // The last point equals a control point: it is a run of its own.
     do {
       ++run.points;
       ++point;

@@ -26,7 +26,7 @@ struct PolylineRun {
   float along;
   float left;
   float right;
-  float step_left;  ///< weights for the step from the first to the second point, beside the slope
+  float step_left;  ///< weights for the step from the first to the second point, in addition to the slope
   float step_right;
   float bend_twist;  ///< weight of the twist by which the second difference exceeds the left bend
 };

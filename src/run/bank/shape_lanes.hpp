@@ -1,7 +1,7 @@
 #pragma once
 // Control points of an outline from its shape components (wisp/model/shape_components.hpp), for a block of instances.
-// It takes half of the products of a full basis, since a coordinate has components of one kind only. For a body they
-// are the outline's points in a horizontal view direction.
+// A coordinate has either symmetric or antisymmetric components, so it takes half of the products of a full basis. For
+// a body, the control points are those of the outline seen in a horizontal direction.
 
 #include <cstdint>
 #include <span>
@@ -40,7 +40,7 @@ ShapeProgram make_shape_program(const Model& model, Arena& arena);
 std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
 
 /// Returns a coordinate of the symmetric part, or of the antisymmetric one from `points` on, as the weighted sum of the
-/// part's components, [component][lane], plus `rest`.
+/// part's components, [component][lane], plus `rest`, clamped to the coordinate's range.
 template <class N>
 inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components,
                                  float rest) {

@@ -1,6 +1,6 @@
 #pragma once
-// Kinds of dynamics that can be stepped. A new kind is a file with its stepper, with the public functions of
-// ArxStepper, and a line here.
+// Kinds of dynamics that can be stepped. A new kind needs a stepper in a file of its own, with the public functions of
+// ArxStepper, and its entries here.
 
 #include <type_traits>
 #include <variant>

@@ -1,7 +1,7 @@
 #pragma once
-// Operations of a step that are equal for all falling lanes of a block of chains, computed in parallel: each advances
-// in its segment, its offset is updated, and its pose is displayed. The lanes of all blocks: played and displayed
-// state, [block][number][lane], and the state of joins, ground and steering, lane by lane.
+// ChainBlock: operations of a step that are equal for all falling lanes of a block, computed in parallel. Each lane
+// advances in its segment, its offset is updated, and its pose is displayed. ChainLives: the state of all blocks:
+// played and displayed, [block][number][lane]; of joins, ground and steering, lane by lane.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ChainCourse {
   Mask shown;   ///< it falls: its displayed pose is recomputed
   Mask ends;    ///< its segment ends
   Mask begins;  ///< the curve towards the next segment begins
-  Mask moved;   ///< it is between joins: its offset changes
+  Mask moved;   ///< it has an offset from a join: the offset changes
   Mask turned;  ///< the latter half of its curve begins
   Mask faded;   ///< its displayed pose has an offset
   const std::int16_t* row[N::kLanes];

@@ -1,6 +1,6 @@
 #pragma once
 // Choice of a chain's next segment: a mode given the previous ones, then a segment of that mode, by counter-based
-// random words. Integer arithmetic only.
+// random words. Choices use integer arithmetic only.
 
 #include <cstdint>
 
@@ -34,7 +34,7 @@ class ChainChoice {
     return mode;
   }
 
-  /// Returns a random segment of a mode for the start of an instance.
+  /// Returns a random segment of a mode, or without chance its first one, for the start of an instance.
   std::uint32_t beginning(const ChainProgram& program, std::uint32_t mode, const ChainWords& words) const {
     return any(program, mode, words.segment);
   }
@@ -46,7 +46,7 @@ class ChainChoice {
     return chance_ ? best[share_of(words.segment, static_cast<std::uint32_t>(program.breadth))] : best[0];
   }
 
-  /// Returns the probability of a mode.
+  /// Returns the probability of a mode after a state of the Markov chain.
   float chance_of(const ChainProgram& program, std::uint32_t state, std::uint32_t mode) const {
     const std::uint32_t* threshold = program.threshold.data() + state * static_cast<std::uint32_t>(program.modes);
     const std::uint32_t width = threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);

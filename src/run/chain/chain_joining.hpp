@@ -1,6 +1,6 @@
 #pragma once
-// Lets the lanes of parties join the next segment, draws its successor, and converts between per-lane state and
-// vectors. The computation is in chain_joins.hpp.
+// Lets the lanes of a ChainParty join their next segments, draws the successors of those, and converts between per-lane
+// state and vectors. The computation is in chain_joins.hpp.
 
 #include <array>
 #include <cstddef>
@@ -51,7 +51,7 @@ class ChainJoining {
     return drawn;
   }
 
-  /// Joins the next segments of lanes whose segment ends, and draws their successors.
+  /// Joins the next segments of lanes whose segment ends, and draws the successors of the next segments.
   void follow(const Party& party, int first, const Moment<N>& moment) {
     for (std::size_t k = 0; k < party.count; ++k) {
       const int block = party.block[k], lane = party.lane[k];
@@ -74,7 +74,7 @@ class ChainJoining {
     add(party, Joins(program()).leaving(segments_of(party), heights_of(party), ahead_of(party).gap));
   }
 
-  /// Draws the successor of one lane's segment, given the segment's orientation.
+  /// Draws the successor of one lane's segment by these words, and prepares the join to it.
   void prepare_one(int block, int lane, const Drawn& words) {
     ChainTurn<Values> turn;
     each_number(turn, lives_.played_of(block).turn,
@@ -158,7 +158,7 @@ class ChainJoining {
     return next;
   }
 
-  // Numbers of a plan as a contiguous row.
+  // ahead_of() and put_ahead() access the first kAheadNumbers numbers of a plan as one row.
   static_assert(offsetof(ChainPlan<float>, near) == (kAheadNumbers - 1) * sizeof(float));
 
   // Returns the joins ahead of the lanes; missing members of a party repeat the first one's.

@@ -203,7 +203,7 @@ class ChainJoins {
     return turned<Values>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }
 
-  // Converts a stored velocity to world axes, in the units of positions.
+  // Rotates a stored velocity to world axes. Multiplies x and y by the scale of positions, but not z.
   static Vector3<Values> turned_velocity(const ChainTurn<Values>& turn, const Vector3<Values>& stored) {
     return turned<Values>(turn.cos_scale, turn.sin_scale, stored);
   }

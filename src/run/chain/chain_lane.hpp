@@ -8,10 +8,10 @@
 
 namespace wisp {
 
-/// Positions are clamped to this many metres from the origin: single precision can't place a body beyond it.
+/// Coordinates are clamped to this many metres from the origin, where single precision resolves 6 cm.
 inline constexpr float kFarthest = 1e6f;
 
-/// Below any reachable height.
+/// Height, metres, that stands for no ground: below any reachable one.
 inline constexpr float kNoGround = -4.0f * kFarthest;
 
 /// Velocity and angular velocity of a body, in world axes.
@@ -29,8 +29,8 @@ struct BodyState {
   BodyRates<Real> rates{};
 };
 
-/// Rotation of a segment about z: half and whole angle, each also multiplied by the scales of the quantities that they
-/// rotate.
+/// Rotation of a segment about z: cosine and sine of the half angle; of the whole angle, times the scale of positions;
+/// of the half angle, times the scale of quaternions.
 template <class Real>
 struct ChainTurn {
   Real half_cos{};
@@ -56,7 +56,7 @@ struct ChainAhead {
   ChainGap<Number> gap{};
 };
 
-/// State that every step reads or changes. In a bank, `Number` holds those of a block's lanes side by side.
+/// State that every step reads or changes. In a bank, a `Number` holds one number per lane of a block.
 template <class Number>
 struct ChainPlayed {
   // Position in the chain; whole numbers.
@@ -83,7 +83,7 @@ struct ChainPlan {
   Real next{};   ///< index of the next segment plus 1; 0: not drawn yet
   Real state{};  ///< state of the Markov chain; a whole number
   Real near{};   ///< steering: tolerance, metres
-  // Pose at touchdown, and the Gibbs vector that rotates it flat.
+  // Orientation at touchdown, and the Gibbs vector that rotates it flat.
   Quaternion<Real> touched{};
   Vector3<Real> laid{};
   Vector3<Real> target{};  ///< steering: target position
@@ -204,7 +204,7 @@ class ChainMover {
     lane.turn = turn_of(half_cos, half_sin, program_, [](float x) { return Real(x); });
   }
 
-  /// Places a segment's beginning at a body's position and heading; returns the remaining gaps of attitude and rates.
+  /// Places a segment's beginning at a body's position and heading. Returns the remaining differences, not halved.
   ChainGap<Real> place(Lane& lane, std::uint32_t segment, const Body& body) const {
     const HalfTurn<Real> turn = turn_to(segment, body);
     place(lane, segment, body.position, turn.cos, turn.sin);
@@ -252,7 +252,7 @@ class ChainMover {
   /// Returns whether the next segment has been drawn.
   static bool is_prepared(const ChainPlan<Real>& plan) { return plan.next > Real(0.0f); }
 
-  /// Returns the state at the end of a lane's segment, without its offset: where the walk continues.
+  /// Returns the state at the end of a lane's segment, without its offset. Chains of poses leave the rates 0.
   Body end_of(const Lane& lane) const {
     const std::uint32_t segment = index(lane.segment, program_.segments());
     const std::int16_t* row = row_of(segment, program_.steps(segment));
@@ -277,8 +277,8 @@ class ChainMover {
     return rates;
   }
 
-  /// Returns the distance of a segment's beginning from a body's state: differences of attitude, velocity and spin in
-  /// body axes, in units of their typical sizes.
+  /// Returns the squared distance of a segment's beginning from a body's state: the sum of the squared differences of
+  /// attitude (radians), velocity and spin, the latter two in units of their typical sizes.
   Real misfit(std::uint32_t segment, const Body& body) const {
     Lane lane;
     const HalfTurn<Real> turn = turn_to(segment, body);
@@ -307,7 +307,7 @@ class ChainMover {
     return scaled(vector(row_of(segment, program_.steps(segment))), Real(program_.position_scale));
   }
 
-  /// Converts a whole number that is stored as a real one, limited to below a bound.
+  /// Converts a whole number that is stored as a real one; returns bound − 1 for any that is not below the bound.
   static std::uint32_t index(Real number, std::uint32_t bound) {
     const auto whole = static_cast<std::uint32_t>(value_of(number));
     return whole < bound ? whole : bound - 1;

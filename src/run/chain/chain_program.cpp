@@ -55,8 +55,8 @@ double usual_step(const ChainProgram& program) {
   return program.position_scale * std::sqrt(sum / steps);
 }
 
-// The difference grows by the first half's second difference m − 1 times and by the latter's n times, starting from the
-// slope plus half of the former: their sum and the last slope are prescribed.
+// Solves for the second differences a and b of the two halves. The first difference begins at the slope + a/2, then
+// grows m − 1 times by a and n times by b. Prescribed are the sum of all first differences, and the last slope.
 ChainSpread spread_over(std::uint32_t steps) {
   const double m = first_half(steps), n = steps - m;
   const double way[] = {m * m / 2 + n * (m - 0.5), n * (n + 1) / 2}, slope[] = {m - 0.5, n + 0.5};

@@ -18,12 +18,12 @@ struct GustProgram {
   std::array<float, 3> vertical{};
 };
 
-/// A curve of two parabolas between given values and slopes. The second difference of each half is `way` times the
-/// change of value beyond that of the first slope, plus `change` times the change of slope.
+/// A curve of two parabolas between given values and slopes. The second difference of each half is minus the sum of
+/// `way` times the change of value beyond that of the first slope, and `change` times the change of slope.
 struct ChainSpread {
   std::array<float, 2> way{};     ///< factors of the first half, and of the latter
   std::array<float, 2> change{};  ///< factors of the first half, and of the latter
-  float slope = 0;                ///< slope of a straight line from the first step to the last
+  float slope = 0;                ///< −1 / (steps − 1), for offsets that change linearly; 0 for one step
 };
 
 /// Returns the number of steps of the first parabola.
@@ -36,7 +36,7 @@ struct ChainProgram {
   int channels = 0;  ///< 3 or 7
   int rate_count = 0;
   int modes = 0;
-  int breadth = 0;
+  int breadth = 0;  ///< successors per segment and mode; 0: any segment of the mode
   int history = 1;  ///< number of past modes that determine the next one
   bool heading_free = true;
   float position_scale = 1;
@@ -57,14 +57,14 @@ struct ChainProgram {
   std::span<ChainSpread> spread;       ///< by number of steps, up to twice those of a blend
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
-  std::span<std::uint16_t> follow;
-  std::span<std::int16_t> height;          ///< per segment; empty: unbounded heights
+  std::span<std::uint16_t> follow;     ///< segments × modes × breadth: successors, the best-joining first
+  std::span<std::int16_t> height;      ///< per segment; empty: unbounded heights
   std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
   std::span<std::uint32_t> threshold;  ///< states × modes: the first mode whose threshold exceeds the word is drawn
-  std::span<std::int16_t> lead;        ///< segments × 3; empty: no steering
+  std::span<std::int16_t> lead;        ///< segments × 3, as in ChainDrift; empty: no steering
   float lead_scale = 0;
-  std::array<float, 3> drift{};  ///< metres per second
-  float spread_ground = 0;       ///< m² per second
+  std::array<float, 3> drift{};  ///< mean velocity, metres per second
+  float spread_ground = 0;       ///< variance growth, m² per second
   float spread_height = 0;
   float mean_steps = 0;   ///< mean number of steps per segment
   float memory = 0;       ///< seconds
@@ -87,7 +87,7 @@ struct ChainProgram {
 /// unit of the wind regressors.
 ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
 
-/// Sets the size of the program's body, if the view knows it.
+/// Sets the size of the program's body from a PoseView; other views change nothing.
 void take_size(const View& view, ChainProgram& program);
 
 /// Hashes the program, continuing from the hash `before`.

@@ -85,7 +85,7 @@ class ChainSteering {
             Real(0.5f) / (near + Real(program.spread_height) * left)};
   }
 
-  // Computes the probability that a candidate leads to the target.
+  // Computes a candidate's expected miss at the target time. Its probability to lead to the target is about e^−miss.
   static Candidate aim(const Mover& mover, const ChainProgram& program, const Lane& lane, const Body& body,
                        std::uint32_t segment, const Bell& bell) {
     const Real zero(0.0f), one(1.0f);

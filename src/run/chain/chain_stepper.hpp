@@ -70,13 +70,13 @@ class ChainStepper : private ChainLives<N> {
   static constexpr int kGroup = 32;
   static constexpr bool kGroupsVary = true;
 
-  /// Returns a stepper that steps some blocks ahead of the others: itself, since blocks share no time.
+  /// Returns a stepper that steps some blocks ahead of the others: itself, since blocks share no ring position.
   ChainStepper& ahead() { return *this; }
 
   /// Computes the newest sample of a block.
   void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
 
-  /// Computes the newest samples of consecutive blocks, at most kGroup, whose first has this moment.
+  /// Computes the newest samples of `count` <= kGroup consecutive blocks; `moment` is that of the first.
   void step(int first, int count, const Moment<N>& moment) {
     ChainCourse<N> courses[kGroup];
     for (int b = 0; b < count; ++b) set_out(first + b, moment.later(b), courses[b]);
@@ -114,8 +114,8 @@ class ChainStepper : private ChainLives<N> {
   /// Reads the outputs of a frame at the model's own rate.
   void show_frame(int block, Real* out) const { show(block, out); }
 
-  /// Starts one lane at the origin, or above it at its recorded height if that is bounded, with a segment that begins a
-  /// recording, and a random heading.
+  /// Starts one lane at the origin, or above it at its recorded height if that is bounded, with a random heading and a
+  /// segment of a mode drawn from those that begin recordings.
   void start(int block, int lane, const Moment<N>& moment) {
     const Party party = Party::of(block, lane);
     const Drawn words = Joining::draw(party, block, moment, 1);
@@ -160,7 +160,7 @@ class ChainStepper : private ChainLives<N> {
     return {segment, row, program_.mode[segment]};
   }
 
-  /// Returns whether ranges of blocks may be stepped in parallel: steering weighs candidates in one buffer for all.
+  /// Returns whether blocks may be stepped in parallel: not once steered, as candidates of all share one buffer.
   bool can_be_shared() const { return !steered_; }
 
   bool can_steer() const { return !program_.lead.empty(); }
@@ -232,7 +232,7 @@ class ChainStepper : private ChainLives<N> {
     stirred_[static_cast<std::size_t>(block)] = 1;
     if (program_.gust.present) {
       GustLane<Real>& gust = gust_of(block, lane);
-      gust.press = scaled(gust.press, Real(4.0f));  // the whole of it is saved
+      gust.press = scaled(gust.press, Real(4.0f));  // saves the whole normal wind
       for (auto* vector : {&gust.change, &gust.wind, &gust.press}) {
         for (Real& x : *vector) visit(x, -kMaxSlip, kMaxSlip);
       }
@@ -277,7 +277,7 @@ class ChainStepper : private ChainLives<N> {
       visit(*x, -most, most);
   }
 
-  // Differences grow from step to step: those of a hostile saved bank may exceed what may be restored.
+  // Differences grow from step to step: after restoring a hostile bank they could exceed what restore() accepts.
   template <class Numbers, class Visit>
   static void visit_difference(Numbers& numbers, Visit visit) {
     numbers = Mover::bounded(numbers);
@@ -395,7 +395,7 @@ class ChainStepper : private ChainLives<N> {
     put(block, lane, life);
   }
 
-  // Records that a position was clamped.
+  // If a position was clamped, records it and bounds the segment's base.
   void hold_position(int block, int lane, const Moment<N>& moment) {
     if (!is_far(newest_of(block) + lane)) return;
     moment.clamped[lane] = 1;

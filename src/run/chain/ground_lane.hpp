@@ -8,7 +8,7 @@
 
 namespace wisp {
 
-/// Duration of coming to rest: longer than a jump, too short to be noticed.
+/// Duration of coming to rest: long enough not to look like a jump, too short to be noticed.
 inline constexpr float kSettleSeconds = 0.35f;
 
 /// Returns the extent of a body below its centre: the lowest corner of a flat rectangle of its size.
@@ -35,7 +35,7 @@ inline std::optional<Real> reach_touching(const ChainProgram& program, const Rea
   return reach;
 }
 
-/// Starts the settling of a lane whose body has reached the ground. Its rates are those of its motion.
+/// Starts the settling of a lane whose body has reached the ground with these rates.
 template <class Real>
 inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
   lane.settled = Real(0.0f);
@@ -60,7 +60,7 @@ inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
 /// Advances a settling lane by one step and displays it; `out` has a stride.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
-  // Computed here, since the touchdown step is the most expensive.
+  // Computed in the first step after touchdown, since the touchdown step is the most expensive.
   if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.laid = lean_to_ground(lane.touched);
   if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));

@@ -6,13 +6,13 @@
 
 namespace wisp {
 
-/// Threshold of velocity changes and wind, below which a gust ends: nothing is computed until the next.
+/// Velocity change or wind, m/s and channel units, below which a gust ends: nothing is computed until the next one.
 inline constexpr float kMinGust = 1e-4f;
 
 /// Bound of velocity changes, metres per second.
 inline constexpr float kMaxGust = 1e3f;
 
-/// Velocity change, wind and press of the last step.
+/// Velocity change, wind and normal wind of the last step.
 template <class Real>
 struct GustLane {
   Vector3<Real> change{};
@@ -28,8 +28,8 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// Returns a quarter of the wind component normal to a flat body, relative to its velocity: half a normal is cheaper
-/// than a whole one.
+/// Returns a quarter of the component of `wind`, relative to the body, that is normal to a flat body: half a normal is
+/// cheaper than a whole one.
 template <class Real>
 inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
   const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],
@@ -37,7 +37,7 @@ inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real
   return scaled(half_normal, dot(half_normal, wind));
 }
 
-/// Makes one step. Returns the change of velocity; `idle` lanes without wind cost nothing.
+/// Makes one step. Returns the velocity change due to wind, within ±kMaxGust.
 template <class Real>
 inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, const Vector3<Real>& wind,
                           const Vector3<Real>& press) {

@@ -1,6 +1,6 @@
 #pragma once
-// Positions and rotations of rigid bodies, on one number of any kind. Only + − × ÷ and square root, in the order
-// written.
+// Positions and rotations of rigid bodies, for any number type. Only + − × ÷ and square root, in the order written, so
+// that results have the same bits everywhere.
 //
 // Quaternions are w, x, y, z and rotate body axes to world axes. Rotations relative to another are represented by Gibbs
 // vectors, the axis times the tangent of half the angle: scaling them needs no trigonometry.
@@ -96,8 +96,8 @@ inline LongTurn<Real> long_turn_between(const Quaternion<Real>& from, const Quat
           to[3] * from[0] - to[0] * from[3] + to[2] * from[1] - to[1] * from[2]};
 }
 
-/// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and the agreement: 1 if
-/// they then coincide, 0 if no rotation about z helps.
+/// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and the agreement: of
+/// unit quaternions, 1 if they then coincide, 0 if no rotation about z helps.
 template <class Real>
 struct HalfTurn {
   Real cos;
@@ -114,7 +114,7 @@ inline HalfTurn<Real> turn_between(const Quaternion<Real>& from, const Quaternio
   return {w * inverse, z * inverse, size};
 }
 
-/// Returns the half turn about z that aligns the horizontal part of `from` with that of `to`.
+/// Returns the half turn about z that aligns the horizontal parts of two vectors; nearness: product of their lengths.
 template <class Real>
 inline HalfTurn<Real> turn_between(const Vector3<Real>& from, const Vector3<Real>& to) {
   const Real along = to[0] * from[0] + to[1] * from[1];

@@ -1,6 +1,6 @@
 #pragma once
-// Values of several consecutive blocks, which a kernel computes together. Every lane does what it does in a block
-// alone.
+// Values of several consecutive blocks, which a kernel computes together. Every lane does the same operations as when
+// its block is computed alone.
 
 #include <cstddef>
 
@@ -36,7 +36,7 @@ struct BlockPlaces {
   }
 };
 
-/// Loads one part, one value per lane, from `after` values behind the address in each block.
+/// Loads part i of the blocks, one value per lane, from `after` values behind the addresses.
 template <class N, class Part, class Value, int kBlocks>
 inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i, Part& out) {
   const Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;

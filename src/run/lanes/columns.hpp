@@ -9,8 +9,7 @@
 
 namespace wisp {
 
-// Transposes rows to columns: the first, second, third and fourth number of every lane's row. A vector reads four
-// numbers of a row at once.
+// Four numbers of a row are read at once, as a vector of 16 bytes.
 #ifdef WISP_VECTOR_LANES
 using Quad = float __attribute__((vector_size(16)));
 
@@ -121,8 +120,8 @@ inline void real_parts(const Eight& words, RealPart* parts) {
 template <class N>
 inline void columns_of(const std::int16_t* const (&row)[N::kLanes], Reals<N> (&columns)[8]) {
 #ifdef WISP_VECTOR_LANES
-  // Rows half of the lanes apart are interleaved. After log2(lanes) rounds, columns are in the place of rows; four
-  // lanes fill half of a vector.
+  // Rows half of the lanes apart are interleaved. After log2(lanes) rounds, columns are in the place of rows; with four
+  // lanes, each vector holds two columns.
   if constexpr (N::kPartLanes > 1) {
     constexpr int kRows = N::kLanes, kHalf = kRows / 2;
     static_assert(kRows == 8 || kRows == 4);

@@ -168,8 +168,8 @@ struct OnePart : N {
   static constexpr int kParts = 1;
 };
 
-/// The same types in packs as wide as the machine's vectors. If vectors have one lane, a pack is a block's, whose
-/// functions are compiled anyway.
+/// The number types of N in packs of one machine vector; without vectors, in packs of a whole block, whose functions
+/// are compiled anyway.
 template <class N>
 using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 
@@ -358,7 +358,7 @@ inline auto chosen(const Pack<Part, kParts>& mask, const Pack<Part, kParts>& yes
               all<Pack<Part, kParts>>(0.0f), yes, no);
 }
 
-/// Return the larger and the smaller of two numbers; the second if the first is NaN.
+/// Return the larger and the smaller of two numbers; the second if either is NaN.
 template <class Part, int kParts>
 inline auto larger(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return x > y ? x : y; }, a, b);
@@ -368,7 +368,7 @@ inline auto smaller(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return x < y ? x : y; }, a, b);
 }
 
-/// Clamps to [low, high].
+/// Clamps to [low, high]; NaN becomes `low`.
 template <class Part, int kParts>
 inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low, const Pack<Part, kParts>& high) {
   return smaller(larger(value, low), high);

@@ -86,7 +86,7 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
 /// Number of channels whose deviates come from one group of words.
 inline constexpr int kGroupChannels = 8;
 
-/// Draws the random words of one group.
+/// Draws the random words of one group, below 2^16.
 template <class N>
 inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
                          Words<N> (&words)[4]) {

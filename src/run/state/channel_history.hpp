@@ -21,7 +21,7 @@ class ChannelHistory {
   ChannelHistory(const Program& program, const Channels& channels, int blocks, Arena& arena)
       : channels_(channels), ring_(blocks, program.depth, program.outputs + program.regressors, arena) {}
 
-  /// Advances every block's history by `samples`; the newest is then to be computed.
+  /// Advances every block's history by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) { ring_.turn(samples); }
 
   /// Returns whether blocks are prefetched before they are stepped: if caches do not hold them all.

@@ -59,9 +59,9 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorForm for
   const bool power = form.power != RegressorPower::kOne;
   channel.mean = static_cast<float>(power ? mean / regressor_unit(input, form.power) : mean);
   channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
-  // The history of a new instance is z = 0, whatever the range.
+  // The bounds of z include 0, which is the history of a new instance, whatever the range.
   if (form.part >= RegressorPart::kLength) {
-    channel.part = RegressorPart::kSize;  // as large as that of a wind along its direction
+    channel.part = RegressorPart::kSize;  // bounded like the size of a wind along its direction
     channel.most = regress(channel, channel.high);
     channel.least = form.part == RegressorPart::kLength ? 0.0f : -channel.most;
     channel.part = form.part;
@@ -88,7 +88,7 @@ Result<void> check_channel(const std::string& what, double lowest, double highes
 }  // namespace
 
 double channel_scale(double lowest, double highest) {
-  constexpr double kPlain = 128;  // units within this factor of 1 are kept: they cost no product and no accuracy
+  constexpr double kPlain = 128;  // a range within this factor of 1 keeps the channel's unit, which saves a product
   if (!(highest - lowest < 1 / kPlain || highest - lowest > kPlain) || !(highest > lowest)) return 1.0;
   int exponent = 0;
   std::frexp(highest - lowest, &exponent);

@@ -1,7 +1,7 @@
 #pragma once
 // A model's inputs and outputs in the kernels: deviations from the operating point, in units near the channel's range,
-// so that "negligible" means the same for every model. The unit is the channel's own if its range is within a factor of
-// some hundred of 1, else a power of two, so that scaling is exact.
+// so that "negligible" means the same for every model. The unit is the channel's own if its range is 1/128 to 128, else
+// a power of two, so that scaling is exact.
 
 #include <cstdint>
 #include <span>
@@ -29,7 +29,7 @@ struct OutputChannel {
 /// the length times the x or the z of its direction.
 enum class RegressorPart : std::uint8_t { kWhole, kSize, kLength, kAlong, kAcross };
 
-/// Power of a part that a regressor takes; that of a whole input has its sign.
+/// Power of a part that a regressor takes; a power of a whole input has the input's sign.
 enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
 
 /// Part and power of an input's regressor.
@@ -41,8 +41,8 @@ struct RegressorForm {
 /// Returns the regressors of an input of that shape, in order.
 std::span<const RegressorForm> regressor_forms(InputShape shape);
 
-/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. A power is
-/// power(part(u) · inverse_scale) − mean · inverse_scale, so that a square can't overflow.
+/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. Of a root or a square,
+/// z = power(part(u) · inverse_scale) − mean, with the mean in the regressor's unit, so that a square can't overflow.
 struct RegressorChannel {
   std::int32_t input;  ///< index of the input; of a vector its first component
   RegressorPart part;
@@ -79,13 +79,13 @@ struct OperatingPoint {
 /// Lays the channels out and, unless the arena measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
-/// Errors: a range or a mean too large or small for computation in single precision.
+/// Errors: a range or mean too large or small for single precision, a reversed range, a vector's input with a mean.
 Result<void> check_channels(const Model& model, const OperatingPoint& point);
 
 /// Hashes the channels, continuing from the hash `before`.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// Returns a power of the inputs' magnitudes.
+/// Returns the channel's power, a root or a square, of the inputs' magnitudes, in the regressor's unit.
 template <class N>
 inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
@@ -100,7 +100,7 @@ inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   return part;
 }
 
-/// Returns the values of a regressor from its inputs; NaN counts as 0.
+/// Returns the values of a regressor (not of a vector) from its inputs; NaN counts as 0.
 template <class N>
 inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -137,7 +137,7 @@ struct LevelVector {
   Reals<N> length, x, z;
 };
 
-/// Computes regressors of a block's inputs, lanes_of(input): each vector is decomposed once for all of its regressors.
+/// Computes a block's regressors, to be called in their order: the first one of a vector decomposes it for the others.
 template <class N, class LanesOf>
 class Regressing {
  public:

@@ -51,7 +51,7 @@ class SampleRing {
   const Real* begin(int block) const { return values_.data() + static_cast<std::size_t>(block) * stride(); }
   const std::uint32_t* back() const { return lag_row_.data() + (depth_ - place_); }
 
-  /// Advances the ring by `samples`; the newest sample is then to be computed.
+  /// Advances the ring by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) {
     place_ += samples < depth_ ? samples : samples % depth_;
     if (place_ >= depth_) place_ -= depth_;
