@@ -38,7 +38,7 @@ struct Design {
   int last_lag = 57;
 
   float power_approach = 1;     ///< weight of one hop in the mean of band powers (50 ms)
-  float voice_release = 1;      ///< decay of the held voicing per hop (300 ms)
+  float voice_release = 1;      ///< decay of the peak-held voicing per hop (300 ms)
   float tone_approach = 1;      ///< weight of one hop in the mean autocorrelation (150 ms)
   float slow_rise = 1;          ///< weight of one hop in the slow level that sudden sound exceeds, rising (0.35 s)
   float slow_fall = 1;          ///< the same weight, falling (100 ms)
@@ -53,17 +53,17 @@ struct Design {
   float level_gain = 1;         ///< gain of the level's power, such that 300 Hz passes unchanged
   float power_exponent = 0.25F;
 
-  int trust_frames = 5;          ///< frames after which a foreign sound is recognised (80 ms)
-  int bridge_delay_frames = 4;   ///< frames between its beginning and its detection (50 ms)
+  int trust_frames = 5;          ///< maximum frames after blowing in which foreign sound still passes (80 ms)
+  int bridge_delay_frames = 4;   ///< frames from a foreign sound's beginning to its detection (50 ms)
   float bridge_keep = 0.97F;     ///< decay per frame of the wind under foreign sound (0.5 s)
   float wind_step = 0.21F;       ///< maximum rise per frame of wind below 1 (1 in 0.08 s)
   float sustain_frames = 14.4F;  ///< sum of strong wind, in frames of wind 1, before it passes (0.24 s)
 
-  int quiet_run_frames = 18;      ///< minimum length of quiet that counts (0.3 s)
-  float quiet_span_frames = 600;  ///< memory of the background (10 s of quiet)
+  int quiet_run_frames = 18;      ///< minimum length of quiet that counts, frames (0.3 s)
+  float quiet_span_frames = 600;  ///< memory of the background, frames (10 s of quiet)
   float first_gust_db = -28;      ///< initial level of wind 1
   int gust_rest_frames = 15;      ///< frames without blowing after which a gust ends (0.25 s)
-  int min_gust_frames = 6;        ///< minimum length of a gust (0.1 s)
+  int min_gust_frames = 6;        ///< minimum length of a gust, frames (0.1 s)
 };
 
 constexpr int kMaxChannels = 8;

@@ -59,7 +59,7 @@ class Decimator {
   T sum_ = T(0.0F);
 };
 
-/// Sums over one hop, without the filters' gains.
+/// Sums of squares (of fourth powers: voice_fourth) over one hop, without the filters' gains.
 template <class T>
 struct BandSums {
   T total = T(0.0F);
@@ -156,11 +156,11 @@ class Sudden {
     slow_db_ = loudness_db;
   }
 
-  // Maximum initial loudness of a recording's room, so that a gust at its beginning counts as sudden.
+  // Loudness assumed of the room at a recording's beginning, so that a gust there counts as sudden.
   static constexpr float kRoomDb = -73;
   static constexpr int kGatedHops = 50;
   static constexpr float kStartDb = 6.5F;  ///< rise over the loudness of the last third of a second
-  static constexpr float kEndDb = 3;       ///< margin over the loudness before the sound
+  static constexpr float kEndDb = 3;       ///< margin over the loudness before the sound, below which it ends
 
   T slow_db_ = T(kRoomDb);
   T before_db_ = T(kRoomDb);
@@ -298,7 +298,7 @@ class Voicing {
   }
 
   static constexpr float kMinEnergy = 1e-12F;
-  static constexpr float kMinSquare = 1e-24F;  // energy below which sound counts as silent
+  static constexpr float kMinSquare = 1e-24F;  // squared energy, below which sound counts as silent
 
   int first_lag_;
   int length_;

@@ -20,12 +20,12 @@ namespace wisp::wind {
 /// Features of the last 50 ms of sound.
 template <class T>
 struct Features {
-  T low_db = T(0.0F);          ///< power near 126 Hz relative to all above 80 Hz
-  T high_db = T(0.0F);         ///< power near 2.6 kHz relative to all above 80 Hz
+  T low_db = T(0.0F);          ///< power near 126 Hz relative to all above 100 Hz
+  T high_db = T(0.0F);         ///< power near 2.6 kHz relative to all above 100 Hz
   T voicing = T(0.0F);         ///< periodicity with peak hold, 0 to 1
   T tone = T(0.0F);            ///< steadiness of periodicity, 0 to 1
   T peaked = T(0.0F);          ///< log of the voice band's kurtosis relative to a Gaussian's, −1 to 3
-  T voice_db = T(0.0F);        ///< power of the voice band relative to all above 80 Hz
+  T voice_db = T(0.0F);        ///< power of the voice band relative to all above 100 Hz
   T newest_db = T(0.0F);       ///< power of the voice band in the newest 10 ms relative to the 50 ms
   T flutter_db = T(0.0F);      ///< mean absolute change of that power from hop to hop, over 150 ms
   T clipped = T(0.0F);         ///< share of samples at full scale: a blow overloads the capsule

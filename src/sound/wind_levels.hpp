@@ -3,8 +3,8 @@
 // level of a microphone, which equals wind 1.
 //
 // A gust must not be its own reference: a person who blows hard from the start would calibrate the estimator to hard
-// blowing. So the level starts at a typical value for microphones at arm's length, is constant during a gust, and moves
-// after each gust to the level at which the gust was a soft breath or a hard blow, whichever is likelier.
+// blowing. So the level starts at a typical value for microphones at arm's length and is constant during a gust. After
+// each gust it moves towards the level at which the gust was a soft breath or a hard blow, whichever is likelier.
 
 #include <array>
 #include <cstddef>
@@ -69,7 +69,7 @@ class QuietMean {
     loudness_db_ = loudness_db_ + share * (seen.loudness_db - loudness_db_);
   }
 
-  /// Sets the means from earlier knowledge; `loudness_db` is the current loudness.
+  /// Sets the means from earlier knowledge; `loudness_db` is the background's, `count` their weight in frames.
   void set(T rms, T band_power, T loudness_db, float count) {
     rms_ = rms;
     band_power_ = band_power;
@@ -114,7 +114,7 @@ class Background {
     mean_.add(seen, d.quiet_span_frames);
   }
 
-  /// Sets the background from earlier knowledge; `loudness_db` is the current loudness.
+  /// Sets the means from earlier knowledge; `loudness_db` is the background's. The floor is still measured.
   void set(T rms, T band_power, T loudness_db, const Design& d) {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
   }

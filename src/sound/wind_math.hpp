@@ -8,7 +8,7 @@
 namespace wisp::wind {
 
 // The kernel is a template over its number type: float in the product, a counting type where its cost is measured.
-// Only these two functions access a number's value; a counting type overloads them.
+// Only plain() accesses a number's value; a counting type overloads it.
 inline float plain(float x) { return x; }
 
 /// Decomposition of x as m · 2^e with m in [1/√2, √2). For finite x >= 2^-126.

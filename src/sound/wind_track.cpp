@@ -54,7 +54,7 @@ float power_at(std::size_t turns, const std::vector<float>& sound, const Tables&
 /// Powers of narrow bands, one row per frame.
 class Spectra {
  public:
-  /// Computes powers in windows of 93 ms centred at `middles` (seconds). `channels`: levelled voice band of each
+  /// Computes powers in windows of 93 ms centred at `middles` (seconds). `channels`: differenced voice band of each
   /// channel, at `rate_hz`.
   Spectra(const std::vector<std::vector<float>>& channels, double rate_hz, const std::vector<double>& middles) {
     const auto length = static_cast<std::size_t>(kWindowSeconds * rate_hz + 0.5);
@@ -92,7 +92,7 @@ class Spectra {
 
 /// Mean spectra of wind and room in those bands.
 struct BandMeans {
-  std::vector<double> wind;  ///< at power 1, without the room's
+  std::vector<double> wind;  ///< of wind 1, without the room's
   std::vector<double> room;
 };
 
@@ -175,7 +175,7 @@ Means means_of(const Seen& seen, Choose choose) {
   return means;
 }
 
-/// Finds the 95th percentile of the band power during blowing, dB. Returns false where there is no blowing.
+/// Finds the 95th percentile of the excess band power during blowing, dB. Returns false if there is no blowing.
 bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float& gust_db) {
   std::vector<float> gusts;
   for (const auto& one : seen) {
@@ -188,7 +188,7 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
   return true;
 }
 
-/// Mean spectra of wind and room, from frames with certain blowing and from quiet ones.
+/// Mean spectra of wind and room, from frames with probable blowing and from quiet ones.
 BandMeans band_means(const Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
                      const wind::Surroundings<float>& around) {
   BandMeans means;
@@ -237,8 +237,8 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
 }
 
 /// Replaces knocks on the table by the larger of the wind before and after. They are measured as wind, in nearly calm
-/// recordings as many times the real maximum, but decay faster than any blow: to half of their peak in kShortestPuff.
-/// `seconds_at` gives the beginning of a frame.
+/// recordings as many times the real maximum, but are shorter than any blow: above half of their peak for at most
+/// kShortestPuff. `seconds_at` gives the beginning of a frame.
 template <class SecondsAt>
 void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const SecondsAt& seconds_at) {
   using Place = std::vector<WindFrame>::iterator;
@@ -344,7 +344,7 @@ struct WindTracker::State {
   wind::Design design;
   wind::Kernel<float> kernel;
   std::vector<double> times;
-  std::vector<std::vector<float>> bands;  ///< voice band of each channel at 4 kHz, for the estimate between harmonics
+  std::vector<std::vector<float>> bands;  ///< differenced voice band of each channel at about 4 kHz, for Spectra
   Seen seen;
   std::int64_t position = 0;
   std::int64_t skip = 0;  ///< number of samples before the first frame

@@ -30,7 +30,7 @@ struct Surroundings {
 constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing is distinguished from the room
 constexpr float kMinPower = 1e-12F;  ///< band power below which there is no wind
 
-/// Confidence, 0 to 1, that loudness exceeds the floor.
+/// Confidence, 0 to 1, that the loudness exceeds the floor by `sure_db`; 0.5 if it does exactly.
 template <class T>
 T audible(T over_floor_db, float sure_db, float width_db) {
   return sigmoid((over_floor_db - T(sure_db)) * T(1 / width_db));
@@ -47,7 +47,7 @@ T power_over(const Observation<T>& seen, T background) {
   return background < seen.band_power ? seen.band_power - background : T(0.0F);
 }
 
-/// Fills all fields of a frame except its wind.
+/// Fills all fields of a frame except its wind and index.
 template <class T>
 WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, float power_exponent) {
   using std::sqrt;
@@ -75,7 +75,7 @@ bool sounds_like_blowing(const Observation<T>& seen) {
   return T(kBlowingLikeness) < seen.likeness;
 }
 
-/// Share of the wind that counts by loudness over the floor: fluctuation of the background is no wind.
+/// Speed times the confidence that the sound exceeds the floor by kHeardDb: the background's fluctuation is no wind.
 template <class T>
 T heard_speed(T speed, const Observation<T>& seen, T floor_db) {
   return speed * audible(seen.loudness_db - floor_db, kHeardDb, 1.0F);
@@ -117,16 +117,16 @@ class LiveBridge {
     return sum / T(static_cast<float>(n));
   }
 
-  std::array<T, 128> before_{};  ///< past frames; at most 101 are used
+  std::array<T, 128> before_{};  ///< past frames; at most 102 are used
   std::size_t at_ = 0;
   int believed_frames_ = 0;
   int foreign_frames_ = 0;
   T most_ = T(0.0F);
 };
 
-/// Wind takes 0.08 s to rise to 1. The excess passes after sufficient evidence: 0.24 s of wind 1, or less time the
-/// stronger it is (0.15 s of 1.6, 0.08 s of 3.2), until an equally long pause. Softer blowing counts neither as
-/// evidence nor as pause. Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
+/// Wind takes 0.08 s to rise to 1. Wind above 1 passes after sufficient evidence: 0.24 s of wind 1, or less time the
+/// stronger it is (0.15 s of 1.6, 0.08 s of 3.2), until a pause of 0.24 s. Softer blowing counts neither as evidence
+/// nor as pause. Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
 template <class T>
 class Sustained {
  public:

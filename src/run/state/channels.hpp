@@ -137,7 +137,7 @@ struct LevelVector {
   Reals<N> length, x, z;
 };
 
-/// Computes a block's regressors, to be called in their order: the first one of a vector decomposes it for the others.
+/// Computes a block's regressors from lanes_of(input), called in order: a vector is decomposed for its first one.
 template <class N, class LanesOf>
 class Regressing {
  public:
