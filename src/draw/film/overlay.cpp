@@ -45,7 +45,7 @@ void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   if (closed && whole) cairo_close_path(context);
 }
 
-// Default width: 1/300 of the picture, visible from across a room without hiding much.
+// Default width: 1/300 of the picture's height, visible from across a room without hiding much.
 double line_width(const Image& image, float asked) {
   if (asked > 0) return std::clamp(asked, 0.25F, 50.0F);
   return std::clamp(image.height() / 300.0, 1.2, 6.0);

@@ -1,4 +1,4 @@
-// Pictures of outlines other than flames: filled shapes on a plain background, and outlines of bodies of rings.
+// Pictures of outlines: flames, or filled shapes on a plain background; and outlines of bodies that are given as rings.
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ FlameScene framed(int width, int height) {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kHighest = 80;
+constexpr double kHighest = 80;  // degrees
 
 // A ring in the picture: its centre, and the image vectors of its radii along the picture and towards the camera.
 struct SeenRing {
@@ -107,7 +107,7 @@ double edge_of(const SeenRing& below, const SeenRing& ring, const SeenRing& abov
 constexpr Colour kGround{38, 41, 46, 255};
 constexpr Colour kShape{176, 184, 192, 255};
 constexpr Colour kEdge{236, 240, 244, 255};
-constexpr float kNarrower = 0.8F;  // ratio of the width near its tip to that at two fifths of its height
+constexpr float kNarrower = 0.8F;  // maximum ratio of a flame's width near its tip to that at two fifths of its height
 
 // The control polygon at the centre of its range, in the model's units.
 std::vector<Point> middle_polygon(const Model& model) {
@@ -159,7 +159,7 @@ FlameStyle candle_style(const Model& model) {
       std::find_if(figures.begin(), figures.end(), [](const Figure& one) { return one.name == kCandleFigures[0]; });
   if (figures.end() - found < std::ssize(kCandleFigures)) return style;
   style.candle_width = static_cast<float>(found->value);
-  // Daylight: restores the green and blue that white wax lacks beside a flame, and scales the brightest point to white.
+  // Daylight: restores the green and blue that white wax lacks beside a flame. The largest channel is at most 240.
   constexpr std::array<double, 3> kLit{1.0, 0.86, 0.66};
   std::array<double, 3> wax{};
   for (std::size_t k = 0; k < 3; ++k) wax[k] = found[static_cast<std::ptrdiff_t>(k) + 1].value / kLit[k];

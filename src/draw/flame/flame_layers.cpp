@@ -134,7 +134,7 @@ void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood
   }
 }
 
-// The wick hides most of the flame's light, since the gas before it is thin.
+// The wick hides most of the flame's light, since the gas in front of it is thin.
 Plane wick_shade(const Candle& candle) {
   constexpr float kHides = 0.82F;
   const PixelBox& box = candle.shape.box;
@@ -145,7 +145,7 @@ Plane wick_shade(const Candle& candle) {
   return shade;
 }
 
-// Adds the glowing end of the wick: hidden by the burning flame, fading for seconds after extinction.
+// Adds the glowing end of the wick: dim while the flame burns, fading for seconds after extinction.
 void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
   if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;

@@ -1,10 +1,9 @@
 #pragma once
-// Linear, unbounded light that is added to a picture, one value per pixel and channel.
+// The layers of a picture of candles, which draw_flames() and LiveFlames compose: flame, wick, wax, smoke and glow.
+// Emitted light (LightField) is linear and unbounded, one value per pixel and channel.
 //
-// The layers of a picture of candles: flame, wick, wax, smoke and glow. draw_flames() and LiveFlames compose them.
-//
-// The dark room in which candles stand: a wall and a table, lit by the flames and a little by the moon. Soft light is
-// computed on a grid of cells of 4 × 4 pixels and interpolated, a sixteenth of the work.
+// Room is the dark room in which candles stand: a wall and a table, lit by the flames and a little by the moon. Soft
+// light is computed on a grid of cells of 4 × 4 pixels and interpolated, a sixteenth of the work.
 
 #include <algorithm>
 #include <array>
@@ -104,8 +103,8 @@ struct FlameShape {
   Plane coverage;      ///< share of each pixel inside the outline, 0 … 1
   Plane thickness;     ///< half the chord of glowing gas behind each pixel, in model units
   float thickest = 0;  ///< maximum of thickness
-  Point base;          ///< middle of the outline's base
-  Point middle;        ///< centre of its light
+  Point base;          ///< middle of the outline's base, pixels
+  Point middle;        ///< centre of its light, pixels
   float reach = 0;     ///< distance in pixels from the base to the farthest point
   float height = 0;    ///< reach in model units
   float area = 0;      ///< area in square model units

@@ -16,7 +16,7 @@ namespace {
 // Limit of a flame's size in model units, which bounds memory for absurd outlines.
 constexpr float kFarthest = 8;
 
-// Resolution of the grid for φ: about a hundredth of the flame, at most a pixel.
+// Resolution of the grid for φ: cells of about a hundredth of the flame, but not smaller than a pixel.
 constexpr float kCellsPerUnit = 96;
 constexpr int kMaxCells = 240;
 

@@ -160,7 +160,7 @@ struct LeafFlock::State {
   Vec3 lamp;
   std::vector<CardVertex> card;
   float half_length, half_width;
-  float at_target;
+  float at_target;                            // pixels per metre at the camera's target
   Plane shadows;                              // darkness, in cells
   std::vector<std::array<Texture, 2>> sides;  // textures of both sides, per look
   std::vector<Colour> margins;                // margin colour per look, for trails

@@ -35,7 +35,7 @@ void draw_grid(cairo_t* context, const Axes& axes);
 void draw_axes(cairo_t* context, const Plot& plot, const Axes& axes);
 void draw_marks(cairo_t* context, const Plot& plot, const Axes& axes);
 
-/// Draws the legend of the series in a line above the data, where it hides none.
+/// Draws the legend of the series in lines above the data, where it hides none.
 void draw_keys(cairo_t* context, const Plot& plot, const Axes& axes);
 
 /// Colour of a series: its own, or the palette's colour by its index.

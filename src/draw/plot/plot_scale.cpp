@@ -55,7 +55,7 @@ Ticks linear_ticks(const Scale& scale, int wanted, bool whole_numbers) {
   }
   const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
   const int exponent = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
-  // Numbers of up to five digits, or with two zeros after the point, are readable without an exponent.
+  // Without an exponent, if the largest number has at most five digits before the point or one zero after it.
   const bool apart = exponent >= 5 || exponent <= -3;
   const double unit = apart ? std::pow(10.0, exponent) : 1.0;
   if (apart) ticks.shared = "×10" + superscript(exponent);
@@ -99,7 +99,7 @@ Ticks logarithmic_ticks(const Scale& scale, int wanted) {
 
 double Scale::operator()(double value) const {
   const double share = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-  // Cairo's coordinates are fixed-point numbers of limited range: points far outside are moved to just outside.
+  // Cairo's coordinates are fixed-point numbers of limited range: limits points to four axis lengths outside.
   return from + std::clamp(share, -4.0, 5.0) * (to - from);
 }
 
