@@ -97,7 +97,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest run of rows without a break, in the film's frames; empty where it is nearly nothing, or the whole film.
+// The longest run of rows without a break, in the film's frames; empty if it is shorter than 1.5 s or nearly the film.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
@@ -121,7 +121,7 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // minimum for a rotated film; a glow is hardly as certain as a flame
+  constexpr std::int64_t kEnoughFrames = 120;  // frames tried in each rotation; a mere glow is seldom certain to 0.8
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -263,7 +263,7 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     if (region.empty())
       return Error{path.string() + ": the region lies outside its picture of " + std::to_string(picture.width) + " x " +
                    std::to_string(picture.height) + " pixels"};
-    // Rows of lost frames stay missing.
+    // Rows of lost frames stay missing (NaN).
     channel.samples.resize(static_cast<std::size_t>((*frame)->index), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, reader->info().frames));

@@ -6,7 +6,7 @@
 
 namespace wisp {
 
-/// Feeds all frames of a reader to a capture, with a call of `progress` after each.
+/// Feeds all frames of a reader to a capture, after glimpses if it takes them; calls `progress` after each frame.
 /// Errors: as VideoReader and the capture, of an outline or of falls, and kStopped where `progress` returned false.
 template <class Capture>
 Result<void> read_into(VideoReader& reader, Capture& capture, const Progress& progress = {}) {

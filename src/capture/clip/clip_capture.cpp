@@ -77,7 +77,7 @@ void warn_of_sound(const ClipSource& source, const ClipWind& wind, Report& repor
   }
 }
 
-// Reason why a clip's rows are wrong in time although its outlines are right.
+// Reason why a clip is unusable by its times or its sound, although its outlines are right; empty without one.
 std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& times) {
   float worst = 0;
   for (const float offset : times.offsets) worst = std::max(worst, std::abs(offset));
@@ -97,8 +97,8 @@ std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& t
   return first_missed(criteria);
 }
 
-// Where frames were off their grid times, interpolates outlines there from the two neighbouring frames. Filled rows
-// take no part.
+// Where frames were off their grid times, interpolates outlines at those times from the two neighbouring frames. Filled
+// rows do not count as neighbours.
 void put_in_place(std::span<const float> offsets, Recording& recording) {
   constexpr float kThere = 0.1F;  // rows: smaller offsets are ignored
   if (std::all_of(offsets.begin(), offsets.end(), [](float offset) { return std::abs(offset) < kThere; })) return;

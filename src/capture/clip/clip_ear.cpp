@@ -57,8 +57,8 @@ void ClipEar::be_silent(double samples) {
   fed_ += static_cast<double>(count / format_.channels);
 }
 
-// Skips a gap in the sound without feeding silence, which the tracker would take for the background. Only the frames at
-// its two ends are completed; those between are missing.
+// Skips a gap in the sound without feeding silence, which the tracker would take for the background. Silence completes
+// only the frames at its two ends; those between are missing.
 void ClipEar::pass_over(double seconds) {
   const double frame = format_.rate_hz / rate_hz_, hole = seconds * format_.rate_hz;
   const double to_next = (std::ceil(fed_ / frame - 1e-9) * frame - fed_);

@@ -22,7 +22,7 @@ class ClipEar {
   static Result<ClipEar> create(const SoundFormat& format, double rate_hz);
 
   /// Takes interleaved samples, full scale ±1, beginning `begin` seconds after the picture's first frame (may be
-  /// negative). A `begin` other than the end of the last block means lost or repeated sound.
+  /// negative). A `begin` more than 0.05 s from the end of the last block means lost or repeated sound.
   void feed(double begin, std::span<const float> samples);
 
   /// Wind of the picture's first `frames` frames; empty where the sound was silent. Errors: as WindTracker.
@@ -30,7 +30,7 @@ class ClipEar {
 
  private:
   struct Hole {
-    std::size_t at = 0;  // index after it, among the measured frames
+    std::size_t at = 0;  // number of measured frames before it
     double frames = 0;
   };
   ClipEar(WindTracker tracker, const SoundFormat& format, double rate_hz)

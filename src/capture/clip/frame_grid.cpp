@@ -21,7 +21,7 @@ std::int64_t FrameGrid::place(double seconds) {
   const double place = (seconds - *first_) * rate_hz_;
   const double longest = static_cast<double>(next) + kLongestGapSeconds * rate_hz_;
   if (place > longest) {
-    // Restarts the time origin at this frame.
+    // Shifts the time origin, so that this frame follows the last one by the longest gap.
     ++long_gaps_;
     last_ = static_cast<std::int64_t>(longest);
     first_ = seconds - static_cast<double>(last_) / rate_hz_;

@@ -75,7 +75,7 @@ bool take_frame(FrameOwner& kept, std::pair<int, int> size, AVPixelFormat format
 
 }  // namespace
 
-// Size with square pixels: the dimension with the shorter pixel side is enlarged.
+// Size with square pixels: enlarges the dimension along which pixels are longer.
 std::pair<int, int> FramePictures::stretched(int width, int height) const {
   if (aspect_ > 1) return {static_cast<int>(std::lround(width * aspect_)), height};
   return {width, static_cast<int>(std::lround(height / aspect_))};

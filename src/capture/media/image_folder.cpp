@@ -60,7 +60,7 @@ std::string digits_in(const std::filesystem::path& path) {
   return stem.substr(begin, end - begin);
 }
 
-// Whether an image file is truncated: decoders fill the missing part with grey.
+// Whether a PNG or JPEG file is truncated: decoders fill the missing part with grey.
 bool is_cut(std::span<const std::byte> bytes, AVCodecID codec) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto last = [&](std::string_view mark) { return text.rfind(mark); };

@@ -24,12 +24,12 @@ namespace wisp {
 
 /// Calls an FFmpeg function and returns its code. Throws std::bad_alloc where the code or errno reports a failed
 /// allocation: the file is not at fault, and skipping frames would change the measurement. (FFmpeg's H.264 decoder
-/// returns success where the allocation of a picture failed; malloc reports it in errno.) Every call that may read or
-/// decode uses this wrapper, including the last, empty packet's. errno is per thread: failures in decoding threads are
-/// seen only where FFmpeg returns them.
+/// returns success where the allocation of a picture failed; malloc reports it in errno.) Once a file is open, every
+/// call that may read or decode its tracks uses this wrapper, including the last, empty packet's. errno is per thread:
+/// failures in decoding threads are seen only where FFmpeg returns them.
 template <class Call, class... Arguments>
 int with_memory(Call call, Arguments... arguments) {
-  errno = 0;  // encoders and malloc leave errors there that they recovered from
+  errno = 0;  // earlier calls leave errors there that they recovered from
   const int code = call(arguments...);
   if (code == -ENOMEM || errno == ENOMEM) throw std::bad_alloc();
   return code;
@@ -74,8 +74,7 @@ void silence_libav();
 /// FFmpeg's text for an error code.
 std::string libav_message(int code);
 
-/// Opens a media file and reads its list of tracks. FFmpeg's own messages on standard error are disabled; problems are
-/// returned as errors and warnings.
+/// Opens a media file and reads its list of tracks. FFmpeg's own messages on standard error are disabled.
 /// Only the file itself is read, whatever it refers to: playlists and scripts are not accepted.
 /// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index.
 Result<FormatOwner> open_media(const std::filesystem::path& path);

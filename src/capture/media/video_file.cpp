@@ -155,7 +155,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   return file;
 }
 
-// Sends one packet of the track to the decoder. Returns false at the end of the file.
+// Sends one packet of the track to the decoder. Returns false at the end of the file or at a read error.
 bool VideoFile::send_packet() {
   while (true) {
     const int code = with_memory(av_read_frame, format_.get(), packet_.get());
@@ -220,7 +220,7 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
   return std::optional<VideoFrame>();
 }
 
-// Decodes only the key frame at or before a time, unless it is the one at time `before`. Returns its time.
+// Decodes only the key frame at or before `tick`, unless it is at `before`. Returns its time; `before` if not decoded.
 std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before) {
   if (with_memory(av_seek_frame, format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
   while (with_memory(av_read_frame, format_.get(), packet_.get()) >= 0) {

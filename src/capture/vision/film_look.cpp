@@ -31,7 +31,7 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr int kMaxStep = 8;
-  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // share explained; minimum difference in levels, above noise
+  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // largest share left; least difference, levels, above noise
   const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {

@@ -13,7 +13,7 @@
 
 namespace wisp {
 
-/// Shift from a to b as a share of the length, in whole steps; 0 where no shift explains most of the difference.
+/// Shift from a to b as a share of the length, in whole steps; 0 where no shift removes 30 % of the difference.
 double step_between(const std::vector<double>& a, const std::vector<double>& b);
 
 class FilmLook {
@@ -26,7 +26,7 @@ class FilmLook {
   /// Takes in a picture in which the object was found.
   void remember(const Picture& picture);
 
-  /// Whether no such picture was taken in.
+  /// Whether no picture with the object was taken in.
   bool empty() const { return brightest_.empty(); }
 
   /// Whether most of the light in a part of a picture is where pictures of the object had none.

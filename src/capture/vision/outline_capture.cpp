@@ -109,7 +109,7 @@ class OutlineCapture::Stage {
     Region place;
     std::size_t rows = 0;
   };
-  std::vector<Waited> stood_still_;  // objects that were there meanwhile
+  std::vector<Waited> stood_still_;  // still objects seen while it waited
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<CandleLook> candle_;
@@ -173,7 +173,7 @@ void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
   findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
 }
 
-// Discards half of the held frames, as they contain no flame yet. Glimpses of the whole clip did not help.
+// Discards half of the held frames, as they contain no flame yet, and the glimpses, in which none was found either.
 void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
   if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
@@ -295,7 +295,7 @@ void OutlineCapture::Stage::look(const Picture& picture) {
     finding.residual = static_cast<float>(estimate.residual);
     findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
   } else {
-    // Once the scene is known, something as bright elsewhere counts where no light was: it may be a lamp of the scene.
+    // Once the scene is known, an object elsewhere counts only where no light was before, since it may be a lamp.
     finding.elsewhere = film_.empty() ? seeker_->elsewhere()
                                       : film_.another(picture, picture.frame()) ||
                                             (seeker_->elsewhere() && film_.another(picture, seeker_->found().box));

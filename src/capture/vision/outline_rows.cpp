@@ -19,7 +19,7 @@ constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below which a frame is a duplicate
 constexpr double kDuplicateMost = 0.5;    // … and at most this many grey levels, as new frames have new noise
 constexpr std::size_t kNeighbours = 4;    // on each side
-constexpr double kGlintSeconds = 0.2;     // maximum length
+constexpr double kGlintSeconds = 0.2;     // maximum duration of a glint
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
@@ -62,7 +62,7 @@ struct Stands {
 
 Stands find_stands(const FrameFindings& findings) {
   constexpr double kMinGroups = 20, kOfGroups = 0.6,
-                   kErrors = 4;  // chance level is one in `times`; four errors more never occur by chance
+                   kErrors = 4;  // by chance one group in `times`; four standard errors more do not occur by chance
   for (Stands found{.times = 8}; found.times > 1; --found.times) {
     for (found.first = 0; found.first < found.times; ++found.first) {
       double groups = 0, such = 0;

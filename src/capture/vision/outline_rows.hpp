@@ -29,7 +29,7 @@ struct FrameFindings {
   std::size_t size() const { return frames.size(); }
 };
 
-/// With all frames known, identifies duplicates and fades, fills single gaps, cuts episodes, and writes the recording's
+/// With all frames known, identifies duplicates and fades, fills short gaps, cuts episodes, and writes the recording's
 /// channels, flag and episodes and the report's counts.
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report);
 
@@ -39,8 +39,8 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
 
-/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is the fact with the
-/// largest penalty that alone prevents the verdict "flame" or, where a flame is likely, the verdict "usable".
+/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is film_reason(), if any;
+/// else the fact with the largest penalty that alone prevents the verdict "flame" or, of a likely flame, "usable".
 void judge_outline(CaptureReport& report);
 
 }  // namespace wisp

@@ -123,7 +123,7 @@ void OutlineTracker::widen(double height) {
   }
 }
 
-// Adds a measurement n · curve(s) = value with the given precision (1 / variance); it involves four control points.
+// Adds the gathered measurements n · curve(s) = value, of one s; they involve four control points.
 void OutlineTracker::add(const BasisWeights& weights, const Gathered& gathered) {
   SpanSums& sums = sums_[static_cast<std::size_t>(weights.first)];
   const auto& [w0, w1, w2, w3] = weights.weight;
@@ -187,7 +187,7 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   spread_sums();
 }
 
-// The curve's ends are points: both directions are measured, with the weight of a whole side's edge points.
+// The curve's ends are points: both directions are measured, with four times the precision of an edge point.
 void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
   const double precision = normal_precision_ * 4;
   for (const bool last : {false, true}) {
@@ -273,7 +273,7 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
   }
 }
 
-// Excludes edge points far from the curve, where most are near. Returns whether there were any.
+// Excludes edge points much farther from the curve than their median. Returns whether any were excluded.
 bool OutlineTracker::gate(const EdgeCloud& cloud) {
   const std::size_t count = cloud.points.size();
   std::vector<double>& sorted = vector_;  // reuses vector_, which is rebuilt by the next measure()

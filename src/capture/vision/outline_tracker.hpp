@@ -23,7 +23,7 @@ namespace wisp {
 /// Noise model. Lengths are shares of the outline's height, so that tracking does not depend on image scale.
 struct TrackerOptions {
   double normal_sd = 0.002;         ///< of an edge point along the normal, 0.0005 to 0.02; at least a quarter pixel
-  double tangent_sd = 0.02;         ///< of an edge point along the curve, 0.005 to 0.5: about 20 times normal_sd
+  double tangent_sd = 0.02;         ///< of an edge point along the curve, 0.005 to 0.5: 10 times normal_sd
   double normal_widening = 0.1;     ///< sd added per frame across the curve, 0.01 to 1: a flame may move by its width
   double tangent_widening = 0.005;  ///< sd added per frame along the curve, 0.001 to 1
   double hold = 0.05;  ///< initial weight of an edge point's position along the curve, relative to the normal, 0 to 1

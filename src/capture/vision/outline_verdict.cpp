@@ -14,7 +14,7 @@ using R = const CaptureReport&;
 
 enum class Of : std::uint8_t { kMotion, kFlame, kFilm };
 
-// A fact, the kind of model that uses it (motion: also for objects other than flames), and the sentence where it is the
+// A fact, what it is about (kFlame: used for flames only, the others for any object), and the sentence where it is the
 // reason. {} and {%} stand for its value.
 struct FactRow {
   const char* name;
@@ -167,7 +167,7 @@ std::string verdict_sentence(CaptureReport& report) {
   if (report.usable) {
     return "an outline was found in " + percent(1 - missing_share(report)) + " of the frames and moves steadily";
   }
-  // Repeated or lost frames do not explain a moving camera.
+  // Not where frames are repeated or lost: jumps between frames then look like a moving camera.
   const bool frames = report.facts.lost > kIrregular || report.facts.stands > 1;
   const auto film = frames || report.flames == 0 ? std::nullopt : film_reason(report.facts.film);
   if (film) return *film;
@@ -178,7 +178,7 @@ std::string verdict_sentence(CaptureReport& report) {
 
 }  // namespace
 
-// Where any object was requested, the flame model's penalty on motion is used for it.
+// Where any object was requested, the flame model's penalties count against the outline.
 std::vector<WeighedFact> weighed_facts(const CaptureReport& report) {
   std::vector<WeighedFact> out;
   const auto values = values_of(report);

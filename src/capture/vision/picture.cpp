@@ -104,7 +104,7 @@ void colour_row_in_pairs(const Conversion to, const std::uint8_t* cb, const std:
   }
 }
 
-// Both parts are halved before the addition: |scale × 255| / 2 is below 9,600 and |colour| / 2 below 8,300, so all sums
+// Both parts are halved before the addition: |scale × 255| / 2 is below 9,600 and |colour| / 2 below 8,700, so all sums
 // fit 16 bits and the loop processes eight pixels at a time on any processor.
 void add_luma(const Conversion to, const std::uint8_t* luma, const std::int16_t* colour, int width, std::uint8_t* out) {
   for (int i = 0; i < width; ++i) {

@@ -38,7 +38,7 @@ std::string unsteady_sentence(const Wall& wall) {
 
 std::string falls_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " fall" : " falls"); }
 
-// Number of falls that were not seen whole, by reason.
+// Number of falls, also of missed ones, for each Cut; [0] counts those seen whole.
 std::array<std::size_t, 5> counted(const Falls& found) {
   std::array<std::size_t, 5> count{};
   for (const Fall& fall : found.falls) ++count[static_cast<std::size_t>(fall.cut)];

@@ -10,12 +10,12 @@ namespace wisp::fall {
 namespace {
 
 constexpr std::size_t kSamples = 61;     // frames from which the wall is estimated
-constexpr std::size_t kGainSpots = 997;  // stride of the pixels used to measure exposure
+constexpr std::size_t kGainSpots = 997;  // approximate number of pixels used to measure exposure
 constexpr float kMinGround = 16;         // grey levels: minimum brightness of pixels used to measure exposure
 constexpr float kMinDifference = 8;      // grey levels: above coding noise
 constexpr float kSigmas = 5;
 constexpr double kUnsteady = 5;   // grey levels: an unsteady pixel deviates by more …
-constexpr double kMoments = 0.7;  // … in more than this share of the frames
+constexpr double kMoments = 0.7;  // … at this quantile of the frames, so in 30 % of them or more
 constexpr float kMadToSigma = 1.4826F;
 constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond the tolerance
 constexpr double kTypical = 0.9;  // quantile of an object's differences that represents it; its edge differs less
@@ -119,7 +119,7 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
   return thing;
 }
 
-// Shift of a frame's wall in reduced pixels, from means of columns and rows; 0 where the wall has no texture.
+// Shift of a frame's wall in reduced pixels, from sums of columns and rows; 0 where the wall has no texture.
 double shift_of(const Frame& frame, const Wall& wall, float gain) {
   const auto width = static_cast<std::size_t>(wall.width);
   std::vector<double> across(width), down(static_cast<std::size_t>(wall.height)), across_then = across,

@@ -18,10 +18,10 @@ constexpr double kFirstSpeed = 6;        // maximum initial speed, picture heigh
 constexpr double kChange = 2.5;          // maximum change of speed between frames, heights a second …
 constexpr double kShare = 0.6;           // … and as a share of the speed
 constexpr double kMinReach = 3;          // minimum search radius, reduced pixels
-constexpr double kJoinSeconds = 0.2;     // longest gap that a cubic bridges in a swing of half a second
+constexpr double kJoinSeconds = 0.2;     // longest gap that a cubic interpolates well in a swing of half a second
 constexpr double kJoinReach = 0.1;       // heights: largest deviation by gravity from a straight path in that time
 constexpr double kOverlapSeconds = 0.2;  // time in which the end of one part and the beginning of another coexist
-constexpr std::size_t kSteady = 3;       // frames over which speed is averaged where the last view is partial
+constexpr std::size_t kSteady = 3;       // frames over which speed is averaged, as the last view may be partial
 constexpr std::size_t kMinRows = 3;      // minimum length of a track; shorter ones are noise
 
 constexpr double kMinSeconds = 0.3;
@@ -99,8 +99,8 @@ std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
   return done;
 }
 
-// Whether one track continues the other: the distance between both, extrapolated to the middle of the gap. Negative
-// where it does not.
+// Returns the distance between two tracks, both extrapolated to the middle of the gap; negative if `after` does not
+// continue `before`.
 double seam(const Track& before, const Track& after, const Scale& scale) {
   const double gap = static_cast<double>(after.frames.front()) - static_cast<double>(before.frames.back());
   if (gap > kJoinSeconds * scale.rate_hz || gap < -kOverlapSeconds * scale.rate_hz) return -1;
@@ -201,7 +201,7 @@ bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
   return thing.left + way < kNearSide || thing.right + way > scale.width - 1 - kNearSide;
 }
 
-// Classifies how a fall was cut. `ground`: height at which falls end.
+// Classifies how a fall was cut. `ground`: height (y) at which falls end.
 Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale& scale) {
   const Track& track = fall.track;
   if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kAhead), scale)) return Cut::kSide;
@@ -228,7 +228,7 @@ bool pass(const Candidate& one, const Candidate& other) {
   return false;
 }
 
-// Median height at which falls end; the picture's border without falls.
+// Median height (y) at which falls end; the picture's lower border if there are none.
 double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   std::vector<double> ends;
   for (const Candidate& fall : falls) {

@@ -25,7 +25,7 @@ struct Wall {
   std::vector<float> tolerance;   ///< maximum difference of the background; a larger one is an object
   double noise = 0;               ///< standard deviation of the median pixel, grey levels
   double shake = 0;               ///< RMS shift in reduced pixels; 0 also for a wall without texture
-  double unsteady = 0;            ///< share of pixels that change in most frames, which shows a moving camera
+  double unsteady = 0;            ///< share of pixels that change in 30 % of the frames or more: the camera moves
 };
 
 /// Estimates the wall. Precondition: at least one frame is not empty, and each such has width × height pixels.
@@ -79,7 +79,7 @@ struct Fall {
 
 struct Falls {
   std::vector<Fall> falls;  ///< in order of their first frames
-  std::vector<Cut> missed;  ///< sinking tracks that are too short to be falls, or pass another object
+  std::vector<Cut> missed;  ///< of sinking tracks that are no falls, and of falls that pass another object
 };
 
 /// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of
@@ -94,7 +94,7 @@ struct Facts {
   double short_share = 0;  ///< share of rows in which it is too short to measure attitude
   double jerks = 0;        ///< share of rows in which its axis jumps
 
-  /// Whether it is long enough in view to measure attitude; with the reason.
+  /// Whether the object is long enough, and its axis steady enough, to measure attitude; with the reason.
   bool tilt() const;
   const char* tilt_reason() const;
 };

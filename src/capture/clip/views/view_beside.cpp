@@ -15,7 +15,7 @@ namespace wisp {
 namespace {
 
 constexpr double kCalm = 0.05;                              // in wind units: threshold of a blow
-constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // shorter pauses are of one blow; the flame's lag
+constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // longest pause in a blow; lag of flame behind wind
 
 struct Blow {
   std::size_t begin = 0, end = 0;  // rows [begin, end)
@@ -178,7 +178,7 @@ std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> bl
     by_chance.push_back(lost * harmonics(blows, rest));
   }
   const double reach = std::sqrt(quantile(by_chance, 0.95)), share = std::sqrt(seen);
-  // In permuted leans 4 / n of the harmonics' own power appears as chance.
+  // Permuted leans still contain the dependence: 4 / n of its power counts as chance.
   return std::array{100 * std::sqrt(std::max(0.0, seen - mean(by_chance)) / (1 - 4 / count)),
                     100 * std::max(0.0, share - reach), 100 * (share + reach)};
 }

@@ -123,7 +123,7 @@ ViewRows view_rows(const FilmedView& view) {
   return out;
 }
 
-// Time offset of a view to the first one, from the body's height, which is equal from every side.
+// Time offsets of a view to the first one: from the sound, and from the body's height, which is equal from every side.
 Joint joint_of(const FilmedView& first, const FilmedView& other, const Row& height, const Row& other_height) {
   const auto logarithms = [](Row loudness) {
     for (double& rms : loudness) rms = std::log(rms + 1e-4);

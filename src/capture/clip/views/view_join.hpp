@@ -24,9 +24,9 @@ struct FilmedView {
 };
 
 /// Adds to rings the outline as seen by a camera beside each blow, so that the wind blows to the right, minus the lean
-/// at rest; and the first input of `film` (null: none), whose row `first_row` is the rings' first, as motion wind.x and
-/// wind.z: the blow's vector, in the direction in which the flame leans. Every blow begins an episode. Returns a report
-/// on the blows.
+/// at rest. Adds the first input of `film` (null: none), whose row `first_row` is the rings' first, and this wind as a
+/// vector in the direction in which the flame leans, as motion wind.x and wind.z. Every blow begins an episode. Returns
+/// a report on the blows.
 ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings);
 
 /// Response to a blow: its direction (radians), mean wind weighted by itself, and lean per unit of wind.
