@@ -24,8 +24,8 @@ namespace wisp {
 
 /// Calls an FFmpeg function and returns its code. Throws std::bad_alloc where the code or errno reports a failed
 /// allocation: the file is not at fault, and skipping frames would change the measurement. (FFmpeg's H.264 decoder
-/// returns success where the allocation of a picture failed; malloc reports it in errno.) Once a file is open, every
-/// call that may read or decode its tracks uses this wrapper, including the last, empty packet's. errno is per thread:
+/// returns success where the allocation of a picture failed; malloc reports it in errno.) Once a film or sound is open,
+/// every call that may read or decode it uses this wrapper, including the last, empty packet's. errno is per thread:
 /// failures in decoding threads are seen only where FFmpeg returns them.
 template <class Call, class... Arguments>
 int with_memory(Call call, Arguments... arguments) {

@@ -10,7 +10,7 @@ namespace wisp {
 namespace {
 
 constexpr double kReach = 2.5;                    // flame heights searched on both sides
-constexpr double kBelow = 0.2, kDeep = 0.5;       // … and below: begin and end of the strip; the rim glows
+constexpr double kBelow = 0.2, kDeep = 0.5;       // … and below, from … to; nearer, the rim glows
 constexpr double kMinWax = 16, kMinEdge = 14;     // levels of 255
 constexpr double kNarrowest = 0.15, kWidest = 4;  // flame heights; a wider one is a table
 

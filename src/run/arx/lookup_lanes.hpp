@@ -150,7 +150,7 @@ class LookupLanes {
     }
   }
 
-  // Returns whether a row is near the natural successors, or was played recently.
+  // Returns whether a row is near the one after `end`, or will have been played recently when the block ends.
   bool is_barred(std::uint32_t row, std::uint32_t end, std::span<const PlayedRows> played, std::uint32_t ahead) const {
     if (row + program_.beside > end && row <= end + 1 + program_.beside) return true;
     std::uint32_t room = program_.recent;

@@ -245,8 +245,8 @@ float Bank::State::newest_of(int slot, std::size_t i, const float* newest) const
   return lanes[slot % kLanes];
 }
 
-// Makes one step of an event. After its rows, or in wind, re-ignition crosses over to the dynamics. A dying flame never
-// grows.
+// Makes one step of an event. After its rows, or in wind, re-ignition crosses over to the dynamics. A decaying flame
+// never grows.
 void Bank::State::play_event(int slot, const float* newest) {
   const bool burning = lit[slot] != 0.0f;
   const auto at = [&](float row) { return extinction.sizes[static_cast<std::size_t>(row)]; };

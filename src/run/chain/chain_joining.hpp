@@ -120,7 +120,7 @@ class ChainJoining {
     return ahead;
   }
 
-  // First the modes of all, then their segments, so that memory latencies overlap.
+  // Draws first the modes of all members, then their segments, so that memory latencies overlap.
   Segments draw_next(const Party& party, const Segments& segments, const Drawn& words) {
     const Mover mover(program());
     Segments mode{}, next{};

@@ -5,9 +5,10 @@
 // At a join, attitude, attitude rate and velocity are the means of one segment's end and the next one's beginning. Each
 // segment takes half of the difference as an offset that fades: along a smooth curve for each number of the quaternion
 // (world axes, normalised for display), linearly for velocity. Segments shorter than two blends fade over their whole
-// length, longer ones over `blend_steps` at each end. Half of the difference over a whole segment has an eighth of the
-// curvature of all of it over half a segment (a one-sided fade: D. Bollo, Inertialization, GDC 2018); recorded motion
-// has little curvature. A segment fades towards its successor, so the successor is drawn when the segment begins.
+// length, longer ones over `blend_steps` at each end. To fade half of the difference over a whole segment takes an
+// eighth of the curvature of fading all of it over half a segment (a one-sided fade: D. Bollo, Inertialization, GDC
+// 2018); recorded motion has little curvature. A segment fades towards its successor, so the successor is drawn when
+// the segment begins.
 //
 // The curve of each number is two parabolas, stored as differences from row to row: two additions per number.
 

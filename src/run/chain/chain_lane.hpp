@@ -313,7 +313,7 @@ class ChainMover {
     return whole < bound ? whole : bound - 1;
   }
 
-  /// Clamps numbers to what no valid model exceeds: their squares do not overflow single precision.
+  /// Clamps numbers to ±bound, which no valid model exceeds, so that their squares do not overflow single precision.
   template <class Numbers>
   static Numbers bounded(Numbers numbers, float bound = kMaxDifference) {
     const Real most(bound), least(-bound);

@@ -160,7 +160,7 @@ class ChainStepper : private ChainLives<N> {
     return {segment, row, program_.mode[segment]};
   }
 
-  /// Returns whether blocks may be stepped in parallel: not once steered, as candidates of all share one buffer.
+  /// Returns whether blocks may be stepped in parallel: not after steering, since all its candidates share one buffer.
   bool can_be_shared() const { return !steered_; }
 
   bool can_steer() const { return !program_.lead.empty(); }
