@@ -177,12 +177,12 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
   }
   std::memcpy(packet_->data, bytes->data(), bytes->size());
   packet_->flags |= AV_PKT_FLAG_KEY;  // otherwise the PNG decoder treats it as a difference to the last image
-  int code = avcodec_send_packet(codec_.get(), packet_.get());
+  int code = with_memory(avcodec_send_packet, codec_.get(), packet_.get());
   av_packet_unref(packet_.get());
-  if (code >= 0) code = avcodec_receive_frame(codec_.get(), frame_.get());
+  if (code >= 0) code = with_memory(avcodec_receive_frame, codec_.get(), frame_.get());
   if (code == AVERROR(EAGAIN)) {
-    avcodec_send_packet(codec_.get(), nullptr);
-    code = avcodec_receive_frame(codec_.get(), frame_.get());
+    with_memory(avcodec_send_packet, codec_.get(), nullptr);
+    code = with_memory(avcodec_receive_frame, codec_.get(), frame_.get());
   }
   if (code < 0) {
     return Error{path.string() + ": the image cannot be decoded (" + libav_message(code) +
