@@ -104,7 +104,7 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 namespace {
 
-// Recordings prepared for learning: each about its own means where there are several.
+// Recordings prepared for learning: several ones are, with offset kMean, each shifted to their common means.
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;
