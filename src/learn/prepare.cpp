@@ -52,7 +52,7 @@ class Filter {
   double a_[2], b_[3];
 };
 
-// Filters forward and backward; the ends are extended by point reflection for three periods. A high-pass keeps the mean.
+// Filters forward and backward; the ends are extended by point reflection for three periods. A high-pass keeps means.
 void filter(Samples& x, double share, bool high) {
   const auto rows = x.size(), more = std::min(rows - 1, static_cast<std::size_t>(3 / share) + 1);
   const double level = high ? mean(x) : 0;

@@ -57,7 +57,8 @@ double covariance(const Series& a, const Series& b, std::ptrdiff_t lag) {
 /// Predictor coefficients a1 … ap of the series (Yule–Walker equations, Levinson–Durbin recursion).
 std::array<double, kWhiteningOrder> predictor(const Series& series) {
   std::array<double, kWhiteningOrder + 1> r{};
-  // Missing samples reduce each lag's mean alike; a small addition to lag 0 keeps the equations solvable.
+  // Each lag's mean is over its own pairs, so missing samples may make the equations indefinite; a small addition to
+  // lag 0 keeps them solvable.
   for (std::size_t lag = 0; lag < r.size(); ++lag)
     r[lag] = covariance(series, series, static_cast<std::ptrdiff_t>(lag));
   double error = r[0] * (1 + 1e-6);
