@@ -129,15 +129,15 @@ class FlameLives {
   double strongest_survived_ = 0;
 };
 
-// Search grid. Steps of 6 % (level) and 12 % (duration) are finer than recordings resolve.
+// Search grid. Steps of 5 % (level) and 15 % (duration) are finer than recordings resolve.
 constexpr int kLevels = 40;
 constexpr int kDurations = 40;
 constexpr double kShortest = 0.02;  // seconds
 constexpr double kLongest = 4;
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
-constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // recovery per second, as a share of the level's harm
+constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // harm lost per second, as a share of what the level adds
 
-// Costs of errors: 1 for a gust judged wrongly, 0.3 for an extinction that is early or late by 0.1 s.
+// Costs of errors: 1 for a gust judged wrongly, 0.3 (t / 0.1 s)², at most 1, for an extinction early or late by t.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
 // Rules count as equally good up to this excess cost, plus the cost of one error per fifty gusts and extinctions: the
@@ -161,7 +161,7 @@ struct Shape {
 struct Harms {
   std::vector<double> gusts;                // maximum harm in each gust that was survived
   std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
-  std::vector<double> first;                // seconds from an extinction's first watched row to its end
+  std::vector<double> first;                // seconds from an extinction's first watched row to its recorded time
   std::vector<double> step;                 // seconds per row, for each extinction
 };
 

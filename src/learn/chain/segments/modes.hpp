@@ -89,7 +89,7 @@ RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
 Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
 
 /// Halves of the segments, each half of a mode clustered into two: a mode then is a chain of four modes.
-/// Errors: more than 64 modes in total.
+/// Errors: more than 64 modes in total; as k_means().
 Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 
 struct SegmentStoreOptions {
@@ -108,7 +108,7 @@ struct SegmentStore {
 
 /// Stores segments.
 ///
-/// Preconditions: each mode has a segment; orientation where breadth > 0.
+/// Precondition: each mode has a segment.
 SegmentStore store_segments(const SortedSegments& found, const SegmentStoreOptions& options);
 
 }  // namespace wisp::chain
