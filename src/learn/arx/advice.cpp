@@ -26,7 +26,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Samples = std::vector<double>;
 
-constexpr std::size_t kManyRows = 8192;  // maximum in the searches for feedback and delays, and in redundant_channels()
+constexpr std::size_t kManyRows = 8192;  // maximum in searches for feedback and delays, and in redundant_channels()
 constexpr std::size_t kFewRows = 50;
 constexpr const char* kRoles[] = {"input", "output", "motion"};  // role names, indexed by Role
 

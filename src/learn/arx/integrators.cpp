@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDickeyFuller = 8.2;  // 2.86², the critical value at 5 %
 constexpr double kExact = 99.9;        // percent: above this one-step fit, rounding errors would decide the test
-constexpr double kGain = 2;            // percent: required gain of the free-run fit
+constexpr double kGain = 2;            // percentage points: required gain of the free-run fit
 
 bool remembers_itself_only(const OrderMatrix& na, int output) {
   for (int j = 0; j < na.rows(); ++j) {

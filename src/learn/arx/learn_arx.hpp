@@ -38,8 +38,8 @@ ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders);
 std::vector<int> find_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options, const ArxFit& plain);
 
-/// Fits with poles fixed near 1, as near (1e-5 to 1e-3) as leaves the model stable in single precision, and with an
-/// estimated constant. `options` receives these settings. Errors: as fit_arx.
+/// Fits with an estimated constant and with poles fixed at 1 − d: the smallest d of 1e-5 to 1e-3 that leaves the model
+/// stable in single precision. `options` receives these settings. Errors: as fit_arx.
 Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                const std::vector<int>& integrators, ArxOptions& options);
 

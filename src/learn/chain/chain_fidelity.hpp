@@ -83,8 +83,8 @@ Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, st
 Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recording> real,
                                      const ChainFidelityOptions& options);
 
-/// Seconds of the longest recorded stretch that a fall of so many segments repeats segment by segment, without its last
-/// segment. `origin` as in ChainFit.
+/// Seconds of the longest recorded stretch that a played fall of `segments` segments repeats segment by segment; the
+/// stretch's last segment is not counted. `origin` as in ChainFit.
 double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_t> origin, std::size_t segments,
                                 std::uint64_t seed);
 
@@ -96,7 +96,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 /// Copies the figures that a model stores to its training record.
 void add_figures(const ChainFidelity& fidelity, Training& training);
 
-/// Measures by name, and the names of those for which recorded falls are too few or too short.
+/// Names of the measures that the recorded falls suffice for, and of those for which they are too few or too short.
 struct Judged {
   std::string judged;
   std::string unjudged;

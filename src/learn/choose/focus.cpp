@@ -130,7 +130,8 @@ class Chooser {
     return {};
   }
 
-  /// Chooses a candidate per block. Returns whether any block could be judged.
+  /// Chooses a candidate per block: one surely better than least squares or, with `leave_least_squares`, just better.
+  /// Returns whether any block could be judged.
   bool choose(bool leave_least_squares) {
     bool judged = false;
     for (Block& block : blocks_) {

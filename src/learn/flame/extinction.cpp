@@ -24,13 +24,13 @@ struct FlameLife {
   WindSpan rows;  ///< ends at the row where the flame is gone
   double rate_hz = 0;
   bool died = false;
-  std::size_t watched = 0;        ///< first row in which its extinction is accepted,
-  std::size_t until = 0;          ///< and one past the last; after the life's end, within the recording
+  std::size_t watched = 0;        ///< first row in which an extinction by the rule counts as reproduced
+  std::size_t until = 0;          ///< one past the last such row; after the life's end, within the recording
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
-constexpr double kWatchedBefore = 0.5;  // seconds before the recorded extinction from which one counts as reproduced
-constexpr double kWatchedAfter = 0.5;   // seconds after it until which one counts: capture loses a decaying flame early
+constexpr double kWatchedBefore = 0.5;  // seconds before a recorded extinction from which on a rule may reproduce it
+constexpr double kWatchedAfter = 0.5;   // seconds after it until which it may: capture loses a decaying flame early
 constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
 constexpr double kGustShare = 0.5;      // minimum of a gust, as a share of the weakest wind that extinguished
 constexpr double kOneGust = 0.15;       // seconds of calmer wind that do not divide a gust

@@ -53,7 +53,7 @@ std::vector<double> free_run_fits(const ArxModel& model, const Signals& signals,
 // simulation of the training rows. Near the stability limit, errors in a pole ring for a long time.
 ArxFit drawn_in(FitFacts facts, const ArxDesign& design, const ArxEstimate& estimate, const Signals& judged,
                 ArxFit fit) {
-  constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and gain of the sum that counts
+  constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and minimum gain of the sum
   const auto sum = [&](const ArxFit& one) {
     double all = 0;
     for (double percent : free_run_fits(one.model, judged, false)) all += std::max(percent, kNothing);

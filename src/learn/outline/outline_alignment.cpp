@@ -22,7 +22,7 @@ constexpr int kResamples = 400;          // bootstrap resamples
 constexpr double kBlockSeconds = 2;      // longer than a gust, so that blocks are nearly independent
 constexpr double kTail = 0.025;          // share of resamples beyond either end of the interval
 constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may be at an end
-constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an end this near means two offsets, or none
+constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an offset this near its end means two, or none
 
 Error bad(const std::string& what) { return Error{"alignment: " + what}; }
 
@@ -187,9 +187,9 @@ void judge(Alignment& found, double max_seconds) {
   }
 }
 
-constexpr double kMinSearch = 0.05;  // seconds on either side, the minimum of align_offset()
+constexpr double kMinSearch = 0.05;  // seconds on either side, the least that is searched
 
-// Searches at most a fifth of the recording.
+// Searches at most a fifth of the recording on either side.
 Alignment found_or_reason(const Recording& recording, const std::vector<double>& input,
                           const std::vector<double>& motion) {
   double rows = 0;

@@ -111,7 +111,7 @@ Result<Synthesis> played_along(const Model& model, const PreparedOutlines& prepa
   return synthesize(model, {.rows = rows, .seed = seed, .input = &driving});
 }
 
-// Per output, played over recorded; 1 for constant ones.
+// Standard deviation per output, played over recorded; 1 for constant outputs.
 std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Recording& real, const Recording& play) {
   std::vector<double> out;
   for (const std::string& name : prepared.channels.outputs) {

@@ -18,7 +18,7 @@ void add(ReportSection& section, std::string id, ReportValue value, std::string 
 /// Adds a line for people.
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
-/// Adds a column to a table that has its rows, with value(row) in each.
+/// Adds a column with value(row) to the rows that a table has.
 template <class Value>
 void add_column(ReportTable& table, ReportColumn column, Value value) {
   table.columns.push_back(std::move(column));
