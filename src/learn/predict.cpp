@@ -37,7 +37,7 @@ Series half_widths(const Series& sd, const Recording& recording, const Series& p
   return widths;
 }
 
-// Measured inputs and outputs, with the prediction beside every output.
+// Measured inputs and outputs, with the prediction and, unless `widths` is empty, its interval beside every output.
 Recording table_of(const Recording& measured, const ChannelChoice& channels, const Series& predicted,
                    const Series& widths) {
   Recording out;

@@ -17,7 +17,7 @@ namespace {
 
 using Samples = std::vector<double>;
 
-constexpr double kBelow = 0.4;  // cutoff of the low-pass, as a share of the lower rate
+constexpr double kBelow = 0.4;  // cutoff of the low-pass before resampling, as a share of the lower rate
 constexpr std::pair<const char*, double Preparation::*> kFrequencies[] = {{"highpass", &Preparation::highpass_hz},
                                                                           {"lowpass", &Preparation::lowpass_hz},
                                                                           {"resample", &Preparation::resample_hz}};
@@ -52,7 +52,7 @@ class Filter {
   double a_[2], b_[3];
 };
 
-// Filters forward and backward; the ends are extended by point reflection for three periods.
+// Filters forward and backward; the ends are extended by point reflection for three periods. A high-pass keeps means.
 void filter(Samples& x, double share, bool high) {
   const auto rows = x.size(), more = std::min(rows - 1, static_cast<std::size_t>(3 / share) + 1);
   const double level = high ? mean(x) : 0;
@@ -68,7 +68,7 @@ void filter(Samples& x, double share, bool high) {
   for (std::size_t k = 0; k < rows; ++k) x[k] = long_x[k + more] + level;
 }
 
-// Replaces missing samples by linear interpolation between their neighbours.
+// Replaces missing samples by linear interpolation between their neighbours, at the ends by the nearest sample.
 Samples bridged(const Samples& x) {
   Samples out = x;
   std::size_t before = x.size();

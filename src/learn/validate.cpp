@@ -147,7 +147,7 @@ ReportTable joined(const std::vector<Report>& reports, std::span<const Recording
   return all;
 }
 
-// Warns of recordings whose last fit is far below the median of the others.
+// Warns of rows of the table whose fit, in the last column of fits, is far below the median of all rows.
 void name_badly_fitted(const ReportTable& all, Report& report) {
   std::size_t column = 0;
   for (std::size_t c = 0; c < all.columns.size(); ++c) {

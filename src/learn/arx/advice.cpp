@@ -1,5 +1,5 @@
 // Sources: P. Caines and C. Chan, IEEE Trans. Automatic Control 20 (1975), for feedback (the outputs' past predicts the
-// input); D. Dickey and W. Fuller, JASA 74 (1979), for the limit of the test of a pole at 1; L. Ljung, System
+// input); D. Dickey and W. Fuller, JASA 74 (1979), for the unit-root test (integrators.cpp); L. Ljung, System
 // Identification (2nd ed.), sections 13.2 (persistent excitation) and 14 (preprocessing).
 
 #include "wisp/learn/advice.hpp"
@@ -26,7 +26,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Samples = std::vector<double>;
 
-constexpr std::size_t kManyRows = 8192;  // rows of a regression: longer recordings are cut to these
+constexpr std::size_t kManyRows = 8192;  // maximum in searches for feedback and delays, and in redundant_channels()
 constexpr std::size_t kFewRows = 50;
 constexpr const char* kRoles[] = {"input", "output", "motion"};  // role names, indexed by Role
 
@@ -56,7 +56,7 @@ struct Subject {
   }
 };
 
-// Returns the unit of the last decimal that the samples are written with, 1 to 1e-9; 0 where more decimals are used.
+// Returns the unit of the last decimal of the first 500 samples, 1 to 1e-9; 0 where more decimals are used.
 double last_digit(const Samples& all) {
   double unit = 1;
   for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
@@ -96,7 +96,7 @@ void look_for_sentinel(const std::string& name, const Samples& all, std::vector<
   }
 }
 
-// Row numbers, from 1, of samples far from the median of five rows around them.
+// Rows, counted from 1 through all recordings in sequence, of samples far from the median of the five rows around them.
 std::vector<std::size_t> outliers_in(const Samples& all) {
   constexpr double kFar = 12;
   std::vector<std::size_t> rows;
@@ -148,7 +148,7 @@ void look_at_samples(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// Line y ≈ slope x + level fitted over rows that have both samples, and the root mean square of its residual.
+// Line y ≈ slope · x + level over rows with both samples; `rest`: RMS of its residual, `size`: deviation of y.
 struct Line {
   double slope = 0, level = 0, rest = 0, size = 0;
 };
@@ -170,7 +170,7 @@ Line line_of(const Samples& x, const Samples& y) {
 }
 
 void look_for_redundancy(const Subject& subject, std::vector<Remark>& out) {
-  constexpr double kSame = 1e-5;  // share of a deviation: single precision resolves no smaller difference
+  constexpr double kSame = 1e-5;  // residual RMS over deviation: about what single precision leaves
   const auto names = subject.names();
   for (std::size_t l = 1; l < names.size(); ++l) {
     const Samples y = subject.all_of(names[l]);
@@ -213,7 +213,7 @@ double squared_rest(const MatrixXd& x, const VectorXd& y) {
   return (y - x * x.colPivHouseholderQr().solve(y)).squaredNorm() / static_cast<double>(y.size());
 }
 
-// Reports feedback where the output's past improves the prediction of the input beyond the input's own past.
+// Reports feedback where, in the first recording, an output's past improves the prediction of an input by its own past.
 void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
   constexpr std::size_t kOwn = 20, kLags = 5;
   constexpr double kShare = 0.05, kChance = 1e-6;
@@ -271,7 +271,8 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// The recording with the output's linear trend removed. Empty where the trend is small or an input has a trend too.
+// The first recording without the output's linear trend; `drift` receives the change of that trend over all rows. Empty
+// where the trend is small, an input has a trend too, or there are fewer than 50 rows.
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
   constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
   Recording recording = subject.recordings.front();

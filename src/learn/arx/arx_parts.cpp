@@ -81,7 +81,7 @@ double mean_of(std::span<const double> samples) {
 }
 
 // Adds rows of a recording to the state; the rows of the episode before them serve as history.
-// Errors: a missing channel, a rate other than the earlier recordings', infinite samples.
+// Errors: a missing channel, infinite samples. merge() compares the rates.
 Result<void> take_rows(const Recording& recording, const RowPart& part, PartState& state) {
   auto signals = find_signals({&recording, 1}, state.names);
   if (!signals) return signals.error();
@@ -131,7 +131,7 @@ Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState
   }
 }
 
-// Operating point and scales, as in gather_signals(). Errors: a channel without samples.
+// Operating point and scales, as in gather_signals(). Errors: a channel without samples; as check_size().
 Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
   FitFacts facts;
   facts.options = options;
@@ -155,7 +155,7 @@ Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
   return facts;
 }
 
-// Adds to `fits` the fit percentages of free simulation over the tables, a stretch at a time from its measured state.
+// Sets `fits` to the fit percentages of free simulation, restarted from measured samples every kRowsAtATime rows.
 Result<void> simulate(const std::vector<Table>& tables, const PartState& state, const ArxModel& model,
                       const Progress& progress, std::vector<double>& fits) {
   Tally tally(model.orders.outputs());
@@ -181,8 +181,7 @@ Result<void> simulate(const std::vector<Table>& tables, const PartState& state, 
   return {};
 }
 
-// The fit of all rows taken in, as fit_arx() computes it. Free simulation is judged over `tables`, unless there are
-// none.
+// The fit of all rows in the part, as fit_arx() computes it, with free simulation judged over `tables` if any.
 Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options, const std::vector<Table>& tables,
                       const Progress& progress) {
   if (auto ok = check_options(options, state.names); !ok) return ok.error();
@@ -212,7 +211,7 @@ Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options, const s
 using arx::PartState;
 
 struct ArxPart::State : PartState {
-  std::vector<arx::Table> tables{};  // those taken in as a whole
+  std::vector<arx::Table> tables{};  // tables that were added as a whole
 
   // Merges the part just read from a recording; on an error nothing of it is merged.
   Result<void> take(const std::string& source, PartState&& part, const arx::SeenRows& read) {

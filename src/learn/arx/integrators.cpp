@@ -1,5 +1,5 @@
 // Source: D. Dickey and W. Fuller, "Distribution of the estimators for autoregressive time series with a unit root",
-// JASA 74 (1979): the limit of the squared t statistic with an estimated constant.
+// JASA 74 (1979): critical value of the squared t statistic with an estimated constant.
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kDickeyFuller = 8.2;  // 2.86²
+constexpr double kDickeyFuller = 8.2;  // 2.86², the critical value at 5 %
 constexpr double kExact = 99.9;        // percent: above this one-step fit, rounding errors would decide the test
-constexpr double kGain = 2;            // percent: required gain of the free-run fit
+constexpr double kGain = 2;            // percentage points: required gain of the free-run fit
 
 bool remembers_itself_only(const OrderMatrix& na, int output) {
   for (int j = 0; j < na.rows(); ++j) {

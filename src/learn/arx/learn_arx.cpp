@@ -24,7 +24,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const bool apart = coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
-  const auto& levels = fit.model.constant;  // non-zero also where the refinement for free simulation estimated them
+  const auto& levels = fit.model.constant;  // non-zero also where a kernel chosen by the focus estimated them
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
   notes.push_back({"offset", std::string(word_of(level ? ArxOffset::kEstimate : recipe.offset))});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
@@ -104,7 +104,7 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 namespace {
 
-// Recordings prepared for learning: each about its own means where there are several.
+// Recordings prepared for learning. With offset kMean, several recordings are each shifted to their common means.
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;
@@ -204,7 +204,7 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
     fit.report.sections.push_back(arx::focus_section(focused->outcome, channels.outputs));
   }
   fit.report.append(std::move(chosen));
-  if (tests) arx::add_tests(*tests, channels, fit.report);  // without tests the recordings are too short for them
+  if (tests) arx::add_tests(*tests, channels, fit.report);  // no tests: the recordings are too short
   return fit;
 }
 

@@ -44,7 +44,7 @@ struct PartState {
   ArxOrders orders;
   double rate_hz = 0;                 ///< sampling rate; 0: nothing was taken in
   std::vector<PartChannel> channels;  ///< outputs, then inputs
-  Eigen::MatrixXd triangle;           ///< R of all columns of the design's layout
+  Eigen::MatrixXd triangle;           ///< QR factor R of all columns of the design's layout
   std::uint64_t rows = 0, episodes_used = 0, episodes_skipped = 0, rows_left_out = 0;
   std::uint64_t jobs = 1;  ///< number of jobs that made the part
   std::vector<SeenRows> seen;

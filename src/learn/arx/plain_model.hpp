@@ -13,7 +13,7 @@
 
 namespace wisp::arx {
 
-/// Statistics of a channel over the training samples.
+/// Unit and range of a channel over the training samples.
 struct ChannelSpan {
   std::string unit;
   double lowest = 0, highest = 0;  ///< 0 without samples
@@ -27,10 +27,10 @@ struct Sources {
   bool own_levels = false;  ///< whether each recording was centred on its own means
 };
 
-/// Checks that squares of a channel's samples are finite and non-zero. A constant channel is no error.
+/// Errors: a range below 1e-120 but not 0, or a magnitude above 1e120: squares of such squares leave double precision.
 Result<void> check_size(const std::string& name, const ChannelSpan& span);
 
-/// Sources of recordings in memory. Errors: no recordings, a channel missing from one, or as check_size().
+/// Sources of recordings in memory. Errors: as find_signals() and check_size().
 Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels);
 
 /// A model with name, rate, channels with units and ranges, and sources, in the recordings' units.
@@ -41,14 +41,14 @@ Model plain_model(const std::string& name, const ChannelChoice& channels, const 
 std::vector<Recording> about_own_levels(std::span<const Recording> recordings, const ChannelChoice& channels,
                                         std::vector<double> means = {});
 
-/// A recording shifted to the model's level, where training recordings were centred each on its own means. `moved`, if
-/// not null, receives the shift added to each output.
+/// Returns the recording, shifted to the model's means if training recordings were each centred on their own means.
+/// `moved`, if not null, receives the shift added to each output.
 Recording seen_by(const Model& model, const Recording& recording, std::vector<double>* moved = nullptr);
 
 /// The channels that a model was learned from.
 ChannelChoice channels_of(const Model& model);
 
-/// Order matrices from a recipe. Errors, each by name: a matrix of the wrong shape, an order out of range.
+/// Order matrices from a recipe, na 0 between uncoupled outputs. Errors: no output, wrong shapes, orders out of range.
 Result<ArxOrders> orders_of(const OrderChoice& na, const OrderChoice& nb, const OrderChoice& nk, Coupling coupling,
                             const ChannelChoice& channels);
 

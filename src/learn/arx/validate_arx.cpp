@@ -45,7 +45,7 @@ struct Judged {
   std::optional<ResidualTests> tests{};  // empty where the recording is too short
 };
 
-// Standard deviations up to the longest prediction, or until they settle for free simulation.
+// Standard deviations of prediction errors up to the longest horizon; for free simulation, until they settle.
 std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector<int>& steps) {
   int longest = *std::max_element(steps.begin(), steps.end());
   if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettled);

@@ -430,7 +430,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 Judged judged_by(const ChainFidelity& fidelity) {
   Judged out;
   for (const auto& [name, measure] : measures_of(fidelity)) {
-    // The measure is uninformative where the two recorded halves are as far apart as rows in random order.
+    // The measure is uninformative where two recorded halves are half as far apart as rows in random order, or farther.
     const bool told = measure->floor < kMaxShareOfCeiling * measure->ceiling;
     std::string& names = told ? out.judged : out.unjudged;
     names += (names.empty() ? "" : ", ") + std::string(name);

@@ -27,12 +27,12 @@ struct JoinDefect {
   double position_floor = 0, rotation_floor = 0;
 };
 
-/// Time series of descent speed, horizontal speed, heading change and segment length, and for poses tilt and spin: one
-/// row per row of each piece, from its first event to its last.
+/// Time series of descent speed, horizontal speed, rate of heading, for poses tilt and spin, and segment duration (SI
+/// units): one row per row of each piece, from its first event to its last.
 /// A piece with fewer than two events has no rows.
 std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments);
 
-/// Windows of `rows` rows, end to end. Features are mean, standard deviation, minimum and maximum of every column.
+/// Windows of `rows` rows, end to end: mean, deviation, minimum and maximum of every column; noise is added to tilt.
 ///
 /// Precondition: rows >= 2.
 FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows);
@@ -78,13 +78,13 @@ struct MadeFalls {
 Result<MadeFalls> made_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
 
 /// Compares falls that the model makes with recorded ones, which should be unseen in training.
-/// Errors: as motion_of() and segment(); a view other than pose or position; rates that differ; too little data for two
-/// windows on each side.
+/// Distances are NaN where a side has fewer than two windows.
+/// Errors: as motion_of() and segment(); a view other than pose or position; rates that differ.
 Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recording> real,
                                      const ChainFidelityOptions& options);
 
-/// Duration in seconds of the longest recorded stretch that a model's falls repeat segment by segment. `origin` as in
-/// ChainFit.
+/// Seconds of the longest recorded stretch that a played fall of `segments` segments repeats segment by segment; the
+/// stretch's last segment is not counted. `origin` as in ChainFit.
 double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_t> origin, std::size_t segments,
                                 std::uint64_t seed);
 
@@ -96,7 +96,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 /// Copies the figures that a model stores to its training record.
 void add_figures(const ChainFidelity& fidelity, Training& training);
 
-/// Measures by name, and the names of those for which recorded falls are too few or too short.
+/// Names of the measures that the recorded falls suffice for, and of those for which they are too few or too short.
 struct Judged {
   std::string judged;
   std::string unjudged;
@@ -104,7 +104,8 @@ struct Judged {
 
 Judged judged_by(const ChainFidelity& fidelity);
 
-/// Reason why falls differ from the recorded ones: a measure near or above its ceiling. Empty where there is none.
+/// Reason why falls differ from the recorded ones: they have no events, or a measure is above its floor and half of its
+/// ceiling. Empty where there is none.
 std::optional<std::string> fault_of(const ChainFidelity& fidelity);
 
 }  // namespace wisp::chain

@@ -122,7 +122,7 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Expected displacement after each segment, beyond that of the mean velocity.
+// Expected displacement after each segment, beyond the mean velocity's; `memory`: seconds until half of it is reached.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
   std::vector<double> size;  // root mean square after each iteration
@@ -271,7 +271,7 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
 }
 
 // Without requested modes, one mode where orientation is known: a segment is then followed by a well-joining one.
-// Without orientation well-joining successors are too often short ones; modes preserve the mean.
+// Without orientation well-joining successors are too often short ones; modes preserve their mean duration.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {

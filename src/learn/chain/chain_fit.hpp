@@ -46,8 +46,8 @@ struct ChainFit {
 };
 
 /// Fits a chain to falls. Gusts are learned separately.
-/// Errors: as check_fields(), motion_of(), segment(), segment_features(), k_means(), system_segments(); stopped by
-/// `progress`.
+/// Errors: as check_fields(), motion_of(), segment(), k_means(), system_segments(), half_segments(); fewer segments
+/// than modes; kStopped.
 Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
                            const Progress& progress = {});
 

@@ -22,7 +22,7 @@ std::string place(const Recording& recording, std::size_t row) {
   return recording.source + ": row " + std::to_string(row + 1);
 }
 
-// Checks that no channel of the pose is empty of samples.
+// Checks that every channel of the pose has a sample.
 Result<void> check_filled(const Recording& recording) {
   for (const char* name : {"pos.x", "pos.y", "pos.z", "q.w", "q.x", "q.y", "q.z"}) {
     const auto channel = find_channel(recording, name);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMaxSpeed = 100;  // m/s: no fall is as fast, but one in millimetres read as metres is
 constexpr std::size_t kVerbatimSegments = 20000;
 
-// Takes the leaf's full axes from the recording's attributes, where they are given.
+// Takes the leaf's half axes from the attribute with its full ones, where that exists and the recipe has none.
 Result<void> take_size(const Recording& first, ChainRecipe& recipe) {
   if (recipe.half_width > 0 || recipe.half_length > 0) return {};
   const auto size = numbers_attribute(first, "leaf_length_width_density");

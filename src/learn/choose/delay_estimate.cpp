@@ -103,7 +103,7 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
   if (!signals) return signals.error();
   std::size_t rows = 0;
   for (const Recording& one : recordings) rows += one.rows();
-  // kRowsACoefficient per extra input: the other inputs have all their lags in every candidate.
+  // A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per further input, all of whose lags enter.
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
   while (delays && !options.most && open_end(*delays) && 2 * delays->most * std::max(1, signals->inputs) <= kLast &&
          rows >= static_cast<std::size_t>(2 * delays->most) *

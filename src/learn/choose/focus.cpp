@@ -19,9 +19,9 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kManyRows = 8192;    // above this, candidates are compared on a sample of the rows
 constexpr std::size_t kRowsOfMany = 4096;  // number of rows in that sample
-constexpr double kMaxKernelWork = 2e7;     // maximum of the sum over rows of (number of coefficients)³
+constexpr double kMaxKernelWork = 2e7;     // maximum of the sum over outputs of (number of coefficients)³
 constexpr double kWorthIt = 0.02;          // minimum gain, as a share of the squared error
-constexpr int kRowsALag = 10;              // minimum length of a stretch, in lags of the kernel
+constexpr int kRowsALag = 10;              // minimum mean length of a recording's episodes, in lags of the kernel
 constexpr double kMeasuredStarts[] = {0, 0.25, 0.5, 0.75};  // shares of a held-out recording at which runs start
 
 ArxOrders decoupled_orders(ArxOrders orders) {
@@ -130,7 +130,8 @@ class Chooser {
     return {};
   }
 
-  /// Chooses a candidate per block. Returns whether any block could be judged.
+  /// Chooses a candidate per block: one surely better than least squares or, with `leave_least_squares`, just better.
+  /// Returns whether any block could be judged.
   bool choose(bool leave_least_squares) {
     bool judged = false;
     for (Block& block : blocks_) {
@@ -177,7 +178,7 @@ class Chooser {
  private:
   const std::vector<FocusCandidate>& candidates() const { return blocks_.front().choice.candidates; }
 
-  // Whether to try a kernel: every stretch is long compared with its lags, no other prior is set, and the number of
+  // Whether to try a kernel: the mean episode of every recording is long compared with its lags, and the number of
   // coefficients keeps the computation affordable.
   bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders, int lags) const {
     double work = 0;

@@ -32,7 +32,7 @@ struct FocusCandidate {
 struct FocusChoice {
   std::vector<int> outputs;
   std::size_t chosen = 0;
-  std::vector<FocusCandidate> candidates{};  ///< least squares at the given orders first; empty: none could be judged
+  std::vector<FocusCandidate> candidates{};  ///< least squares at the given orders first; empty: it was not judged
 };
 
 /// The outcome of the choice, with its reason.
@@ -49,11 +49,11 @@ struct FocusedFit {
 };
 
 /// Chooses, for each block of coupled outputs, between least squares at the given orders and each of kKernelLags under
-/// the TC kernel, both with the given coupling and with decoupled outputs, by free simulation of held-out rows. kAuto
-/// replaces least squares only by a candidate that is surely_better(), both from measured samples and from fitted
-/// initial states; kSimulation takes the candidate with the least error. Returns `plain` with the reason where
-/// simulation is impossible (no inputs, no feedback), where the data do not determine all coefficients, or where too
-/// few rows can be held out. Errors: as fit_arx, kStopped.
+/// the TC kernel, both with the given coupling and with decoupled outputs, by free simulation of held-out rows, from
+/// fitted and from measured initial states. A candidate must lower the squared error by 2 %; with kAuto it must also be
+/// surely_better() than least squares, from fitted states and over both. Returns `plain` with the reason for
+/// kPrediction, without inputs or feedback, without stabilisation, where the data do not determine all coefficients, or
+/// where too few rows can be held out. Errors: as fit_arx, kStopped.
 ///
 /// Precondition: `plain` is fit_arx() of the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,

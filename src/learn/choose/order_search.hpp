@@ -52,8 +52,8 @@ struct OrderSearch {
 /// Fits and judges all candidates. A row with a missing sample in the longest history is skipped for all candidates.
 /// Memory grows with the longest lag, not with the number of candidates.
 /// `validation` may be empty unless the criterion is kValidation.
-/// Errors: as fit_arx; no candidates, or more than a million; ranges or steps out of bounds; too few rows for a
-/// candidate; kStopped.
+/// Errors: as fit_arx; a constant channel; more than a million candidates; ranges or steps out of bounds; too few rows
+/// for a candidate or its validation; kStopped.
 Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::span<const Recording> validation,
                                   const ChannelChoice& channels, const SearchOptions& options = {},
                                   const Progress& progress = {});
@@ -63,8 +63,8 @@ std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriteri
 
 /// Options of estimate_delays.
 struct DelayOptions {
-  std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled while no delay or one
-                              ///< near the end is best, as far as rows allow, up to 640 over all inputs
+  std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled while a pair has no
+                              ///< supported delay or one above 3/4 of it, as rows allow, up to 640 / inputs
   int na = 2;                 ///< lags of the outputs in each candidate
   int nb = 2;                 ///< lags of the input, beginning at the delay
   ArxOffset offset = ArxOffset::kMean;
@@ -80,7 +80,7 @@ struct Delays {
 
 /// Delays of every input to every output. An input's delay is the one with the least squared error, or a longer one
 /// that leaves out only lags that are not significant (95 %). Other inputs enter with all lags up to the largest, so
-/// their delays do not matter. Errors: as fit_arx; no input supports a delay to any output.
+/// their delays do not matter. Errors: as fit_arx; options out of range; no delay is supported.
 Result<Delays> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
                                const DelayOptions& options = {});
 

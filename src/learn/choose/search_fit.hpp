@@ -10,9 +10,9 @@
 
 namespace wisp {
 
-/// Gram matrix of a layout for every first sample from `earliest` to `latest`. A window that starts a row earlier adds
-/// that row's products; columns with a lag above the first sample are absent from that row, and undefined in that
-/// window.
+/// Gram matrices of a layout over windows, one per first sample from `earliest` to `latest`. A window that starts a row
+/// earlier adds that row's products. Columns with a lag above the first sample are 0 in that row: a window's products
+/// of such columns must not be used.
 class SearchWindows {
  public:
   /// Preconditions: `signals` and `layout` outlive it; layout.history() <= latest; 0 <= earliest <= latest.

@@ -18,7 +18,7 @@ namespace wisp {
 /// Options of fidelity().
 struct FidelityOptions {
   std::vector<std::string> channels;  ///< channels to compare; empty: all outputs of the first real recording
-  std::size_t welch_samples = 64;     ///< even, at least 16; reduced where half of the data has no stretch as long
+  std::size_t welch_samples = 64;     ///< even, at least 16; reduced to the longest stretch of each half and of play
   std::size_t max_windows = 500;      ///< ≥ 2, maximum on each side
   std::uint64_t seed = 1;
 };

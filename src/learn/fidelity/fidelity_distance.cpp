@@ -140,7 +140,7 @@ bool alike(std::span<const double> a, std::span<const double> b, std::span<const
   return true;
 }
 
-// run[j]: length of the common run that ends at row i of `a` and row j of `b`.
+// run[j]: length of the common run that ends at row i of `a` and row j − 1 of `b`.
 std::size_t longest_common_run(const Stretch& a, const Stretch& b, std::span<const double> tolerance) {
   std::vector<std::size_t> run(b.rows() + 1, 0);
   std::size_t longest = 0;

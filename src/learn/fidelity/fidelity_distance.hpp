@@ -83,7 +83,7 @@ FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t ro
 FeatureWindows thinned(const FeatureWindows& windows, std::size_t most);
 
 /// Standardises every feature of both sets by the reference's mean and standard deviation; features constant in the
-/// reference are only centred.
+/// reference are divided by its largest standard deviation instead.
 void standardise(FeatureWindows& reference, FeatureWindows& other);
 
 /// Normalised energy distance (2E‖X−Y‖ − E‖X−X′‖ − E‖Y−Y′‖) / (2E‖X−Y‖), in [0, 1]; 0: equal distributions. E‖X−X′‖

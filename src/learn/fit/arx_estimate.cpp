@@ -258,7 +258,7 @@ ResidualProducts residual_products(const Signals& signals, const RowPlan& plan, 
   return pass.finish();
 }
 
-// Adds the refinement step to the coefficients. Returns its size relative to them.
+// Adds the refinement step to the coefficients, and its effect within groups to `products`. Returns its relative size.
 double refine(const ArxDesign& design, const std::vector<SharedProblem>& problems, ResidualProducts& products,
               ArxEstimate& estimate) {
   double largest = 0;
@@ -269,7 +269,8 @@ double refine(const ArxDesign& design, const std::vector<SharedProblem>& problem
     const bool drawn_in = prior.size() > 0;
     if (drawn_in) slope -= prior.transpose() * (prior * solution.theta);
     const Eigen::MatrixXd step = solution.inverse * slope;
-    // (r − Xδ)ᵀ(r − Xδ) = rᵀr − δᵀXᵀr − rᵀXδ + δᵀXᵀXδ; without a prior XᵀXδ = Xᵀr, and one of the three terms remains.
+    // (r − Xδ)ᵀ(r − Xδ) = rᵀr − δᵀXᵀr − rᵀXδ + δᵀXᵀXδ. Without a prior XᵀXδ = Xᵀr, and one of the three terms remains;
+    // with a prior the last term, which is of second order, is neglected.
     const Eigen::MatrixXd change = step.transpose() * products.gradient[g];
     const std::vector<int>& outputs = design.groups[g].outputs;
     products.gram(outputs, outputs) -= drawn_in ? Eigen::MatrixXd(change + change.transpose()) : change;

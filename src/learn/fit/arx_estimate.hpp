@@ -27,8 +27,8 @@ struct SharedSolution {
   Eigen::MatrixXd theta;    ///< one column per output row, without A's sign; 0 for dependent regressors
   Eigen::MatrixXd inverse;  ///< (XᵀX + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
   std::vector<DependentColumn> dependent;
-  double condition = 1;         ///< condition number of X in the data's units, without dependent columns
-  double scaled_condition = 1;  ///< condition number of X with columns scaled to norm 1
+  double condition = 1;         ///< condition number of [X; F] in the data's units, without dependent columns
+  double scaled_condition = 1;  ///< condition number of [X; F] with columns of X scaled to norm 1
 };
 
 /// The problem to solve: for every target, minimise |target − Xθ|² + |Fθ|².

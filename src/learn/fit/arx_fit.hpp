@@ -37,7 +37,7 @@ struct ArxOptions {
 /// A coefficient that the data do not determine, set to 0: its regressor (nearly) depends linearly on others.
 struct RankProblem {
   int row = 0;          ///< output row
-  std::string channel;  ///< channel of its regressor
+  std::string channel;  ///< channel of its regressor, or "constant"
   int lag = 0;
   std::string reason;  ///< one sentence that names the channels and lags it depends on
 };

@@ -29,7 +29,7 @@ struct FitFacts : RowCounts {
 inline constexpr double kDiverges = -1000;
 std::string fit_text(double percent);
 
-/// Index of each output row's first coefficient in the joint covariance.
+/// Index of each output row's first coefficient in the joint covariance, and one past the last row's end.
 std::vector<Eigen::Index> row_starts(const ArxModel& model);
 
 /// Information criteria of residuals with covariance Λ (ny × ny, row-major) over n rows.

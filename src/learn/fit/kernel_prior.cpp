@@ -73,7 +73,7 @@ class MarginalLikelihood {
     return sd;
   }
 
-  /// −2 ln of the likelihood up to a constant; columns without a prior count as known exactly from their estimate.
+  /// −2 ln of the marginal likelihood up to a constant; columns outside all blocks have a flat prior.
   double operator()(const std::vector<Hyper>& hyper) const {
     const VectorXd sd = deviations(hyper);
     MatrixXd inner = sd.asDiagonal() * gram_ * sd.asDiagonal();
@@ -95,8 +95,8 @@ class MarginalLikelihood {
   VectorXd free_;
 };
 
-// Initial hyperparameters of the search: a prior under which the output has the measured variance and the response
-// decays over about ten lags.
+// Initial hyperparameters of the search: each channel's first coefficient contributes as much variance as the noise,
+// and the response decays over about eight lags.
 std::vector<Hyper> first_guess(const RegressionProducts& products, const std::vector<KernelBlock>& blocks) {
   std::vector<Hyper> guess;
   for (const KernelBlock& block : blocks) {

@@ -17,7 +17,7 @@ namespace wisp {
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with an outline again; the number of rows where there is none
-  double wind = 0;       ///< maximum wind before it, averaged over 0.15 s, in the recording's unit
+  double wind = 0;       ///< maximum of the wind's mean over 0.15 s, 0.6 s before to 0.15 s after `gone`, in its unit
   bool blown = false;    ///< whether `wind` exceeds the 95th percentile of the wind while the flame burned
 };
 
@@ -29,13 +29,13 @@ std::size_t rows_of(double seconds, double rate_hz);
 /// Errors: not a recording of an outline, no such input.
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
-/// Removes misdetected outlines: stretches shorter than half a second between steps that are both longer than a fifth
-/// of the outline's height and 20 times the 90th percentile of steps. Does nothing where they exceed a twentieth of all
-/// rows. Returns the number of rows removed.
+/// Removes misdetected outlines: stretches shorter than half a second between jumps, or between a jump and an end. A
+/// jump is a step longer than a fifth of the outline's height and than 20 times the 90th percentile of steps. Does
+/// nothing where more than a twentieth of all rows would be removed. Returns the number of rows removed.
 std::size_t remove_jumps(Recording& recording);
 
-/// The recording with outlines and inputs set missing during decay, extinction and re-ignition, so that only a burning
-/// flame remains. Absences without wind stay as they are.
+/// The recording with all channels set missing during decay, extinction and re-ignition, so that only a burning flame
+/// remains. Absences without wind stay as they are.
 Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs);
 
 }  // namespace wisp

@@ -24,13 +24,13 @@ struct FlameLife {
   WindSpan rows;  ///< ends at the row where the flame is gone
   double rate_hz = 0;
   bool died = false;
-  std::size_t watched = 0;        ///< first row in which its extinction is accepted,
-  std::size_t until = 0;          ///< and one past the last; after the life's end, within the recording
+  std::size_t watched = 0;        ///< first row in which an extinction by the rule counts as reproduced
+  std::size_t until = 0;          ///< one past the last such row; after the life's end, within the recording
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
-constexpr double kWatchedBefore = 0.5;  // seconds before the recorded extinction from which one counts as reproduced
-constexpr double kWatchedAfter = 0.5;   // seconds after it until which one counts: capture loses a decaying flame early
+constexpr double kWatchedBefore = 0.5;  // seconds before a recorded extinction from which on a rule may reproduce it
+constexpr double kWatchedAfter = 0.5;   // seconds after it until which it may: capture loses a decaying flame early
 constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
 constexpr double kGustShare = 0.5;      // minimum of a gust, as a share of the weakest wind that extinguished
 constexpr double kOneGust = 0.15;       // seconds of calmer wind that do not divide a gust
@@ -129,15 +129,15 @@ class FlameLives {
   double strongest_survived_ = 0;
 };
 
-// Search grid. Steps of 6 % (level) and 12 % (duration) are finer than recordings resolve.
+// Search grid. Steps of 5 % (level) and 15 % (duration) are finer than recordings resolve.
 constexpr int kLevels = 40;
 constexpr int kDurations = 40;
 constexpr double kShortest = 0.02;  // seconds
 constexpr double kLongest = 4;
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
-constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // recovery per second, as a share of the level's harm
+constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // harm lost per second, as a share of what the level adds
 
-// Costs of errors: 1 for a gust judged wrongly, 0.3 for an extinction that is early or late by 0.1 s.
+// Costs of errors: 1 for a gust judged wrongly, 0.3 (t / 0.1 s)², at most 1, for an extinction early or late by t.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
 // Rules count as equally good up to this excess cost, plus the cost of one error per fifty gusts and extinctions: the
@@ -161,7 +161,7 @@ struct Shape {
 struct Harms {
   std::vector<double> gusts;                // maximum harm in each gust that was survived
   std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
-  std::vector<double> first;                // seconds from an extinction's first watched row to its end
+  std::vector<double> first;                // seconds from an extinction's first watched row to its recorded time
   std::vector<double> step;                 // seconds per row, for each extinction
 };
 

@@ -29,8 +29,8 @@ struct ExtinctionEvidence {
   double vanishing = 0;            ///< seconds for which an extinguished flame remains visible
 };
 
-/// Agreement of a rule with recordings. A gust is a run of wind with at least half the strength that extinguished a
-/// flame (in recordings without extinctions half of the maximum), between calmer winds.
+/// Agreement of a rule with recordings. A gust is a run of wind with at least half the strength of the weakest that
+/// extinguished a flame (in recordings without extinctions half of the maximum), between calmer winds.
 struct ExtinctionAgreement {
   std::size_t deaths = 0;            ///< number of recorded extinctions
   std::size_t died = 0;              ///< number of extinctions that the rule reproduces within half a second
@@ -59,8 +59,8 @@ struct ExtinctionFit {
 /// Errors: no extinction, or no rule that reproduces more than half of them.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
-/// Rule for a flame that was never extinguished: the default with its level raised until every recorded gust is
-/// survived with a margin of a quarter.
+/// Rule for a flame that was never extinguished: the default or, where that does not survive every recorded gust, the
+/// default with its level raised until it does, and by a quarter more.
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence);
 
 /// Size of the flame in every row, NaN without an outline: the square root of the control polygon's area, divided by

@@ -35,8 +35,8 @@ class ExtinguishedRecordings {
   /// Recordings to learn the outline's dynamics from.
   const std::vector<Recording>& burning() const { return burning_; }
 
-  /// Adds the extinction rule, durations and training record to a model learned from burning(). `scale` is the input's
-  /// value that is 1 in the model. Empty where the recipe has no extinction or the model no input.
+  /// Adds the extinction rule, its recorded events and training record to a model learned from burning(). Empty where
+  /// the recipe has no extinction or the model lacks the input.
   /// Errors: a given rule without an input; as flame_sizes().
   Result<std::optional<LearnedExtinction>> complete(Model& model, const ExtinctionRecipe& recipe) const;
 
@@ -55,9 +55,9 @@ struct JudgedExtinction {
   std::size_t unexplained = 0;
 };
 
-/// Empty where the model has no rule. With `own_scale` an input of 1 is the 95th percentile of this recording's input
-/// while the flame burns.
-/// Errors: as find_blow_outs(), and as scaled_input().
+/// Judges the rule; empty where the model has none. With `own_scale` an input of 1 is the 95th percentile of this
+/// recording's input while the flame burns.
+/// Errors: as find_blow_outs(); as scaled_input() with `own_scale`, as trained_scale() without.
 Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, const Recording& recording,
                                                          bool own_scale);
 

@@ -68,7 +68,7 @@ class Shapes {
   OutlineLayout layout_;
 };
 
-// Sizes during visible decay, relative to the size before: rows from `lit` on.
+// Sizes during the visible decay that ends at row `gone`, relative to the size before it. Rows before `lit` are unused.
 Event seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double rate_hz) {
   const std::size_t rows = rows_of(kDyingSeen, rate_hz), first = std::max(lit + rows, gone) - rows;
   const auto at = [&](std::size_t row) { return sizes.begin() + static_cast<std::ptrdiff_t>(row); };

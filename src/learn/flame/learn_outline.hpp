@@ -11,11 +11,11 @@
 
 namespace wisp {
 
-/// Learns a model of an outline from recordings in pixels: scales their inputs to a common range where that improves
-/// the fit, excludes extinctions from the dynamics, and learns the extinction rule from them. The model has the first
-/// recording's knots; recordings with other knots are converted, with a warning.
-/// The report has rate_hz, inputs, points, na, nb, nk, order_and_delay, alignment, samples, channels, J,
-/// tip, overlap, fpe, stable, held_share, cost, gain, extinction, and the verdict.
+/// Learns a model of an outline from recordings in pixels: scales their inputs to a common gain, excludes extinctions
+/// from the dynamics, and learns the extinction rule from them. The model has the first recording's knots; recordings
+/// with other knots are converted, with a warning.
+/// The report has rate_hz, inputs, points, samples, alignment, na, nb, nk, components, ridge, noise, tip, overlap, J,
+/// stable, spread, outside_share, crossed_share, held_share, play, gain, extinction, and the verdict.
 /// Errors, naming the recording: no recordings, not an outline, a different number of points, rates that differ,
 /// missing inputs, too few rows for the order, a recipe out of range; kStopped.
 Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
-// Predictions shown in pictures: free simulation where an input drives the model, else the longest prediction of at
-// most five frames.
+// Predictions shown in pictures: free simulation where an input drives the model, else the last ones of at most five
+// frames ahead; where there are none, the first.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();

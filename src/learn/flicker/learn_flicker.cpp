@@ -223,7 +223,7 @@ Recording recording_of(const Traces& traces, double rate_hz) {
   return recording;
 }
 
-// Sets the transition counts of the observed modes.
+// Sets transition and initial probabilities to the frequencies of the observed modes.
 void count_transitions(const std::vector<std::vector<int>>& modes, SwitchedArxModel& model) {
   const std::size_t count = model.modes.size();
   std::vector<double> seen(count * count, 0.0), share(count, 0.0);

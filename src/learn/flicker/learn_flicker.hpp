@@ -9,8 +9,8 @@
 
 namespace wisp {
 
-/// Errors: no recordings, a missing channel, light whose mean is not above 0, settings out of range, fewer than 20 s, a
-/// constant trace, kStopped.
+/// Errors: a missing channel, different rates, light whose mean is not above 0, settings out of range, fewer than 20 s,
+/// too few degrees of restlessness for the modes (a constant trace), kStopped. Precondition: at least one recording.
 Result<Fit> learn_flicker(std::span<const Recording> recordings, const FlickerRecipe& recipe,
                           const Progress& progress = {});
 

@@ -11,8 +11,8 @@ namespace wisp::arx {
 namespace {
 
 constexpr double kMinSimulationFit = 40;     // percent of free simulation over held-out rows, with inputs
-constexpr double kMinSkill = 5;              // percent less squared error than last sample or mean, without inputs
-constexpr double kMinRowsACoefficient = 10;  // of an output
+constexpr double kMinSkill = 5;              // percent below the squared error of last sample and mean; without inputs
+constexpr double kMinRowsACoefficient = 10;  // per coefficient of an output
 constexpr double kMaxMoved = 10;             // standard errors by which stabilisation may move a coefficient
 constexpr double kSameSample = 0.25;         // correlation that shows an input acting without delay
 constexpr double kMaxLostInPlay = 1;         // percent of fit that single precision may lose against the estimate

@@ -27,9 +27,9 @@ struct VerdictEvidence {
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
 };
 
-/// Marks a summary that is usable so far as not usable, with the reason, where a limit is exceeded. For
-/// a model that simulates badly, the first remark that explains it is named with its remedy. A model that remains
-/// usable gets the figure of its quality.
+/// Marks a summary that is usable so far as not usable, with the reason, where a limit is exceeded. For a model that
+/// simulates badly, the reason names the first remark that explains it, with its remedy. For a model that remains
+/// usable, the fit of its free simulation is added to the reason.
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);
 
 }  // namespace wisp::arx

@@ -31,7 +31,7 @@ double deviation_of(std::vector<double> measured) {
   return most * deviation(measured);
 }
 
-// Mean squared error of one output in each of kParts parts.
+// Mean squared error over variance of one output in each of kParts parts; the overall mean in a part without rows.
 Eigen::VectorXd parts_of(const Series& one) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(kParts), rows = sum;
   const double deviation = deviation_of(one.measured);

@@ -25,7 +25,7 @@ struct Fold {
 std::vector<Fold> folds_of(std::span<const Recording> recordings);
 
 /// Fit percentages of free simulation over held-out rows, per output: the last 30 % of every recording with a model of
-/// the rest, and the first 30 % likewise. Empty without inputs, or with too few rows.
+/// the rest, and the first 30 % likewise. Empty without inputs, or where that fails (too few rows).
 std::vector<double> held_out_fits(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options);
 
@@ -39,8 +39,8 @@ inline constexpr int kParts = 8;
 inline constexpr double kSurelyBetter = 2;
 
 /// Mean squared errors of free simulation over kParts parts of all rows: a row per part, a column per output, divided
-/// by the output's variance; 0 for an output that never moves. `start.first_sample` is raised to the model's history.
-/// Errors: the channels do not fit the model; no row can be simulated.
+/// by the output's variance; 0 for an output that never moves. `start.first_sample` is raised to the model's history,
+/// and `start.as_played` ignored. Errors: the channels do not fit the model; no row can be simulated.
 Result<Eigen::MatrixXd> free_run_parts(const ArxModel& model, std::span<const Recording> recordings,
                                        const ChannelChoice& channels, const FreeRunStart& start = {});
 

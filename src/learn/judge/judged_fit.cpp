@@ -49,11 +49,11 @@ std::vector<double> free_run_fits(const ArxModel& model, const Signals& signals,
   return free_run_tally(model, signals, start).figures(kFreeRun).fit_percent;
 }
 
-// For an unstable estimate: moves the poles further inwards than stability needs, as long as that improves free
+// For an unstable estimate: moves the poles further inwards than stability needs, by the share that most improves free
 // simulation of the training rows. Near the stability limit, errors in a pole ring for a long time.
 ArxFit drawn_in(FitFacts facts, const ArxDesign& design, const ArxEstimate& estimate, const Signals& judged,
                 ArxFit fit) {
-  constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and gain of the sum that counts
+  constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and minimum gain of the sum
   const auto sum = [&](const ArxFit& one) {
     double all = 0;
     for (double percent : free_run_fits(one.model, judged, false)) all += std::max(percent, kNothing);

@@ -262,7 +262,7 @@ class Runner {
           feedback_[i].push_back({-back, -a[l]});
         }
       }
-      // Latest sample last: the sum depends on it, so the processor can add the others first.
+      // The latest sample comes last: it was computed just before, and the processor can add the others meanwhile.
       std::sort(feedback_[i].begin(), feedback_[i].end(), [](const Tap& a, const Tap& b) { return a.back < b.back; });
     }
   }

@@ -48,8 +48,8 @@ struct PredictOptions {
 /// Predicts all rows of a recording; history never crosses episodes.
 /// Returns one series an output, in its own unit, as long as the recording; NaN where there is no prediction: in the
 /// first rows of an episode (longest lag + steps − 1 of them; for kFreeRun the longest lag), and where a sample that
-/// the prediction needs is missing. A free simulation needs inputs only and starts again after a gap in them. Errors: a
-/// channel that the recording has not, channels that do not fit the model, steps out of range.
+/// the prediction needs is missing. After its start a free simulation needs inputs only; it restarts after a gap in
+/// them. Errors: a channel missing from the recording, channels that do not fit the model, steps out of range.
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options = {});
 
@@ -59,7 +59,7 @@ struct PredictionFigures {
   std::size_t rows = 0;             ///< number of rows predicted and measured
   std::vector<double> mean_square;  ///< mean squared error per output, its unit²
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over those rows, per output; 0 where y is constant
-  std::vector<double> j;  ///< J_k: mean norm of the error, per output
+  std::vector<double> j;  ///< J_k: mean absolute error per output, its unit
 };
 
 /// Options of prediction_figures.
@@ -118,7 +118,7 @@ class Tally {
 /// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
 Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start);
 
-/// Computes the figures of prediction_figures.
+/// prediction_figures() of signals whose offsets are the model's operating point and whose scales are 1.
 Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
                                                   const FigureOptions& options);
 

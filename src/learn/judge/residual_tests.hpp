@@ -17,7 +17,7 @@ namespace wisp {
 
 /// Options of test_residuals.
 struct ResidualTestOptions {
-  int lags = 25;                 ///< autocorrelations and cross-correlations over 1 … lags, 1 to 10000
+  int lags = 25;                 ///< largest lag of auto- and cross-correlations, 1 to 10000
   bool learned_from_it = false;  ///< the recordings are the training data: the fit has taken degrees of freedom
 };
 
@@ -47,7 +47,7 @@ struct ResidualTests {
 };
 
 /// Tests the residuals of a model on recordings. History never crosses a gap; correlations are summed over all
-/// stretches. Errors: as prediction_figures; fewer than four rows for every lag.
+/// stretches. Errors: as signals_of_model(); lags out of range; fewer than four rows per lag.
 Result<ResidualTests> test_residuals(const ArxModel& model, std::span<const Recording> recordings,
                                      const ChannelChoice& channels, const ResidualTestOptions& options = {});
 

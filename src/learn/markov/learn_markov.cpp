@@ -29,7 +29,7 @@ Training training_of(const Fitted& fitted, const SwitchedRecipe& recipe, Trainin
   return training;
 }
 
-// Adds the number of modes tried, and which of them act.
+// Adds the numbers of modes that were tried, and the number of rows in which each mode acts.
 void add_modes(const Fitted& fitted, ReportSection& section) {
   ReportTable tried{"candidates",
                     "numbers of modes that were tried",

@@ -11,11 +11,11 @@
 
 namespace wisp {
 
-/// Errors: no recordings, channels that they do not have, settings out of range, too few rows, kStopped.
+/// Learns by the recipe. Errors: no recordings, missing channels, settings out of range, too few rows, kStopped.
 Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
                            const Progress& progress = {});
 
-/// Reports predictions, free simulation, likelihood, and the share of rows in which each mode acts.
+/// Reports predictions, free simulation, likelihood, and the number of rows in which each mode acts.
 /// Errors: the recording does not have the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are a SwitchedArxModel.

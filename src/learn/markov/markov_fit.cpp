@@ -40,7 +40,7 @@ int row_size(const Rows& rows) {
   return static_cast<int>(most);
 }
 
-// Number of rows, counted by weight, that the coefficients of one mode need.
+// Minimum number of rows for the coefficients of one mode.
 double min_rows(const Rows& rows) { return 1.5 * row_size(rows) + 3; }
 
 VectorXd min_variance(const Rows& rows) {

@@ -48,7 +48,7 @@ class Predictor {
     given_past_ = believe(chain_, rows).given_past;
   }
 
-  // Predicts every row from the samples up to `steps` rows before it, or from the episode's first rows.
+  // Predicts every row from the samples up to `steps` rows before it, or, for kFreeRun, from the episode's first rows.
   void predict(const Episode& episode, int steps, Series& out) {
     const std::size_t first = episode.begin + static_cast<std::size_t>(rows_.orders.history());
     if (steps == kFreeRun) {
@@ -69,7 +69,7 @@ class Predictor {
 
  private:
   // Mean of row t, which replaces the measured row; NaN where a sample is missing, and the measured row then stays.
-  // `chance`: probabilities of the modes at the row before.
+  // `chance`: probabilities of the modes at the row before; receives those at row t.
   RowVectorXd step(std::size_t t, bool first, RowVectorXd& chance) {
     const Index known = belief_row_[t];
     chance = !first       ? RowVectorXd(chance * chain_.transitions)

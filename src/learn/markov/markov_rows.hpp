@@ -91,18 +91,18 @@ Belief believe(const Chain& chain, const Rows& rows);
 Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording, const ChannelChoice& channels);
 
 /// One series per output, as predict() of an ARX model returns them, from measured samples: `steps` ahead, or kFreeRun.
-/// Errors: as believe().
+/// Errors: as believe(); steps neither 1 to 100000 nor kFreeRun.
 Result<std::vector<std::vector<double>>> predict(const SwitchedArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, int steps);
 
 /// Figures of those predictions over all recordings together, as in prediction_figures().
-/// Errors: as predict; steps below 0 or above 100000.
+/// Errors: as predict().
 Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const Recording> recordings,
                                   const ChannelChoice& channels, int steps);
 
 struct FitOptions {
   ArxOrders orders{};  ///< orders of every mode
-  int modes = 0;       ///< 1 to kMaxArxModes; 0: the number, up to 6, with the best held-out likelihood
+  int modes = 0;       ///< 1 to kMaxArxModes; 0: as many, up to 6, as significantly raise the held-out likelihood
   std::uint64_t seed = 1;
 };
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kStarts = 10;      // random starts; the best one is taken
 constexpr int kMaxRounds = 300;  // maximum number of iterations of each
-// A start ends where an iteration moves the centroids by less than this share of the variance. The best start is then
-// iterated until no row changes cluster.
+// A start ends where the squared movements of the centroids sum to less than this share of the variance. The best start
+// is then iterated until no row changes cluster, or kMaxRounds is reached.
 constexpr double kTolerance = 1e-4;
 
 struct Rows {
@@ -49,7 +49,7 @@ std::size_t drawn_row(const std::vector<double>& weights, double total, std::mt1
   return weights.size() - 1;
 }
 
-// Updates squared distances to the nearest centroid with row `to` as a further one; returns their sum.
+// Updates squared distances to the nearest centroid with row `to` as a further centroid; returns their sum.
 double nearer(const Rows& rows, std::size_t to, const std::vector<double>& before, std::vector<double>& out) {
   double sum = 0;
   for (std::size_t row = 0; row < rows.count; ++row) {
@@ -59,7 +59,7 @@ double nearer(const Rows& rows, std::size_t to, const std::vector<double>& befor
   return sum;
 }
 
-// Greedy k-means++: draws a few rows in proportion to their squared distance and keeps the one that helps most.
+// Greedy k-means++: draws a few rows in proportion to their squared distance, keeps the one that lowers its sum most.
 std::vector<double> start_centroids(const Rows& rows, int clusters, std::mt19937_64& random) {
   const int trials = 2 + static_cast<int>(std::log(static_cast<double>(clusters)));
   std::vector<double> centroids, distance(rows.count, std::numeric_limits<double>::max());

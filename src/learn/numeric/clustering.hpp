@@ -14,14 +14,14 @@
 namespace wisp {
 
 struct KMeansOptions {
-  int clusters = 6;  ///< 1 … rows
+  int clusters = 6;  ///< 1 … rows, at most 65535
   std::uint64_t seed = 1;
 };
 
 struct KMeans {
   std::vector<double> centroids;       ///< clusters × columns
   std::vector<std::uint16_t> cluster;  ///< cluster of each row
-  std::vector<std::size_t> sizes;      ///< rows per cluster; none is empty unless rows coincide
+  std::vector<std::size_t> sizes;      ///< rows per cluster; none is empty
   double inertia = 0;                  ///< sum of squared distances to the centroids
   int rounds = 0;                      ///< iterations of the best start
 };

@@ -1,4 +1,4 @@
-// Decompositions with complex results, in a separate source: each half takes as long to compile as the rest together.
+// Decompositions with complex results. A separate source, since they take as long to compile as decompositions.cpp.
 
 #include <Eigen/Dense>
 

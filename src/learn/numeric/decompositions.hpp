@@ -1,5 +1,5 @@
 #pragma once
-// Wrappers that compile Eigen's slow-to-compile decompositions once: each costs a source that uses it 5 to 20 s.
+// Wrappers that compile Eigen's slow-to-compile decompositions once: each takes 5 to 20 s in a source that uses it.
 
 #include <Eigen/Core>
 

@@ -35,8 +35,8 @@ Spectrum welch(Samples stretches, double rate_hz, std::size_t length);
 
 /// Phase and coherence of two series of equal rate at one frequency.
 struct CrossSpectrum {
-  double phase = 0;          ///< lag of the second series behind the first, −π to π
-  double coherence = 0;      ///< 0 to 1
+  double phase = 0;          ///< lag of the second series behind the first, −π to π radians
+  double coherence = 0;      ///< magnitude squared, 0 to 1; 1 for a single segment
   std::size_t segments = 0;  ///< number averaged: windowed as in welch(), without those with a missing sample
 };
 CrossSpectrum cross_spectrum(std::span<const double> a, std::span<const double> b, double rate_hz, std::size_t length,

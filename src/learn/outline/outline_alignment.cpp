@@ -22,7 +22,7 @@ constexpr int kResamples = 400;          // bootstrap resamples
 constexpr double kBlockSeconds = 2;      // longer than a gust, so that blocks are nearly independent
 constexpr double kTail = 0.025;          // share of resamples beyond either end of the interval
 constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may be at an end
-constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an end this near means two offsets, or none
+constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an offset this near its end means two, or none
 
 Error bad(const std::string& what) { return Error{"alignment: " + what}; }
 
@@ -57,7 +57,8 @@ double covariance(const Series& a, const Series& b, std::ptrdiff_t lag) {
 /// Predictor coefficients a1 … ap of the series (Yule–Walker equations, Levinson–Durbin recursion).
 std::array<double, kWhiteningOrder> predictor(const Series& series) {
   std::array<double, kWhiteningOrder + 1> r{};
-  // Missing samples reduce each lag's mean alike; a small addition to lag 0 keeps the equations solvable.
+  // Each lag's mean is over its own pairs, so missing samples may make the equations indefinite; a small addition to
+  // lag 0 keeps them solvable.
   for (std::size_t lag = 0; lag < r.size(); ++lag)
     r[lag] = covariance(series, series, static_cast<std::ptrdiff_t>(lag));
   double error = r[0] * (1 + 1e-6);
@@ -186,9 +187,9 @@ void judge(Alignment& found, double max_seconds) {
   }
 }
 
-constexpr double kMinSearch = 0.05;  // seconds on either side, the minimum of align_offset()
+constexpr double kMinSearch = 0.05;  // seconds on either side, the least that is searched
 
-// Searches at most a fifth of the recording.
+// Searches at most a fifth of the recording on either side.
 Alignment found_or_reason(const Recording& recording, const std::vector<double>& input,
                           const std::vector<double>& motion) {
   double rows = 0;

@@ -7,8 +7,8 @@
 // antisymmetric ones and odd functions (for such block structure M. Golubitsky, I. Stewart, "The Symmetry Perspective",
 // 2002, chapter 1). The shape at rest is as recorded, asymmetric where wicks or trackers lean.
 //
-// Without wind nothing is estimated: recorded rows are replayed (run/arx/lookup_lanes.hpp), and the dynamics only let
-// deviations from them decay.
+// Without wind no coefficient is estimated: recorded rows are replayed (run/arx/lookup_lanes.hpp), and the dynamics
+// only let deviations from them decay.
 
 #include <span>
 #include <vector>
@@ -32,7 +32,7 @@ struct OutlineDynamics {
 
 /// Estimates dynamics from prepared recordings or the first parts of them. `paper`: number of lags of the paper's point
 /// systems (4 in its section 3.4), with independent Gaussian noise; 0: components of the shape with order 2, or
-/// decaying ones without inputs. Errors: too few complete rows; as fit_arx().
+/// decaying ones without inputs. Errors: an outline that never moves; too few complete rows; as fit_arx().
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper);
 

@@ -48,8 +48,8 @@ std::size_t liveliest(const PreparedOutlines& prepared) {
 
 using Outline = std::vector<OutlinePoint>;
 
-// Outlines of at most `most` equally spaced rows, each as points at equal arc lengths; also counts self-intersecting
-// ones, and outlines up to the end of each recording.
+// Outlines of at most `most` equally spaced rows, each as points at equal arc lengths. `crossed` receives the share of
+// self-intersecting ones, `ends` the number of outlines up to the end of each recording.
 std::vector<Outline> outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared, std::size_t most,
                               double* crossed = nullptr, std::vector<std::size_t>* ends = nullptr) {
   const OutlineCurve curve(prepared.layout.knots, 100);
@@ -72,7 +72,7 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   return out;
 }
 
-// Mean square distance to the nearest of the other outlines.
+// Sum over the points of the squared distances to the nearest of the other outlines.
 double nearest(const Outline& one, std::span<const Outline> others) {
   double best = std::numeric_limits<double>::infinity();
   for (const Outline& other : others) {
@@ -85,7 +85,7 @@ double nearest(const Outline& one, std::span<const Outline> others) {
   return best;
 }
 
-// `ends`: one past each recording's last outline. The end of each is held out, so that their order does not matter.
+// Share of played outlines that are outside, as in OutlineTrial. `ends`: one past each recording's last outline.
 double outside_share(std::span<const Outline> recorded, std::span<const std::size_t> ends,
                      std::span<const Outline> played) {
   std::vector<Outline> early, late;
@@ -111,7 +111,7 @@ Result<Synthesis> played_along(const Model& model, const PreparedOutlines& prepa
   return synthesize(model, {.rows = rows, .seed = seed, .input = &driving});
 }
 
-// Per output, played over recorded; 1 for constant ones.
+// Standard deviation per output, played over recorded; 1 for constant outputs.
 std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Recording& real, const Recording& play) {
   std::vector<double> out;
   for (const std::string& name : prepared.channels.outputs) {
@@ -143,8 +143,8 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
   return out;
 }
 
-// The trial plays along the liveliest recording. Warns of others whose spread the model does not keep along their
-// inputs: gusts and draughts have too little in common for one equation.
+// The trial plays along the liveliest recording. Warns of the others along whose inputs the model moves more or less
+// than they do: gusts and draughts have too little in common for one equation.
 Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, std::span<const Recording> original,
                           std::uint64_t seed, std::vector<std::string>& warnings) {
   const std::size_t tried = liveliest(prepared);
@@ -160,7 +160,7 @@ Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, 
   return {};
 }
 
-constexpr std::size_t kMinHeldOut = 16;  // minimum number of rows for figures, including a history of six
+constexpr std::size_t kMinHeldOut = 16;  // minimum number of rows for figures, including their history
 
 // Moves inputs that are late against the motion, and records which and by how many frames.
 Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& recipe,
@@ -232,7 +232,7 @@ std::vector<Output> outputs_of(const PreparedOutlines& prepared, const ShapeComp
     const double middle = mean(seen[i]), sd = deviation(seen[i]);
     Output one{prepared.channels.outputs[i], "", std::min(quantile(seen[i], 0), middle - 3 * sd),
                std::max(quantile(seen[i], 1), middle + 3 * sd)};
-    // Relative range below which a channel (such as a base cut off by the picture's edge) counts as constant: no range.
+    // Range in heights below which a channel (such as a base cut off by the picture's edge) counts as constant.
     constexpr double kStill = 1e-9;
     if (one.highest - one.lowest < kStill) one.lowest = one.highest = middle;
     out.push_back(std::move(one));

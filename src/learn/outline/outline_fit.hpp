@@ -29,7 +29,7 @@ struct OutlineTrial {
   double crossed_recorded = 0;   ///< self-intersection rate of recorded outlines
   double outside = 0;            ///< share of played outlines farther from all recorded ones than the 99th percentile
                                  ///< of that distance between the last 40 % of every recording and the rest
-  std::optional<Bounded> half_second;  ///< normalised energy distance of windows; empty if too short
+  std::optional<Bounded> half_second;  ///< normalised energy distance of windows of 0.5 s; empty if too short
   std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
 };
 
@@ -41,8 +41,8 @@ struct OutlineSummary {
   OutlineDynamics dynamics;                ///< dynamics of the returned model, without residual rows
   double radius = 0;                       ///< spectral radius
   std::vector<InputAlignment> alignment;   ///< per recording and input
-  std::size_t rows_learned = 0;            ///< number of complete rows that the judged dynamics were learned from,
-  std::size_t rows_held_out = 0;           ///< and of those held out; the returned model is learned from both
+  std::size_t rows_learned = 0;            ///< number of complete rows that the judged dynamics were learned from
+  std::size_t rows_held_out = 0;           ///< number of complete rows held out, which the returned model also uses
   OutlineFigures learned;                  ///< figures on the training rows
   std::optional<OutlineFigures> held_out;  ///< figures on the held-out rows; empty if too short
   std::vector<double> residual_sd;         ///< one step ahead, per output
@@ -60,9 +60,9 @@ struct OutlineFit {
   OutlineSummary summary;
 };
 
-/// Learns a model from recordings of an outline in pixels (outline_units.hpp), without an extinction rule and with each
-/// recording's inputs on their own scale. The model has the knots of the first recording; recordings with other knots
-/// are converted, with a warning.
+/// Learns a model from recordings of an outline in pixels (outline_units.hpp), without an extinction rule and with the
+/// inputs at the gain that they have (see at_common_gain()). The model has the knots of the first recording; recordings
+/// with other knots are converted, with a warning.
 /// Errors, naming the recording: not an outline, a different number of points, rates that differ, missing inputs, too
 /// few rows, a recipe out of range; kStopped.
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},

@@ -42,7 +42,7 @@ Result<double> value_of_one(const Model& model, std::size_t input, const Recordi
   if (own_gain) {
     if (!std::holds_alternative<OutlineView>(model.view)) return 1.0;
     const auto own = scaled_input({&recording, 1}, heard.name);
-    return own ? own->scale : 1.0;  // of a calm recording
+    return own ? own->scale : 1.0;  // a calm recording has no scale
   }
   if (input >= model.training.inputs.size()) return 1.0;
   const InputTraining& trained = model.training.inputs[input];

@@ -18,7 +18,7 @@
 namespace wisp {
 
 /// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, that of the loudest
-/// one. Inputs whose loudness is not recorded are left unchanged. Errors: as one_rms().
+/// one. An input whose loudness any recording lacks is left unchanged. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
 /// Factor for each recording's first audio input; empty where a recording lacks its loudness, or where all are equal
@@ -41,12 +41,12 @@ struct OutlineInput {
   std::string name;
   std::string unit;    ///< unit in the recording
   double scale = 1;    ///< recording's value that equals 1 in the model, > 0
-  double lowest = 0;   ///< lowest observed value, in the model's units
-  double highest = 0;  ///< highest observed value, in the model's units
+  double lowest = 0;   ///< lowest observed value or 0, in the model's units
+  double highest = 0;  ///< highest observed value or 0, in the model's units
 };
 
-/// The 95th percentile of |input| over all rows of all recordings in which it exceeds kCalmShare of its 99th
-/// percentile. Returns the input with its scale and observed range.
+/// Returns the input with its range and its scale: the 95th percentile of |input| over all rows of all recordings in
+/// which that exceeds kCalmShare of its 99th percentile.
 /// Errors: a recording without that channel, no sample, an input that is always 0.
 Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name);
 
@@ -69,7 +69,7 @@ std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span
 
 /// Height in pixels that equals 1 in the model. With inputs it is the median over undisturbed rows, some of which may
 /// still lean, since an input can act before it is heard. Without inputs or undisturbed rows it is the mean over all
-/// rows. 0 where no row has an outline.
+/// rows. 0 where none of these rows has an outline.
 double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
                              std::span<const OutlineInput> inputs);
 

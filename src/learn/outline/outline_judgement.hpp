@@ -30,10 +30,10 @@ struct OutlineJudgement {
   bool driven = false;                       ///< whether the model has inputs
   std::vector<InputAlignment> alignment;     ///< of the inputs
   std::vector<PredictedOutlines> predicted;  ///< one per number of steps
-  Recording played;                          ///< play with noise along the recording's inputs and rows, in pixels at
-                                             ///< its base
-  std::optional<Fidelity> fidelity;          ///< fidelity of that play; empty where the recording is too short
-  double held_share = 0;                     ///< share of steps of that play with an output clamped to its range
+  Recording played;                          ///< play with noise along the recording's inputs, a frame per row, in
+                                             ///< pixels at its base
+  std::optional<Fidelity> fidelity;          ///< of a play of `play_seconds`; empty where not wanted or too short
+  double held_share = 0;                     ///< share of its steps with an output clamped to its range
   double self_intersection_rate = 0;         ///< share of its frames with an outline that intersects itself
   double pixels_per_unit = 0;
   std::vector<std::string> warnings;
@@ -42,7 +42,7 @@ struct OutlineJudgement {
 /// Validates an outline model against a recording of an outline in pixels.
 /// A recording with other knots is converted to the model's, with a warning.
 /// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; a different number of control
-/// points; a different rate; a missing input; no outline in any row.
+/// points; a different rate; a missing input; no outline in any row; kStopped.
 Result<OutlineJudgement> judge_outline(const Model& model, const Recording& recording,
                                        const ValidationOptions& options = {}, const Progress& progress = {});
 

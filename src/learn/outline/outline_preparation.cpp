@@ -93,7 +93,6 @@ void warn_of_other_colours(std::span<const Recording> recordings, PreparedOutlin
   }
 }
 
-// Layout of prepared recordings.
 OutlineLayout prepared_layout(const std::vector<double>& knots) {
   OutlineLayout layout{knots.size() - kSplineDegree - 1, knots, {}};
   layout.outputs.resize(2 * layout.points);

@@ -30,7 +30,7 @@ Reknotted with_knots(const Recording& recording, const OutlineLayout& layout, st
 struct PreparationOptions {
   std::optional<std::vector<std::string>> inputs;  ///< unset: all inputs of the first recording
   RegressorShape shape{.powers = true};
-  double pixels_per_unit = 0;  ///< 0: each recording's mean calm height becomes 1
+  double pixels_per_unit = 0;  ///< 0: each recording's resting_height_pixels()
 };
 
 /// Recordings in the model's units and knots, with regressors as inputs.
@@ -42,7 +42,7 @@ struct PreparedOutlines {
   std::vector<double> pixels_per_unit;  ///< per recording
   std::vector<Recording> recordings;
   std::vector<std::vector<double>> rest;  ///< mean calm shape per recording; empty where it is never calm
-  std::vector<std::string> warnings;      ///< warnings about recordings with other knots
+  std::vector<std::string> warnings;      ///< recordings with other knots, or tracked in another colour
 };
 
 /// Prepares recordings. Errors: as common_layout() and scaled_input(); a recording without an outline in any row.
@@ -63,8 +63,8 @@ struct OutlineParts {
   std::vector<Recording> held_out;
 };
 
-/// Cuts the last `share` off every recording: at the nearest episode boundary if it is within a tenth of the recording,
-/// otherwise in time. Trailing rows without an outline do not count.
+/// Cuts the last `share` of the complete rows off every recording: at the nearest episode boundary if it is within a
+/// tenth of the recording, otherwise in time.
 OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share);
 
 }  // namespace wisp

@@ -17,7 +17,7 @@ struct SynthesisOptions {
   float noise = 1;                   ///< scale of the residual noise: 1 as learned, 0 none
   std::uint64_t seed = 1;            ///< seed of the bank
   const Recording* input = nullptr;  ///< channels named like the inputs, in the model's units, repeated from the start
-                                     ///< at their end; null: inputs are 0
+                                     ///< at their end; 0 where missing; null: inputs are 0
 };
 
 /// A synthesized recording, and the share of clamped steps.

@@ -2,7 +2,7 @@
 // Conversion of a captured outline to the model's units, and back.
 //
 // Captures are in pixels of the clip: origin top left, y down. Model units: origin at the middle of the base in every
-// frame, x right, y up, mean height of the calm outline 1. The base's motion is a separate channel.
+// frame, x right, y up, height of the calm outline 1. The base's motion is a separate channel.
 
 #include <cstddef>
 #include <cstdint>

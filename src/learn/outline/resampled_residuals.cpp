@@ -158,7 +158,7 @@ std::vector<int> lags_of(double rate_hz) {
   return lags;
 }
 
-// Signs of the components in the mirror image: −1 for antisymmetric ones.
+// Numbers of the components from 1, negative for antisymmetric ones, whose sign the mirror image changes.
 std::vector<int> mirror_image(const ShapeComponents& shape) {
   std::vector<int> out;
   for (int k = 1; k <= static_cast<int>(shape.count()); ++k) {

@@ -106,7 +106,7 @@ ReportTable rank_problems(const std::vector<RankProblem>& problems) {
   return table;
 }
 
-// Figures of a candidate: entries, and columns of a table.
+// Figures of a candidate, as entries; their ids and labels also head the columns of the tables.
 std::vector<ReportEntry> figures_of(const OrderCandidate& one) {
   return {{"na", one.na, "na", ""},
           {"nb", one.nb, "nb", ""},

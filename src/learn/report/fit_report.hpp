@@ -18,11 +18,11 @@ namespace wisp::arx {
 /// has more than 256 rows, and zeros where it has more than 48.
 void describe(const ArxModel& model, const std::string& prefix, ReportSection& section);
 
-/// Adds for people: one section per output with its coefficients and standard errors, and one with the poles as time
-/// constants and damped resonances; nothing for models with many of them.
+/// Adds for people: one section per output with its coefficients and standard errors (above 60 coefficients only their
+/// number), and one with the poles as time constants and damped resonances (none above 12 states).
 void tell(const ArxModel& model, const Model& of, Report& report);
 
-/// Adds for people the poles alone.
+/// Adds for people the poles alone; none above 12 states.
 void tell_poles(const ArxModel& model, double rate_hz, Report& report);
 
 /// Adds coefficients with standard errors, then every figure of the summary, warnings and verdict. `model` is the fit's

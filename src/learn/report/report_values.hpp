@@ -18,7 +18,7 @@ void add(ReportSection& section, std::string id, ReportValue value, std::string 
 /// Adds a line for people.
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
-/// Adds a column to a table that has its rows, with value(row) in each.
+/// Adds a column with value(row) to the rows that a table has.
 template <class Value>
 void add_column(ReportTable& table, ReportColumn column, Value value) {
   table.columns.push_back(std::move(column));
@@ -45,7 +45,7 @@ CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector
 /// Id of a number of steps: "5", or "inf" for free simulation.
 std::string steps_id(int steps);
 
-/// A channel's name as one step of an id: its dots are replaced, as they would nest.
+/// A name as one step of an id: dots, opening brackets and backslashes, which have a meaning there, are escaped by \.
 std::string as_id(const std::string& name);
 
 /// The id of an element's field: "inputs[2].name".

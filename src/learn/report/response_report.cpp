@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFrequencies = 240;
 
-// Samples until the response of the slowest pole has decayed below 1 %.
+// The longest lag plus the samples, 20 to 600, until the response of the slowest pole has decayed below 1 %.
 int settling_samples(const ArxModel& model) {
   constexpr int kMin = 20, kMax = 600;
   const double radius = spectral_radius(model);
@@ -64,7 +64,7 @@ Curve amplitude_curve(const FrequencyResponse& response) {
   return curve;
 }
 
-// Unwrapped phase in degrees. A phase with an uncertainty above half a turn gets no band.
+// Unwrapped phase in degrees. Its band is limited to half a turn on either side.
 Curve phase_curve(const FrequencyResponse& response) {
   constexpr double kDegrees = 180 / std::numbers::pi;
   Curve curve;

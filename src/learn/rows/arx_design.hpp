@@ -46,15 +46,15 @@ inline double sign_of(const LaggedChannel& column, int outputs) {
   return column.channel != kConstantChannel && column.channel < outputs ? -1.0 : 1.0;
 }
 
-/// Output rows on a layout that has their regressors. With `apart` every output is its own group, even where regressors
-/// are equal.
+/// Groups the output rows by equal regressors, which are columns of `layout`. With `apart` every output is its own
+/// group, even where regressors are equal.
 std::vector<SharedRows> shared_rows(const ArxOrders& orders, ArxOffset offset, const LagLayout& layout,
                                     bool apart = false);
 
 /// Design of the regression, on a layout of exactly its regressors.
 ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart = false);
 
-/// Channels whose products the design's rows need.
+/// Pairs of channels whose products the design's rows need.
 ChannelPairs wanted_pairs(const ArxDesign& design);
 
 }  // namespace wisp

@@ -213,7 +213,7 @@ int LagLayout::find(LaggedChannel column) const {
 }
 
 ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset) {
-  // Relative range below which a channel counts as constant: the variation is rounding.
+  // RMS relative to the mean below which a channel counts as constant: the variation is rounding.
   constexpr double kStandsStill = 1e-14;
   const double n = static_cast<double>(sums.count);
   const double shift = sums.sum / n;

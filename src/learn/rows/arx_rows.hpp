@@ -56,7 +56,7 @@ class LagLayout {
 /// of another.
 struct ChannelChoice {
   std::vector<std::string> inputs;   ///< may be empty: a model without input
-  std::vector<std::string> outputs;  ///< may be empty: no input
+  std::vector<std::string> outputs;  ///< at least one
 };
 
 /// The chosen channels of all recordings. The regression uses (sample − offset)·scale; scales are powers of two near
@@ -74,7 +74,7 @@ struct Signals {
   int channels() const { return outputs + inputs; }
 };
 
-/// Sums of (sample − reference) over a channel's samples that are not missing.
+/// Sums of (sample − reference) and of its square over a channel's samples that are not missing.
 struct ChannelSums {
   double sum = 0;
   double square = 0;
@@ -87,7 +87,7 @@ struct ChannelPoint {
   double scale = 0;
 };
 
-/// Operating point of a channel. Precondition: sums.count > 0.
+/// Operating point of a channel: its mean, 0 for kNone; scale 0 if it is constant. Precondition: sums.count > 0.
 ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset);
 
 /// Target rows [begin, end) of one recording, all usable.
@@ -102,7 +102,7 @@ struct RowCounts {
   std::size_t rows = 0;  ///< n: rows in the regression
   int first_sample = 0;  ///< first row of an episode that is predicted, 0-based
   std::size_t episodes_used = 0;
-  std::size_t episodes_skipped = 0;  ///< episodes too short to predict a single row
+  std::size_t episodes_skipped = 0;  ///< episodes without a row to predict: too short, or incomplete
   std::size_t rows_left_out = 0;     ///< rows skipped because a sample in them or in their history is missing
 };
 
@@ -111,16 +111,16 @@ struct RowPlan : RowCounts {
   std::vector<RowRun> runs;
 };
 
-/// Finds the channels, with offsets 0 and scales 1. Errors: as fit_arx, for recordings and channels.
+/// Finds the channels, with offsets 0 and scales 1. Errors: no recording or output, a missing channel, different rates.
 Result<Signals> find_signals(std::span<const Recording> recordings, const ChannelChoice& channels);
 
-/// Finds the channels and their offsets and scales. Errors: as find_signals, and where a channel has no sample.
+/// Finds channels, offsets and scales. Errors: as find_signals; a channel without samples, or whose squares overflow.
 Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset);
 
 /// Maximum number of rows that figures are computed from; more would not change them noticeably.
 inline constexpr std::size_t kJudgedRows = std::size_t{1} << 18;
 
-/// The central part of every recording, at most `most` rows together. The spans are those of `signals`.
+/// The central part of every recording, at most `most` rows together. Its spans view the samples of `signals`.
 Signals middle_of(const Signals& signals, std::size_t most);
 
 /// Rows whose regressors and targets are all present, from row `first_sample` of every episode on.
@@ -135,8 +135,8 @@ struct RowPart {
   bool last = true;
 };
 
-/// plan_rows for one part. An episode counts for the part that has its first target row or, where it is too short to
-/// have one, the row after its end.
+/// plan_rows for one part. An episode counts for the part that has its first target row, complete or not, or, where it
+/// is too short to have one, the row after its end.
 RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
 
 /// Rows whose inputs are all present, whether or not outputs are missing.

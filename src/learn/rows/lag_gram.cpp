@@ -49,7 +49,7 @@ class GramBuilder {
     sums_(0, 0) += static_cast<double>(block_.rows());
   }
 
-  /// Adds the end corrections between a column and its neighbour one lag shorter, whose rows begin and end one row
+  /// Adds the end corrections between a column and its neighbour one lag shorter, whose samples begin and end one row
   /// later.
   void add_ends(const RowRun& run) {
     block_.load({run.recording, run.begin, run.begin});

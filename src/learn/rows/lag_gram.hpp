@@ -1,6 +1,6 @@
 #pragma once
-// A regression on lagged channels reduced to a square: its Gram matrix, from few long products, or a triangle R with
-// RᵀR the Gram matrix, found without forming it (G. Golub & C. Van Loan, Matrix Computations (4th ed.), section 5.2;
+// Reduces a regression on lagged channels to a square matrix: its Gram matrix, by few long products, or the triangle R
+// with RᵀR the Gram matrix, without forming that (G. Golub & C. Van Loan, Matrix Computations (4th ed.), section 5.2;
 // rows are taken in block by block: A. Björck, Numerical Methods for Least Squares Problems, section 6.2).
 //
 // Neighbouring rows of a regression on lags share nearly all numbers: the product of channel c at lag l with channel c′

@@ -34,11 +34,11 @@ struct GustPairs {
   Triple wind_at(std::size_t piece, std::size_t row) const;
 };
 
-/// Pairs recordings that share the value of `pair`; attribute `clones` is the number of episodes per gust (default 1).
+/// Pairs a windy recording with its calm twin; attribute `clones` is the number of episodes per gust (default 1).
 /// Errors: as motion_of(); no wind channels; episodes that do not match; fewer than 4 gusts.
 Result<GustPairs> gust_pairs(const Recording& windy, const Recording& calm);
 
-/// Rows [onset, end) of a gust: from the first wind of any clone to the last, and kAfterSeconds more.
+/// Rows [onset, end) of a gust: from the first wind of any clone to the last, and 0.3 s more. Empty without wind.
 struct GustSpan {
   std::size_t onset = 0;
   std::size_t end = 0;
@@ -67,7 +67,7 @@ struct GustFit {
 /// Learns from the first `gusts` gusts. Errors: fewer than 2 of them have wind.
 Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts);
 
-/// Horizontal angles between the mean displacements at the end, degrees.
+/// Horizontal angles between the recorded and the played mean displacement at the end, degrees.
 struct GustDirection {
   double median = 0;
   double mean = 0;        ///< over all gusts: small displacements have a random direction
@@ -86,7 +86,7 @@ struct GustPlayFigures {
   double largest_displacement = 0;  ///< metres, maximum of the played means
   double largest_recorded_displacement = 0;  ///< metres, maximum of the recorded means
   double left_after = 0;                     ///< m/s, maximum velocity difference in play two seconds after a gust
-  bool diverges = false;                     ///< whether a value is not finite, or left_after exceeds 0.1 m/s
+  bool diverges = false;                     ///< whether left_after exceeds 0.1 m/s, or a maximum is infinite
 };
 
 /// Paths of every clone in one gust from its onset on, and the rows in which the wind blows.
@@ -102,7 +102,7 @@ struct GustScene {
 
 struct GustPlay {
   GustPlayFigures figures;
-  std::vector<GustScene> scenes;  ///< scenes for figures, at equally spaced quantiles of displacement
+  std::vector<GustScene> scenes;  ///< scenes for plots, at equally spaced quantiles of displacement
 };
 
 /// Plays the gusts of a windy recording from index `first` on, clone by clone, with and without their wind.

@@ -43,8 +43,8 @@ struct Motion {
 /// Quaternions are normalised, with a warning where they deviate by more than rounding; sign flips are
 /// undone. Pieces shorter than 8 rows are left out.
 /// Errors: no recordings, a missing channel, orientation in only some recordings, rates that differ, a quaternion more
-/// than 1 % from unit length (with its row), a time channel (t, t_s or time) with steps other than the recording's, no
-/// piece long enough.
+/// than 1 % from unit length (with its row), a time channel (t, t_s or time) with steps other than the recording's, a
+/// jump of the position, no piece long enough.
 Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows = 0);
 
 /// Interpolates between rows by a cubic through the four rows around.

@@ -15,7 +15,7 @@ namespace wisp::chain {
 
 struct SegmentationOptions {
   EventSpec event{};
-  double min_seconds = 0.04;  ///< ≥ 0: minimum time between events, the later is dropped; 0.04 is 2 frames of 60
+  double min_seconds = 0.04;  ///< ≥ 0: minimum time between events, else the later is dropped; 2 frames at 60 Hz
   double debounce = 0.1;  ///< ≥ 0, in standard deviations of the signal: minimum excursion on both sides of a zero, or
                           ///< from an extremum
 };

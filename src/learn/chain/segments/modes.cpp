@@ -68,7 +68,7 @@ std::uint16_t nearest(const KMeans& found, std::span<const double> row) {
   return best;
 }
 
-// Row of the probabilities that applies after the `at` modes before; 0 before the first mode, which has no row.
+// Row of the probabilities that applies to mode `at` of a sequence, given the modes before it. Precondition: at >= 1.
 std::size_t row_after(std::span<const std::uint16_t> sequence, std::size_t at, std::size_t modes, int history) {
   const std::size_t last = sequence[at - 1];
   return history < 2 || at < 2 ? last : modes + sequence[at - 2] * modes + last;

@@ -83,13 +83,13 @@ struct RealisedSegments {
 /// Each segment as a cubic B-spline: its mode's mean plus its projection on the mode's 12 largest principal components.
 RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
 
-/// Segments simulated by a system of each mode, from the recorded initial states and as long: velocities in body axes
-/// as a linear system with noise (degree 1), or as a differential equation with products of velocities (degree 2).
+/// Segments simulated by a system of each mode, from the recorded initial states and for the recorded durations:
+/// velocities in body axes as a linear system with noise (degree 1), or with products of velocities without (degree 2).
 /// Errors: motion without orientation, a mode with fewer rows than a fit needs.
 Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
 
 /// Halves of the segments, each half of a mode clustered into two: a mode then is a chain of four modes.
-/// Errors: more than 64 modes in total.
+/// Errors: more than 64 modes in total; as k_means().
 Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 
 struct SegmentStoreOptions {
@@ -108,7 +108,7 @@ struct SegmentStore {
 
 /// Stores segments.
 ///
-/// Preconditions: each mode has a segment; orientation where breadth > 0.
+/// Precondition: each mode has a segment.
 SegmentStore store_segments(const SortedSegments& found, const SegmentStoreOptions& options);
 
 }  // namespace wisp::chain

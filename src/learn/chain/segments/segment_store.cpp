@@ -12,10 +12,10 @@ namespace {
 // Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
 constexpr double kAttitudeWeight = 1.5;
 
-// Weight of height: it fades over the time that the body takes to move there, other differences within a join.
+// Weight of height: a difference in height fades while the body moves there, other differences within a join.
 constexpr double kHeightWeight = 3;
 
-// State of a body at one moment, in groups of three numbers: velocity, angular velocity and attitude ("up" in body
+// States of a body at moments, in groups of three numbers: velocity, angular velocity and attitude ("up" in body
 // axes, or the body's three axes in the world); without orientation velocity and its change. Bounded height is one more
 // group.
 struct Moments {
@@ -174,7 +174,7 @@ std::vector<Segment> on_rows(const Motion& motion, std::span<const Segment> segm
   return out;
 }
 
-// Tail statistics of a segment: how far it dives, its speed over ground, and its turn.
+// Extremes of a segment: least vertical velocity, largest speed over ground, and sum of the angular speeds of its rows.
 std::array<double, 3> extremes_of(const Motion& motion, const Segment& segment) {
   const MotionPiece& piece = motion.pieces[segment.piece];
   const auto first = static_cast<std::size_t>(segment.begin), last = static_cast<std::size_t>(segment.end);
@@ -200,7 +200,7 @@ void order_alike(std::span<std::size_t> members, const std::vector<std::array<do
   order_alike(members.subspan(half), extremes, next);
 }
 
-// `count` of them, equally spaced.
+// `count` of the members, equally spaced.
 std::vector<std::size_t> thinned(const std::vector<std::size_t>& members, std::size_t count) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < count; ++k) out.push_back(members[(2 * k + 1) * members.size() / (2 * count)]);

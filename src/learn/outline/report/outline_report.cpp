@@ -48,7 +48,6 @@ void add_alignment(const std::vector<InputAlignment>& alignment, ReportSection& 
   section.tables.push_back(std::move(table));
 }
 
-// Section on the training data.
 ReportSection data_section(const OutlineSummary& summary) {
   ReportSection section{"Data"};
   std::string names;
@@ -68,7 +67,6 @@ ReportSection data_section(const OutlineSummary& summary) {
   return section;
 }
 
-// Section on the structure of the equations.
 ReportSection structure_section(const OutlineSummary& summary) {
   const OutlineDynamics& dynamics = summary.dynamics;
   const ShapeComponents& shape = dynamics.shape;
@@ -89,7 +87,6 @@ ReportSection structure_section(const OutlineSummary& summary) {
   return section;
 }
 
-// Section on the accuracy of predictions.
 ReportSection fit_section(const OutlineFit& fit) {
   const OutlineSummary& summary = fit.summary;
   const bool held_out = summary.held_out.has_value();
@@ -115,7 +112,6 @@ void add_bounded(const std::string& id, const Bounded& measure, const std::strin
   arx::add(section, id + ".ceiling", measure.ceiling);
 }
 
-// Section on free play.
 ReportSection play_section(const OutlineSummary& summary) {
   const OutlineTrial& trial = summary.trial;
   ReportSection section{
