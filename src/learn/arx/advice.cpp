@@ -96,7 +96,7 @@ void look_for_sentinel(const std::string& name, const Samples& all, std::vector<
   }
 }
 
-// Rows, counted from 1 through all recordings in sequence, of samples far from the median of the five rows around them.
+// Rows, from 1, of samples far from the median of the five around them.
 std::vector<std::size_t> outliers_in(const Samples& all) {
   constexpr double kFar = 12;
   std::vector<std::size_t> rows;
@@ -114,7 +114,8 @@ std::vector<std::size_t> outliers_in(const Samples& all) {
   return rows;
 }
 
-void look_for_outliers(const std::string& name, const Samples& all, std::vector<Remark>& out) {
+void look_for_outliers(const std::string& name, const Recording& recording, bool one_of_several, const Samples& all,
+                       std::vector<Remark>& out) {
   const auto rows = outliers_in(all);
   if (rows.empty()) return;
   std::string list;
@@ -122,8 +123,9 @@ void look_for_outliers(const std::string& name, const Samples& all, std::vector<
     list += (k > 0 ? ", " : "") + std::to_string(rows[k]);
   if (rows.size() > 5) list += ", …";
   out.push_back({RemarkKind::kOutliers, name,
-                 quoted(name) + " has " + std::to_string(rows.size()) + (rows.size() == 1 ? " outlier" : " outliers") +
-                     " (" + (rows.size() == 1 ? "row " : "rows ") + list + "), far from the samples beside them",
+                 (one_of_several ? recording.source + ": " : "") + quoted(name) + " has " +
+                     std::to_string(rows.size()) + (rows.size() == 1 ? " outlier" : " outliers") + " (" +
+                     (rows.size() == 1 ? "row " : "rows ") + list + "), far from the samples beside them",
                  "leave these cells empty, they are missing samples then"});
 }
 
@@ -142,8 +144,10 @@ void look_at_samples(const Subject& subject, std::vector<Remark>& out) {
       continue;
     }
     look_for_sentinel(name, there, out);
-    if (std::find(subject.outputs.begin(), subject.outputs.end(), name) != subject.outputs.end()) {
-      look_for_outliers(name, all, out);
+    if (std::find(subject.outputs.begin(), subject.outputs.end(), name) == subject.outputs.end()) continue;
+    for (const Recording& one : subject.recordings) {
+      const Samples* its = subject.find(one, name);
+      if (its) look_for_outliers(name, one, subject.recordings.size() > 1, *its, out);
     }
   }
 }

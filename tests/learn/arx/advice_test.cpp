@@ -86,5 +86,15 @@ TEST(Advice, OutliersInFourRowsOfAHundredAreStillOutliers) {
   EXPECT_THAT(found.front().cause, HasSubstr("16 outliers (rows 11, 36,"));
 }
 
+TEST(Advice, OutliersAreCountedInTheRowsOfTheirOwnRecording) {
+  std::vector<Recording> recordings{system(400, 2, 1), system(400, 2, 1)};
+  recordings[0].source = "first.csv";
+  recordings[1].source = "second.csv";
+  recordings[1].channels[1].samples[10] += 80;
+  const auto found = remarks_on(recordings, {"u"}, {"y"});
+  ASSERT_THAT(found, remark(RemarkKind::kOutliers));
+  EXPECT_THAT(found.front().cause, HasSubstr("second.csv: 'y' has 1 outlier (row 11)"));
+}
+
 }  // namespace
 }  // namespace wisp::advice_test
