@@ -1,5 +1,5 @@
-// Learns how a leaf falls from simulated falls, calm and in gusts, and plays two that fall alike until a gust hits one:
-// one line a frame, seconds, x and height of that one, and of the other, in metres.
+// Learns how a leaf falls from simulated falls, calm and in gusts, and plays two leaves that fall alike until a gust
+// hits the first. Prints a line per frame: seconds, x and height of the first, then of the second, in metres.
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -16,7 +16,7 @@ static int fail(const wisp::Error& error) {
 int main() {
   const auto falls = wisp::simulate_leaf_drops({.drops = 60, .seconds = 10});
   if (!falls) return fail(falls.error());
-  // The same falls with a gust and without, many clones of each: what wind does, apart from chance.
+  // Each fall with and without a gust, in many clones: their difference is the effect of the wind without chance.
   const auto gusts = wisp::simulate_leaf_pairs({.drops = {.drops = 40, .seconds = 1.5}, .clones = 8});
   if (!gusts) return fail(gusts.error());
   const std::vector<wisp::Recording> recordings{*falls, gusts->windy, gusts->calm};
@@ -27,7 +27,7 @@ int main() {
   auto bank = wisp::Bank::create(fit->model, {.capacity = 2});
   if (!bank) return fail(bank.error());
   const wisp::InstanceId blown = bank->spawn(1);
-  bank->spawn(1);                            // of the same stream: they fall alike
+  bank->spawn(1);                            // the same random stream: both fall alike
   std::vector<float> wind(3), poses(2 * 7);  // x, y, z; of each leaf pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z
   for (int frame = 0; frame < 180; ++frame) {
     wind[0] = frame > 60 && frame < 90 ? 2.0F : 0.0F;  // m/s, half a second of it

@@ -32,21 +32,21 @@ def captured(folder, clip):
 
 
 def part_of(folder, recording, flags):
-    """The products of a recording's rows: a small file, however long it is."""
+    """The products of a recording's rows: a file whose size does not grow with the recording."""
     part = pathlib.Path(folder, pathlib.Path(recording).stem + ".part")
     wisp("learn", "arx", recording, "--partial", part, *flags)
     return str(part)
 
 
 def merged(folder, name, *parts):
-    """Two parts as one."""
+    """The sum of two parts."""
     both = pathlib.Path(folder, name + ".part")
     wisp("learn", "arx", "--merge", *parts, "--partial", both)
     return str(both)
 
 
 def finished(part, model, count, flags):
-    """The operating point is decided here, from the sums of all rows."""
+    """The model from the merged part; the operating point is computed here, from the sums of all rows."""
     offset = flags[flags.index("--offset") :][:2] if "--offset" in flags else []
     wisp("learn", "arx", "--merge", part, "--expect", count, "-o", model, *offset)
     return str(model)
@@ -59,7 +59,7 @@ def learned(kind, model, flags, *recordings):
 
 
 def graph(do, kind, folder, model, clips, flags):
-    """All tasks, handed to do(function, …), which returns what the next ones take."""
+    """Submits all tasks by do(function, …), whose return value (a result or a future) is an argument of later tasks."""
     recordings = [do(captured, folder, clip) for clip in clips]
     if kind != "arx":
         return do(learned, kind, model, flags, *recordings)

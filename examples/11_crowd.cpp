@@ -1,5 +1,5 @@
-// Steps a crowd of instances of a model, 100 000 if nothing else is said, on all cores for two seconds' worth of
-// frames, and prints what a frame took: the library has no threads of its own, a game's are lent to it.
+// Steps many instances of a model, 100 000 by default, on all cores for two seconds' worth of frames, and prints the
+// mean time of a frame. The library has no threads of its own: it uses those that the game lends to it.
 //
 //   11_crowd MODEL.wisp [INSTANCES [THREADS]]
 
@@ -13,7 +13,7 @@
 
 #include "wisp/play.hpp"
 
-// Threads that wait for work. The one that asks for it does its share.
+// Threads that wait for work. The calling thread takes parts as well.
 class Pool {
  public:
   explicit Pool(int threads) {
@@ -48,7 +48,7 @@ class Pool {
     done_.wait(lock, [this] { return left_ == 0; });
   }
 
-  // Does parts as long as there are any; the lock is held when it is called and when it returns.
+  // Executes parts until none is left. The lock is held at call and at return, and released during a part.
   void take_parts(std::unique_lock<std::mutex>& lock) {
     while (next_ > 0) {
       const Job job = job_;

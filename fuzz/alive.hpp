@@ -1,6 +1,6 @@
 #pragma once
-// What every bank keeps, whatever was done to it: its outputs are numbers within bounds, what it saves restores, and a
-// bank that restored it lives the same life to the last bit.
+// Invariants of every bank after any sequence of calls: outputs are finite and bounded, a saved state can be restored,
+// and a bank that restored it plays the same bits.
 
 #include <cmath>
 #include <cstdlib>
@@ -23,8 +23,8 @@ inline std::vector<std::byte> saved(const Bank& bank) {
   return bytes;
 }
 
-/// Positions of chains are held to a million metres, and come to rest at most as far beyond; other outputs stay within
-/// their range and half of it more, or shrink to 0.
+/// Aborts unless all outputs are bounded: chains by ±2.1e6 (positions are clamped to 1e6 metres, while settling on the
+/// ground to 2e6), others by 0 and their range extended by half its width on either side (extinguished flames have 0).
 inline void expect_bounded(const Bank& bank, const Model& model) {
   const std::vector<float> values = outputs_of(bank);
   const bool chain = std::holds_alternative<ChainModel>(model.dynamics);
@@ -37,7 +37,7 @@ inline void expect_bounded(const Bank& bank, const Model& model) {
   }
 }
 
-/// Orientations of a chain that was not restored from bytes made to harm are of unit length.
+/// Aborts unless a chain's quaternions have unit length. Does not hold after a state was restored from damaged bytes.
 inline void expect_unit(const Bank& bank, const Model& model) {
   if (!std::holds_alternative<ChainModel>(model.dynamics) || model.outputs.size() != 7) return;
   const std::vector<float> values = outputs_of(bank);
@@ -49,7 +49,7 @@ inline void expect_unit(const Bank& bank, const Model& model) {
   }
 }
 
-/// A twin that restores what the bank saved, steps as it does.
+/// Aborts unless a second bank that restores the bank's state plays the same bits for `steps` steps.
 inline void expect_twin(Bank& bank, const Model& model, int capacity, int steps) {
   auto twin = Bank::create(model, {.capacity = capacity, .seed = 99});
   if (!twin || !twin->restore(saved(bank))) std::abort();

@@ -1,5 +1,5 @@
-// A bank of any kind under anything that a game could do to it, bytes that claim to be its state included: whatever
-// happens, outputs are numbers within their bounds, and a twin that restores what the bank saved plays the same bits.
+// Calls a bank of any kind in any order, with any arguments and with damaged saved states. Afterwards the outputs are
+// finite and bounded, and a second bank that restores the state plays the same bits.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace {
 
 using wisp::fuzz::Source;
 
-// Saves, damages a few bytes, mends the hash half of the time, and restores.
-// Returns whether damaged bytes were taken.
+// Saves, damages up to three places, corrects the hash in three of four cases, and restores. Returns whether damaged
+// bytes were accepted.
 bool restore_damaged(wisp::Bank& bank, Source& source) {
   std::vector<std::byte> bytes = wisp::fuzz::saved(bank);
   const int damages = source.take<std::uint8_t>() % 4;
@@ -69,7 +69,7 @@ void act_on_chain(wisp::ChainFacet& chain, wisp::InstanceId id, Source& source) 
   }
 }
 
-// Returns whether the bank now lives what was made to harm.
+// Returns whether the bank accepted a damaged state.
 bool act(wisp::Bank& bank, const wisp::Model& model, Source& source) {
   const wisp::InstanceId id{source.take<std::uint8_t>() % 12U, source.take<std::uint8_t>()};
   const wisp::InstanceId living = bank.at(static_cast<int>(id.slot));
@@ -129,7 +129,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     harmed |= act(*bank, model, source);
     wisp::fuzz::expect_bounded(*bank, model);
   }
-  // What was made to harm may grow beyond what restores.
+  // A damaged state that was accepted may grow to values that restore() refuses.
   if (!harmed) wisp::fuzz::expect_twin(*bank, model, capacity, 4);
   return 0;
 }

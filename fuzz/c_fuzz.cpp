@@ -1,5 +1,4 @@
-// Calls of the C interface in any order, with any handles and numbers: each answers with a status, and outputs are
-// numbers.
+// Calls functions of the C interface in any order, with any handles and numbers: none crashes, and outputs are finite.
 
 #include <array>
 #include <cmath>
@@ -25,15 +24,15 @@ const std::vector<std::vector<std::byte>>& files() {
   return all;
 }
 
-// Models of undamaged files, loaded once: checking them is most of an execution, and model_fuzz has that for its
-// subject.
+// Returns the model of an undamaged file. Loaded once, because checking a file takes most of an execution and
+// model_fuzz tests it.
 const wisp_model* undamaged(std::size_t kind) {
   static auto& all = *new std::vector<wisp_model*>(files().size(), nullptr);  // reachable at exit: no leak
   if (!all[kind]) wisp_model_load(files()[kind].data(), files()[kind].size(), &all[kind]);
   return all[kind];
 }
 
-// Everything that a host may hold, any of it NULL.
+// All handles that a host may hold; each may be NULL.
 struct Host {
   wisp_model* own = nullptr;
   const wisp_model* model = nullptr;

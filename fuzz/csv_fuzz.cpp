@@ -1,5 +1,5 @@
-// Text that claims to be a recording, in Wisp's form or a table from elsewhere: whatever is accepted is valid, and is
-// written back as it was.
+// Reads any text as a recording, in Wisp's format or as a foreign table: what is accepted is valid, and reads the same
+// after it is written.
 
 #include <cmath>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace {
 
 void expect_written_back(const wisp::Recording& recording) {
   if (!wisp::check(recording)) std::abort();
-  // Names that only tables from elsewhere have.
+  // Foreign tables may have names that Wisp's own format cannot write.
   for (const wisp::Channel& channel : recording.channels) {
     if ((channel.name + channel.unit).find_first_of("[]\n\r") != std::string::npos) return;
   }

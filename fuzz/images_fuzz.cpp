@@ -1,4 +1,5 @@
-// Bytes as a folder of numbered images: a byte for the kind and two for the number and length of each.
+// Reads bytes as a folder of numbered images. Of each image: a byte for its kind, two for its number, two for its
+// length in bytes, and its bytes.
 
 #include <cstdint>
 #include <cstdlib>
@@ -38,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto number = source.take<std::uint16_t>();
     const std::size_t wanted = source.take<std::uint16_t>();
     const auto bytes = source.rest().first(std::min(wanted, source.rest().size()));
-    // Some numbers are far away.
+    // Bit 7 of the kind multiplies the number by 10¹².
     const std::string digits = std::to_string(number) + (kind & 0x80 ? "000000000000" : "");
     scratch.write(digits + kinds[(kind & 0x7f) % 6], bytes);
     source = wisp::fuzz::Source(source.rest().data() + bytes.size(), source.rest().size() - bytes.size());

@@ -1,5 +1,5 @@
-// Bytes that claim to be a MATLAB file: every variable that is listed is read, or refused in a sentence. The first byte
-// says whether the rest is a file, or the parts of one of level 5.
+// Reads bytes as a MATLAB file: listed variables are read, or refused with an error. If the first byte is odd, all
+// bytes are the file; if it is even, a level 5 header is put before the others.
 
 #include <cstdint>
 #include <cstdlib>

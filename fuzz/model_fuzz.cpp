@@ -1,5 +1,5 @@
-// Bytes that claim to be a model: whatever is accepted is valid, writes back what it read, and runs: finite, bounded,
-// and a twin that restores what it saved plays the same bits.
+// Reads bytes as a model: what is accepted is valid, can be written and read again, and runs: finite, bounded, and a
+// second bank that restores the state plays the same bits.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "wisp/model/file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // The header is made right, so that the fuzzer works on what lies behind it.
+  // Adds a correct header, so that the fuzzer works on the bytes behind it.
   std::vector<std::byte> bytes(32 + size);
   constexpr std::array<unsigned char, 12> kStart = {0x89, 'W', 'I', 'S', 'P', '\r', '\n', 0x1a, 1, 0, 0, 0};
   std::memcpy(bytes.data(), kStart.data(), kStart.size());

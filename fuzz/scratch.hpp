@@ -1,5 +1,5 @@
 #pragma once
-// A place for files of one fuzzer, which readers that take names read.
+// A temporary folder of one process, for readers that take a path and not bytes.
 
 #include <unistd.h>
 

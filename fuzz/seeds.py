@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes fuzz/seeds/NAME/*: small inputs of every kind, from which fuzzing starts.
 
-    fuzz/seeds.py            with Python's own library and, for containers, the program ffmpeg
+    fuzz/seeds.py            needs Python's own library only and, for video containers, the program ffmpeg
 
-Run it again after a new kind of model or file; what it makes is committed.
+Run it again after a new kind of model or file is added, and commit the files.
 """
 import pathlib, random, shutil, struct, subprocess, tempfile, zlib
 
@@ -18,7 +18,7 @@ def put(name, file, data):
 
 
 def models():
-    """What lies behind the header of each model in the tests: the fuzzer makes the header itself."""
+    """The bytes behind the 32-byte header of each model in the tests: the fuzzer makes the header itself."""
     for path in sorted((ROOT.parent / "tests/model/golden").glob("*.wisp")):
         put("model", path.stem, path.read_bytes()[32:])
 

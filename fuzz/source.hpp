@@ -1,5 +1,5 @@
 #pragma once
-// Numbers off the front of a fuzzer's input.
+// Takes numbers from the front of a fuzzer's input.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace wisp::fuzz {
 
-/// Zeros when it is used up.
+/// After the last byte, numbers are 0.
 class Source {
  public:
   Source(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -25,7 +25,6 @@ class Source {
     return number;
   }
 
-  /// What is left.
   std::span<const std::uint8_t> rest() const { return {data_, size_}; }
 
  private:

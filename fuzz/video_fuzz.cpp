@@ -1,4 +1,4 @@
-// Bytes that claim to be a clip with sound, in any container.
+// Reads bytes as a clip with sound, in any container.
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Any samples as sound, cut into any blocks, with calibrations from anywhere: frames are numbers within their ranges,
-// and the same however the sound was cut.
+// Estimates wind from any samples, with any calibration: frames are finite and within their ranges, and do not depend
+// on how the sound is cut into blocks.
 
 #include <array>
 #include <cmath>
@@ -67,7 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t most = manner / 2 % 32 == 0 ? 40'000 : 3'000;  // long sound is slow
   std::vector<float> samples;
   for (const auto rest = source.rest(); samples.size() < most && !rest.empty();) {
-    // A short input is heard again and again, so that frames come of it.
+    // A short input is repeated, so that it is long enough for frames.
     for (std::size_t k = 0; k + 4 <= rest.size() + 3 && samples.size() < most; k += 4) {
       std::uint8_t bytes[4] = {};
       std::memcpy(bytes, rest.data() + k, std::min<std::size_t>(4, rest.size() - k));

@@ -3,12 +3,12 @@
 
     tools/arx_reference.py > tests/learn/fit/arx_made.json
 
-The data are made of whole numbers and a recursion, so that tests/learn/fit/made_sets.hpp makes the same. What is
-estimated from them is written down here a second time, by other means than Wisp's: an explicit regressor and numpy's
-lstsq (singular values) for the coefficients, the inverse of its triangle for their errors, predictions by running the
-equation forward from measured samples (Wisp sums shocks through the impulse response), poles as roots, scipy's lfilter
-for responses. Kernels: the likelihood of the outputs from their whole covariance, its maximum by scipy's Nelder-Mead from
-several starts, the posterior mean from that covariance.
+The data come from an integer random generator and a recursion, so that tests/learn/fit/made_sets.hpp makes the same ones.
+The estimates use other methods than Wisp's: an explicit regressor matrix and numpy's lstsq (singular values) for the
+coefficients, the inverse of its QR factor R for their standard errors, predictions by running the equation forward from
+measured samples (Wisp sums shocks through the impulse response), poles as roots, scipy's lfilter for responses. Kernels:
+the likelihood of the outputs from their full covariance, maximised by scipy's Nelder-Mead from several starts, and the
+posterior mean from that covariance.
 """
 
 import json
@@ -20,7 +20,7 @@ from scipy.signal import lfilter
 
 
 class Words:
-    """A linear congruence modulo 2^32; the upper 24 bits of a word are a number in [-0.5, 0.5)."""
+    """A linear congruential generator modulo 2^32; the upper 24 bits of a word give a number in [-0.5, 0.5)."""
 
     def __init__(self, seed):
         self.word = seed
@@ -36,8 +36,9 @@ class Words:
         return total
 
 
-# A set: rows, seed, and for every output the rows A[j] (lags 1 ... in the equation's own sign), B[k] (from lag delay
-# on), the shock, and where its numbers lie. `binary`: inputs jump between two values; else they are white.
+# A set: rows, seed; `missing`: every so many rows the first output has no sample (0: never). `binary`: inputs are -1 or 1,
+# else white. Per output: A[j] (from lag 1 on, with the equation's sign), B[k] (from lag `delay` on), the shock's standard
+# deviation, mean and unit.
 SETS = {
     "dryer": dict(rows=1000, seed=11, inputs=1, binary=True, missing=0, outputs=[
         dict(A=[[-1.274, 0.3935]], B=[[0.0666, 0.0445]], delay=3, shock=0.04, mean=4.9, unit=1.0)]),
@@ -47,7 +48,7 @@ SETS = {
     "coupled": dict(rows=1500, seed=13, inputs=2, binary=False, missing=0, outputs=[
         dict(A=[[-1.3, 0.6], [0.2, 0.0]], B=[[0.5, 0.25], [-0.4, 0.1]], delay=1, shock=0.3, mean=10.0, unit=1.0),
         dict(A=[[0.1, 0.05], [-0.9, 0.3]], B=[[0.7, -0.2], [0.3, 0.6]], delay=1, shock=0.2, mean=-3.0, unit=1.0)]),
-    # Large numbers far from zero, and holes.
+    # Large numbers far from zero, and missing samples.
     "holes": dict(rows=1200, seed=14, inputs=1, binary=False, missing=97, outputs=[
         dict(A=[[-0.8, 0.1]], B=[[0.9, 0.3]], delay=0, shock=0.5, mean=1000.0, unit=1e6)]),
 }
@@ -79,7 +80,7 @@ def make(name):
         for k in range(nu):
             drawn = words.uniform()
             if it["binary"]:
-                # Jumps one time in four.
+                # Keeps its value in three of four steps, else draws -1 or 1.
                 keep = t > 0 and drawn < 0.25
                 u[t, k] = u[t - 1, k] if keep else (1.0 if words.uniform() < 0 else -1.0)
             else:
@@ -189,7 +190,7 @@ def reference(case):
 
 
 def kernel(case):
-    """Coefficients of every output under the kernel that its rows' likelihood chooses, and 2 ln of that likelihood."""
+    """Coefficients of every output under the kernel of largest likelihood, and -2 ln of that likelihood."""
     u, y = make(case["set"])
     u, y = u[slice(*case["rows"])], y[slice(*case["rows"])]
     u, y = u - u.mean(axis=0), y - y.mean(axis=0)
@@ -214,7 +215,7 @@ def kernel(case):
                     return np.inf
                 try:
                     factor = cho_factor(covariance, lower=True)
-                except np.linalg.LinAlgError:  # a prior so wide that the identity is lost beside it
+                except np.linalg.LinAlgError:  # the prior is so large that adding the identity has no effect in doubles
                     return np.inf
                 square = target @ cho_solve(factor, target)
                 return 2 * np.log(np.diag(factor[0])).sum() + len(X) * np.log(square / len(X))
@@ -229,7 +230,7 @@ def kernel(case):
 
 
 def grid():
-    """Loss on the first half and on the second, for all orders to 4 and delays to 4, each half less its own means."""
+    """Loss on the first half (fitted) and the second, for orders 1 to 4 and delays 0 to 4; each half less its mean."""
     u, y = make("dryer")
     halves = [(u[part] - u[part].mean(axis=0), y[part] - y[part].mean(axis=0))
               for part in (slice(0, 500), slice(500, 1000))]

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Lines and branches that the tests reach, folder by folder, from what gcc's --coverage left in a build.
+"""Lines and branches that the tests reach, layer by layer, from the counts that a build with gcc's --coverage wrote.
 
-  tools/coverage.py BUILD [FOLDER…]     default src/model src/run src/record src/c with their public headers
+  tools/coverage.py BUILD [LAYER…]     default: model run record c; a layer is src/LAYER and include/wisp/LAYER
 
-Prints a table, and the files that are reached least. Branches that only an exception takes do not count. A line of a
-template counts as reached where any instance of it is.
+Prints a table, and the files with most unreached lines. Branches that only an exception takes are not counted. A line of
+a template counts as reached if any instance of it is.
 """
 
 import collections
@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def gathered(build):
-    """File → line → times reached, and file → (line, place) → branch taken."""
+    """Returns the count of each line, [file][line], and of each branch, [file][(line, index)]."""
     lines = collections.defaultdict(dict)
     branches = collections.defaultdict(dict)
     with tempfile.TemporaryDirectory() as folder:

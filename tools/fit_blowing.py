@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Fits the likeness of blowing (src/sound/wind_likeness_weights.hpp) and says how well it does on recordings that it has not seen.
+"""Fits the likeness of blowing (src/sound/wind_likeness_weights.hpp) and prints its errors, cross-validated over recordings.
 
     build/release/bin/wisp_verify_wind --features > features.csv
     tools/fit_blowing.py features.csv > src/sound/wind_likeness_weights.hpp
 
-A small network: five features, a layer of rectified sums, a logistic sum. Every recording counts alike within its
-class. What goes on and on (rain, engines, fans) is not judged by what it sounds like but by that it was there before, so it is left
-out. Wants numpy and scikit-learn.
+A small network: the features of FEATURES, a layer of rectified sums, a logistic output. A recording weighs as the root of its
+hops, and both classes weigh the same. Steady sounds (STEADY) are left out: the background level rejects them, not these
+features. Needs numpy and scikit-learn.
 """
 import csv
 import sys
@@ -44,7 +44,7 @@ def weights(blowing, source):
 
 
 def fit(features, blowing, weight, random):
-    """A network on the features as they are: their scales are folded into its first layer."""
+    """Returns a network for unscaled features: their means and scales are folded into its first layer."""
     chosen = random.choice(len(blowing), 60000, p=weight)
     middle, scale = features[chosen].mean(0), features[chosen].std(0)
     network = MLPClassifier((HIDDEN,), alpha=1e-2, max_iter=80, random_state=0)

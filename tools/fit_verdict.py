@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits what weighs the facts of an outline: src/capture/vision/outline_verdict_weights.hpp.
+"""Fits the weights of the verdict on an outline: src/capture/vision/outline_verdict_weights.hpp.
 
   tools/fit_verdict.py gather FACTS.txt WISP SCENES FILMS [STREETS…]   makes clips, captures them, writes their facts
   tools/fit_verdict.py fit FACTS.txt… > outline_verdict_weights.hpp    fits, prints its figures to standard error
@@ -7,7 +7,7 @@
 WISP and SCENES: the programs wisp and wisp_verify_scenes; FILMS: ../shared/data/flame; STREETS: films without a flame, as those of
 opencv-doc. A line of facts: family/name;flame;right;fact=value;…  Lines of `wisp_verify_scenes fresh SEED facts` are read as they
 are. A fact's curve is linear between five knots and monotone; both models are logistic, their weights not negative, with a penalty
-on their sum. A film that is turned is no example of a flame, and one behind a hand is none of either: its outlines are right. Needs ffmpeg, NumPy and SciPy.
+on their sum. A turned film is no example of a flame; one with a hand in front is an example of neither (its outlines are right). Needs ffmpeg, NumPy and SciPy.
 """
 
 import json
@@ -19,8 +19,8 @@ import tempfile
 import numpy as np
 from scipy.optimize import minimize
 
-# A fact's knots in the order of outline_verdict.cpp, from its worst value to where more is no better: what people's films and
-# scenes have on either side of a verdict lies between them.
+# The knots of each fact, in the order of outline_verdict.cpp: from the worst value to the value above which there is no further
+# improvement. Values of right and of wrong outlines, in films and in rendered scenes, lie between them.
 FACTS = {"movement": (0.003, 0.008, 0.016, 0.03, 0.06), "over_noise": (1, 2, 4, 8, 16),          "wander": (6, 3, 1.5, 0.8, 0.3), "still": (0.6, 0.45, 0.3, 0.15, 0),          "steadiness": (0.48, 0.54, 0.6, 0.7, 0.8), "taper": (0, 0.2, 0.32, 0.42, 0.52), 
          "light": (0.75, 0.85, 0.9, 0.94, 0.97), "contrast": (10, 25, 50, 80, 120), "width": (1.3, 1, 0.8, 0.65, 0.5),
          "misfit": (0.35, 0.2, 0.1, 0.04, 0),
@@ -28,12 +28,12 @@ FACTS = {"movement": (0.003, 0.008, 0.016, 0.03, 0.06), "over_noise": (1, 2, 4, 
          "repeated": (0.5, 0.35, 0.25, 0.15, 0.05), "elsewhere": (0.4, 0.2, 0.1, 0.05, 0), "missing": (0.2, 0.08, 0.04, 0.02, 0),
          "jumps": (0.15, 0.06, 0.03, 0.01, 0), "border": (0.4, 0.15, 0.06, 0.03, 0), "height": (6, 9, 12, 18, 30),
          "tracked": (10, 15, 20, 30, 50)}
-FLAME = list(FACTS)[:11]  # what tells a flame from something else
-# What no right outline may have, whatever else it has: every sixth right capture stands once more with each at its second knot.
+FLAME = list(FACTS)[:11]  # the facts that decide whether it is a flame
+# Facts of which one bad value makes an outline wrong: every sixth right capture is added again as wrong, each at its second knot.
 MUST = ["still", "taper", "width", "misfit", "lean", "lost", "repeated", "elsewhere", "missing", "jumps", "border", "height",
         "tracked"]
 KNOTS = 5
-PENALTY = 0.0015  # on the sum of weights, of the mean loss
+PENALTY = 0.0015  # times the sum of weights, added to the mean loss
 CODERS = (["-c:v", "mpeg4", "-q:v", "8", "-g", "30"], ["-c:v", "libx264", "-crf", "23"], ["-c:v", "mpeg4", "-q:v", "16", "-g", "12"],
           ["-c:v", "libx264", "-crf", "33"], ["-c:v", "mjpeg", "-q:v", "12"])
 
@@ -57,7 +57,7 @@ def altered(source, path, how, seconds=4, start=0):
 
 
 SMALL = "scale=trunc(iw*min(1\\,360/ih)/2)*2:trunc(ih*min(1\\,360/ih)/2)*2:flags=area"
-# Name: (filter, whether the outline is as good as the film's). Sizes are even.
+# Name: (filter of ffmpeg, whether the outline remains right). Encoders need even sizes.
 ALTERED = {"small": ("null", 1), "mirrored": ("hflip", 1), "grey": ("hue=s=0", 1), "noise": ("noise=alls=12:allf=t", 1),
            "gamma": ("eq=gamma=0.75", 1), "slow": ("setpts=3*PTS", 1), "down": ("vflip", 0), "side": ("transpose=1", 0),
            "doubled": ("fps={rate},fps={twice},noise=alls=4:allf=t", 0), "dropped": ("select='gt(random(1),0.35)'", 0),
@@ -101,7 +101,7 @@ def gather(out, wisp, scenes, films, *streets):
 
 
 def family_of(name):
-    """What is left out together: a film, a kind of film without a flame, a kind of scene."""
+    """The group of a capture, which cross-validation leaves out as a whole: a film, a kind of flameless film, a kind of scene."""
     if "/" in name:
         return name.split("/")[0]
     if name.startswith("unfair"):
@@ -117,7 +117,7 @@ def read(paths):
             if len(facts) < len(FACTS) or "a hand in front" in name:
                 continue
             values = dict(fact.split("=") for fact in facts)
-            values["missing"] = max(0, float(values["missing"]) - float(values["lost"]))  # since a lost frame is no missing outline
+            values["missing"] = max(0, float(values["missing"]) - float(values["lost"]))  # lost frames count as `lost` only
             names.append(name)
             labels.append((int(flame), int(right)))
             rows.append([float(values[fact]) for fact in FACTS])
@@ -125,7 +125,7 @@ def read(paths):
 
 
 def ramps(values, knots):
-    """How much of each stretch between knots a value lacks, 0 to 1; the worst stretch first."""
+    """For each interval between knots, the share (0 to 1) that a value falls short of its good end; the worst interval first."""
     return np.array([np.clip((values - good) / (bad - good), 0, 1) for bad, good in zip(knots, knots[1:])]).T
 
 
@@ -141,7 +141,7 @@ def fit(design, labels, weights):
 
 
 def balanced(labels, families):
-    """Families count by the root of their size, yes and no alike."""
+    """Weights: a family weighs as the root of its size, and each label half of the total."""
     sizes = {family: families.count(family) for family in set(families)}
     weights = np.array([sizes[family] ** -0.5 for family in families])
     for label in (0, 1):

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Makes src/export/flame.png, the light of the shells of an exported flame, and prints the colours of a Lottie flame.
+"""Makes src/export/flame.png, the texture of the shells of an exported flame, and prints the colours of a Lottie flame.
 
     tools/flame_picture.py [HEIGHT]
 
-A column for each shell of src/export/gltf.cpp, the outermost first, a row from the tip (1) to the drop below the base (0).
-Seen through each other they are the flame as it is seen across: translucent blue at the base, dark around the wick, bright
+Each column is a shell of src/export/gltf.cpp, the outermost first; rows go from the tip (top) to DROP below the base.
+Seen through each other the shells show a flame from the side: translucent blue at the base, dark around the wick, bright
 in the middle, orange at the rim and the tip. Colours and opacities are fitted to that (least squares) in the two ways in
-which shells are composited: by a screen's colours in the order of the mesh, the innermost last (three.js and others that
-do not sort), and by light in the order of a ray, the outermost first (Blender's Cycles). Profiles as src/draw/flame.
+which shells are composited: in display colours in the order of the mesh, the innermost last (three.js and others that do
+not sort), and in linear light in the order of a ray, the outermost first (Blender's Cycles). Profiles as in src/draw/flame.
 """
 import math
 import pathlib
@@ -21,7 +21,7 @@ from scipy.optimize import least_squares
 ACROSS, DROP = 1.75, 0.12
 SHELLS = (1.0, 0.93, 0.82, 0.66, 0.46, 0.22)
 STRENGTH = 5  # kEmissiveStrength
-# Emission in terms of the sum that 1 - exp(-x) shows, linear, sRGB's primaries.
+# Emission x, displayed as 1 - exp(-x): linear, sRGB primaries.
 RIM, BODY, CORE, BASE = (1.9, 0.27, 0.014), (3.0, 0.83, 0.07), (3.0, 3.0, 1.6), (0.09, 0.50, 3.0)
 
 
@@ -35,7 +35,7 @@ def encoded(linear):
 
 
 def colour(along, across):
-    """sRGB and opacity, 0 to 1."""
+    """sRGB and opacity, 0 to 1, at a height (0 base, 1 tip) and a distance from the axis (1: the outline)."""
     side, t = min(1, abs(across)), min(1, max(0, along))
     thick = math.sqrt(1 - side * side)
     shell = 0.5 * (1 - step(0.05, 0.34, t))
@@ -58,7 +58,7 @@ def chunk(kind, data):
 
 
 def composited(shells):
-    """What is seen where the first shells lie behind each other, by a screen's colours and by light, and the light itself."""
+    """What the first 1, 2, … shells show: composited in display colours, in linear light, and that light itself."""
     light = STRENGTH * np.where(shells[:, :3] <= 0.04045, shells[:, :3] / 12.92, ((shells[:, :3] + 0.055) / 1.055) ** 2.4)
     drawn, traced, through, seen = np.zeros(3), np.zeros(3), 1.0, []
     for emitted, opacity in zip(light, shells[:, 3]):
@@ -71,13 +71,13 @@ def composited(shells):
 
 def screen(light):
     shown = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    return np.where(shown > 1, 1 + 0.02 * np.tanh(shown - 1), shown)  # with a slope, for the fit
+    return np.where(shown > 1, 1 + 0.02 * np.tanh(shown - 1), shown)  # clipped softly, so that the fit has a gradient
 
 
 def fitted(along, start, pull):
-    """Colour and opacity of each shell, sRGB, 0 to 1, near those of the start; and what is missed."""
+    """Fits sRGB and opacity of each shell, 0 to 1, near `start`; returns them and the mean errors, drawn and traced."""
     rings = [colour(along, (shell + inner) / 2) for shell, inner in zip(SHELLS, SHELLS[1:] + (0,))]
-    # Where it is dark inside, all that lies in front of it is fainter.
+    # A ring in front of a fainter inner one is made fainter too: the shells in front of it must let it appear dark.
     wanted = np.array([[math.sqrt(seen * min(ring[3] for ring in rings[at:])) * each for each in (red, green, blue)]
                        for at, (red, green, blue, seen) in enumerate(rings)])
 
@@ -99,7 +99,7 @@ def main():
     picture = np.full((height, width, 4), 0.5)
     for y, along in enumerate(places):
         picture[y] = fitted(along, picture[max(0, y - 1)], 0.4)[0]
-    # Again from the mean of the rows around: where two solutions are as good, the first ones jump between them.
+    # Fits again from the mean of neighbouring rows: where two solutions are equally good, the first fits jump between them.
     first, misses = picture.copy(), []
     for y, along in enumerate(places):
         picture[y], *miss = fitted(along, first[max(0, y - 6):y + 7].mean(0), 1)

@@ -3,16 +3,16 @@
 
   tools/mutate.py [--of player|strangers] [--most N] [--only PART-OF-A-PATH] [--jobs N] [--these K,K…]
 
-`player` is src/run and the checks of src/model; `strangers` is what reads strangers' files: src/record, src/matfile,
-src/sound, src/capture/media and src/capture/clip.
+`player` is src/run and the checks of src/model; `strangers` is the code that reads untrusted files: src/record,
+src/matfile, src/sound, src/capture/media and src/capture/clip.
 
 All mutants are compiled at once, into a copy of the tree in build/mutants: each is a branch that the environment
 variable WISP_MUTANT takes (R. H. Untch, A. J. Offutt, M. J. Harrold, "Mutation analysis using mutant schemata", ISSTA
-1993). Conditions are turned round, comparisons and arithmetic changed to their neighbours, statements left out. What
-does not compile is dropped. For each that is left the tests of its layer run until one fails, the golden hash before them
-and those of the layers above after them.
-Prints those that survive with their number, and counts; `--these` tries those again after a test was written, and a test
-alone is seen red with WISP_MUTANT=K. docs/studies/hardening.md has what was found.
+1993). Conditions are negated, comparison and arithmetic operators replaced by similar ones, statements left out. Mutants
+that do not compile are dropped. For each of the others the golden hash (`player` only), then the tests of its layer, then
+those of the layers above run until one fails.
+Prints the surviving mutants with their numbers, and counts. After a test was written, `--these` tries given numbers again;
+a single test is run with a mutant by WISP_MUTANT=K. docs/studies/hardening.md has the results.
 """
 
 import argparse
@@ -30,8 +30,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutants"
 TREE = WORK / "tree"
-LONGEST = {}  # processor seconds that a layer's tests may take with a mutant: four times what they take without, and five
-# Of each kind: sources, and after which tests a fault in them survives, by the beginning of a path; what is not built.
+LONGEST = {}  # limit in processor seconds of a layer's tests with a mutant: 5 s + 4 times what they take without
+# Per kind: sources; the layers whose tests must notice a fault, by the start of the source's path; build options to turn off.
 KINDS = {
     "player": (["src/run", "src/model/check.cpp", "src/model/arx.cpp", "src/model/chain.cpp",
                 "src/model/model.cpp"],
@@ -56,7 +56,7 @@ Mutant = collections.namedtuple("Mutant", "file line after shown")
 
 
 def closing(text, start):
-    """Where the parenthesis that opens at `start` closes."""
+    """Index of the parenthesis that closes the one at `start`, or -1."""
     depth = 0
     for k in range(start, len(text)):
         depth += {"(": 1, ")": -1}.get(text[k], 0)
@@ -66,7 +66,7 @@ def closing(text, start):
 
 
 def expressions(line):
-    """Parts of a line that can be put into ?: with another of their kind: begin, end."""
+    """Yields (begin, end) of the expressions of a line that can become an operand of ?: beside their mutant."""
     body = line.rstrip("\n")
     condition = re.match(r"\s*(?:\} else )?(?:if|while) \(", body)
     if condition:
@@ -85,7 +85,7 @@ def expressions(line):
 
 
 def mutants_of_line(line):
-    """Line as it becomes, with K where the mutant's number goes; and what it shows."""
+    """Yields each mutated line, with K in place of the mutant's number, and the mutant as it is printed."""
     if SKIPPED.search(line) or line.lstrip().startswith(("*", "///")):
         return
     for begin, end in expressions(line):
@@ -106,7 +106,7 @@ DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False
 
 
 def compiled(lines):
-    """Numbers of the lines that this build compiles, as far as vectors go."""
+    """Indices of the lines that this build compiles; only the macros of DEFINED are evaluated."""
     state, numbers = [], set()
     for number, line in enumerate(lines):
         if line.startswith(("#ifdef", "#ifndef", "#if ")):
@@ -135,17 +135,17 @@ def plan(kind, most, only):
             for number in sorted(compiled(lines)):
                 line = lines[number]
                 choices = list(mutants_of_line(line))
-                # One a line, so that they do not stand in each other's way.
+                # At most one mutant per line, since all are compiled together.
                 if choices:
                     after, shown = random.Random(f"{name}{line}").choice(choices)
                     found.append(Mutant(name, number, after, shown))
-    # A line that changes changes its own mutant and no other's.
+    # A random choice that depends on each line alone: a changed line does not change the choice of other mutants.
     found.sort(key=lambda one: random.Random(f"{one[0]}{one[3]}{one[2]}").random())
     return sorted(found[:most])
 
 
 def plant(chosen):
-    """The tree with all mutants in it."""
+    """Writes all mutants into the copy of the tree."""
     files = collections.defaultdict(dict)
     for k, (name, number, after, _) in enumerate(chosen):
         if after:
@@ -160,7 +160,7 @@ def plant(chosen):
 
 
 def copy_tree(chosen):
-    """What is the same already stays, so that a new test is all that is compiled again."""
+    """Copies the tree. Unchanged files are not written again, so that only changed ones are compiled."""
     listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True,
                             check=True).stdout.decode().split("\0")
     wanted = {name for name in listed if name and (ROOT / name).is_file()}
@@ -184,12 +184,12 @@ def rooms_after(kind, file):
 
 
 def compile_all(kind, chosen, jobs):
-    """Drops what does not compile, until all does."""
+    """Compiles the tests, and drops mutants that do not compile until the rest does."""
     off = [f"-DWISP_BUILD_{part}=OFF" for part in KINDS[kind][2]]
     tests = sorted({f"wisp_tests_{test}" for one in chosen for test in rooms_after(kind, one.file)})
     if kind == "player":
         tests.append("wisp_run_frames")
-    # One width of vectors: the bits of the others are another test's.
+    # One vector width only: another test compares the bits of all widths.
     flags = "-O1 -w -ftemplate-depth=2000"
     subprocess.run(["cmake", "-S", TREE, "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DWISP_NARROW=ON",
                     "-DWISP_UNITY_BUILD=ON", f"-DCMAKE_CXX_FLAGS={flags}", "-DWISP_BUILD_TESTS=ON", *off], check=True, stdout=subprocess.DEVNULL)
@@ -210,14 +210,14 @@ def compile_all(kind, chosen, jobs):
 
 
 def notices(kind, k, file, golden):
-    """What notices a mutant of a file, or nothing."""
+    """Which tests notice mutant k of a file: a layer, "golden hash", "time" (over the limit), or None."""
     environment = {**os.environ, "WISP_MUTANT": str(k)}
     tests = WORK / "build" / "tests"
     commands = [("golden hash", [tests / "run" / "wisp_run_frames"])] if kind == "player" else []
     for room in rooms_after(kind, file):
         commands.append((room, [tests / f"wisp_tests_{room}", "--gtest_fail_fast", "--gtest_brief=1"]))
     for name, command in commands:
-        # Processor time, so that a busy machine decides nothing; what waits for ever is ended by the clock after an hour.
+        # Limits processor time, so that a busy machine has no effect; a test that only waits is killed after an hour.
         limit = ["prlimit", f"--cpu={LONGEST[name]}", "--"] if name in LONGEST else []
         began = os.times()
         try:

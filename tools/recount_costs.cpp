@@ -1,5 +1,5 @@
-// Counts anew what models cost a frame and writes it into their files, where that has changed: `wisp_recount_costs
-// MODEL.wisp …`. The page reads it there (WISP_COST_AS_LEARNED); all else in the files stays as it was learned.
+// Recounts the operations that models need per frame and updates their files where the counts have changed:
+// `wisp_recount_costs MODEL.wisp …`. The page shows the stored counts. The rest of the file does not change.
 
 #include <cstdio>
 

@@ -16,7 +16,7 @@ double Arguments::number(std::string_view flag) const { return std::strtod(text(
 
 namespace {
 
-// Whether quotes and brackets are balanced; commas inside them are part of a name.
+// Whether the round brackets are balanced. Only then do they protect the commas inside them.
 bool is_balanced(std::string_view text) {
   int depth = 0;
   for (char c : text) {
@@ -100,7 +100,7 @@ const std::vector<Flag>& common_flags() {
 
 namespace {
 
-// Names of input files given by flags; --wind is a word or a file.
+// Arguments that may name input files: positionals, paths, and texts (--wind is a word or a file).
 std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
   std::vector<std::string> files = arguments.positionals();
   for (const Flag& flag : command.flags) {
@@ -119,7 +119,7 @@ std::vector<std::filesystem::path> files_written(const Flag& flag, const std::fi
   return files;
 }
 
-// Whether writing a file would overwrite an input or an image of an input folder, under any name.
+// Whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
 bool would_destroy(const std::filesystem::path& written, const std::string& input) {
   std::error_code none;
   if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
@@ -137,7 +137,7 @@ std::string kind_of(const std::filesystem::path& name) {
   return known == kinds.end() ? std::string() : known->second;
 }
 
-// Rejects names whose extension contradicts the contents, such as a table in a .png.
+// Whether the extension of a name contradicts the contents, such as a table in a .png.
 bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
   const std::string expected = kind_of(flag.value), found = kind_of(output);
   return !expected.empty() && !found.empty() && expected != found;

@@ -54,7 +54,7 @@ Flag ranged(Flag flag, double lowest, double highest);
 /// Words with a separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
-/// The flag's help, with the accepted words.
+/// The flag's help; for a choice also the accepted words, unless its placeholder lists them.
 std::string help_of(const Flag& flag);
 
 /// A positional argument.
@@ -109,7 +109,8 @@ class Arguments {
 /// Errors: one of the flags was given by the user; the message is the flag and `why`.
 Result<void> refuse(const Arguments& arguments, std::initializer_list<const char*> flags, const std::string& why);
 
-/// A command: its words (`learn arx`), arguments, flags and function. `run` returns the error of exit status 1.
+/// A command: its words (`learn arx`), arguments, flags and function. An error of `run` ends the program with exit
+/// status 1, or with 2 if the message begins with a flag (`--`).
 struct Command {
   std::string name;
   std::string summary;
@@ -139,7 +140,8 @@ std::string help(std::string words);
 /// so that something else is wrong.
 std::string wrong_words(std::span<const std::string> words);
 
-/// Errors: an output or one of its additional files is also an input, or its extension is of another kind of file.
+/// Errors: an output or one of its additional files is also an input; its extension is of another kind of file; the
+/// name of a file has a line break in it.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -37,7 +37,7 @@ class Terminal {
   /// Prints the verdict of an intermediate result, for people.
   void verdict(const std::string& of, const Report& report);
 
-  /// Prints a warning, one line on standard error; the command continues.
+  /// Prints a warning, one line on standard error, and adds it to the result; the command continues.
   void warn(std::string_view text);
 
   /// Prints one line of the result for people; silent with --json.
@@ -50,7 +50,7 @@ class Terminal {
   /// Ends the progress bar, and prints the JSON document with --json.
   void finish();
 
-  /// Prints the error line.
+  /// Prints the error line and, with --json, the document with the result so far and `error`.
   void fail(std::string_view message);
 
   bool json() const { return options_.json; }

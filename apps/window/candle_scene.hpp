@@ -64,10 +64,10 @@ class CandleScene {
   /// Sets the wind over the whole scene; 1 is a strong gust to the right.
   void blow(float wind) { wind_ = wind; }
 
-  /// Sets the share of it that blows away from the viewer instead; only for a flame that is a body.
+  /// Sets the share of the wind that blows away from the viewer instead of to the right; only if the flame is a body.
   void blow_away(float share) { away_ = bank_.body() ? share : 0; }
 
-  /// Turns the viewer around the candles, by `angle` in radians, anticlockwise seen from above.
+  /// Turns the viewer around the candles, by `angle` in radians, anticlockwise from above; only if they are bodies.
   void turn(float angle) {
     if (!bank_.body()) return;
     azimuth_ += angle;
@@ -191,7 +191,7 @@ class CandleScene {
     return points[2 * top];
   }
 
-  /// Returns the number of clamped outputs, and of all.
+  /// Returns the number of steps of all candles, and of those in which an output was clamped.
   Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:

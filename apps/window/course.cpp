@@ -19,7 +19,7 @@ std::optional<Point> place_in(std::istringstream& words) {
   return {};
 }
 
-// Parses one line; returns nothing if its words are wrong.
+// Parses one line; returns an empty list if its words are wrong.
 std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, std::istringstream& words) {
   if (word == "close") return {Event{Closed{}}};
   if (word == "unplug") return {Event{MicrophoneLost{}}};

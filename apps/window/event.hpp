@@ -196,7 +196,7 @@ class Ear {
   EarState closed_ = EarState::kOff;
 };
 
-/// A sound file in place of a microphone: its samples arrive in real time, and end in silence.
+/// A sound file in place of a microphone: its samples arrive in real time, and none after its end.
 class SoundFile {
  public:
   /// Errors: those of stream_sound(), or a file without sound.

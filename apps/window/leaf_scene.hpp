@@ -31,11 +31,11 @@ inline constexpr float kGustMetres = 1.6F;  // metres per second at wind 1
 inline constexpr float kPointerMetres = 0.22F;  // radius of the pointer's wind, metres
 inline constexpr float kMaxWake = 2.5F;         // metres per second
 inline constexpr float kKicking = 0.55F;        // least wind that lifts a resting leaf, metres per second
-inline constexpr int kMaxKicks = 40;            // largest number per frame, since each searches all segments
-inline constexpr float kMinRest = 1.5F;         // seconds on the ground before a restart
-inline constexpr float kMoreRest = 4;
-inline constexpr float kFade = 0.6F;    // seconds of fading out before a restart
-inline constexpr float kCatch = 0.25F;  // seconds of fading in
+inline constexpr int kMaxKicks = 40;            // leaves lifted per frame, since each searches all segments
+inline constexpr float kMinRest = 1.5F;         // least seconds on the ground before a restart
+inline constexpr float kMoreRest = 4;           // largest random addition to it, seconds
+inline constexpr float kFade = 0.6F;            // seconds of fading out before a restart
+inline constexpr float kCatch = 0.25F;          // seconds of fading in
 
 inline float room_width(int width, int height) {
   return kViewHeight * static_cast<float>(width) / static_cast<float>(height);
@@ -135,7 +135,7 @@ class LeafScene {
       const float going = std::clamp((life.patience - life.rested) / kFade, 0.0F, 1.0F);
       const float coming = std::clamp(life.age / kCatch, 0.0F, 1.0F);
       FlockLeaf leaf{{life.last, life.attitude}, life.look, life.size, going * coming};
-      // A resting leaf is bent and stands on its rim.
+      // A resting leaf is curved and touches the floor with its rim, so its middle is above the floor.
       leaf.pose.position[2] = std::max(leaf.pose.position[2], kLift);
       leaves.push_back(leaf);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The player without the window: takes events, sound and time, returns a picture. Equal with and without a display.
+// The player without the window: takes events, sound and time, returns a picture. Runs with and without a display.
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,7 @@ struct PlayerFigures {
   int frames = 0;
   int went_out = 0;  ///< number of extinctions
   int relit = 0;
-  std::uint64_t clamped = 0, steps = 0;  ///< of the current bank
+  std::uint64_t clamped = 0, steps = 0;  ///< Bank::clamped() of the current scene
 };
 
 inline constexpr int kMin = 64, kMax = 8192;

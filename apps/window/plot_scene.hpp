@@ -33,7 +33,7 @@ class PlotScene {
 
   void resize(int width, int height) { width_ = width, height_ = height; }
 
-  /// Sets every input within its trained range: 0 is the middle, −1 and 1 the ends.
+  /// Sets every input relative to its trained range: 0 is the middle, −1 and 1 the ends. Clamped to ±1.5.
   void blow(float wind) { wind_ = wind; }
 
   void reset() {

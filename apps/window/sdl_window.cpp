@@ -80,7 +80,7 @@ class Microphone {
   // Passes on the samples since the last call.
   void pass_on(Ear& ear) {
     if (device_ == 0) return;
-    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // more is outdated: the window slept
+    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // half a second; if more waits, the window slept
     block_.resize(static_cast<std::size_t>(kSoundBlock) * channels_);
     if (SDL_GetQueuedAudioSize(device_) > kMaxWaitingBytes) SDL_ClearQueuedAudio(device_);
     for (;;) {

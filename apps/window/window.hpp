@@ -35,7 +35,7 @@ struct PlayOptions {
 struct PlayReport {
   PlayerFigures figures{};
   std::vector<KeptPicture> pictures{};
-  std::vector<std::string> said{};  ///< notices, such as a missing microphone or missing vertical sync
+  std::vector<std::string> said{};  ///< notices of a missing or lost microphone
   int drawn = 0;                    ///< number of frames
   double draw_ms = 0;               ///< processor time per frame for step and picture, mean
   double worst_draw_ms = 0;         ///< largest such time, except in the first ten frames

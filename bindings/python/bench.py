@@ -1,8 +1,8 @@
-"""What Python costs: learning beside the program, and reading a bank of 1,000 beside the C ABI.
+"""Measures what Python costs: learning against the program, and reading a bank of 1,000 instances against the C ABI.
 
     WISP_PROGRAM=build/release/bin/wisp WISP_LIBRARY=build/release/src/c/libwisp.so python3 bindings/python/bench.py
 
-Prints the best of several runs of each, and their ratio. A clock is no test: nothing fails here.
+Prints the fastest of several runs of each, and their ratio. No time makes it fail.
 """
 
 import ctypes

@@ -1,6 +1,6 @@
-"""Reads what the library's headers say of each field of a struct, as a C++ table for help(): field_docs.py HEADER… > OUT
+"""Extracts the headers' comments on fields of structs, as a C++ table for help(): field_docs.py HEADER… > OUT
 
-A field without words of its own has those of its type, of a field of the same name elsewhere, or of the field above it.
+A field without a comment takes that of its type, of a field of the same name elsewhere, or of the field above it.
 """
 
 import pathlib

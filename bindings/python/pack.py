@@ -1,6 +1,6 @@
-"""Packs the package and its stubs, and what reads films, into two wheels (PEP 427): pack.py FOLDER-OF-THE-PACKAGE TARGET
+"""Packs the package, and the extension that reads films, into two wheels (PEP 427): pack.py FOLDER-OF-THE-PACKAGE TARGET
 
-The first needs nothing but what every Linux has, so that its tag is a manylinux one; the second links FFmpeg.
+The first wheel links only libraries that every Linux has, and so gets a manylinux tag; the second links FFmpeg.
 """
 
 import base64
@@ -21,7 +21,7 @@ for extension in extensions:
         sys.exit(f"pack.py: {extension} is not there; expected it as this Python's own build names it")
 
 sys.path.insert(0, str(built))
-import wisp  # noqa: E402  (it knows its version)
+import wisp  # noqa: E402  (for its version)
 
 version = wisp.__version__
 tag = f"cp{sys.version_info[0]}{sys.version_info[1]}"
@@ -30,7 +30,7 @@ everywhere = {"libc.so.6", "libm.so.6", "libgcc_s.so.1", "libstdc++.so.6", "libp
 
 
 def platform_of(extension):
-    """The oldest glibc that has all symbols, where the extension needs nothing but what is everywhere."""
+    """The platform tag: manylinux with the oldest sufficient glibc if it links only `everywhere`, else this machine's."""
     here = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     if not here.startswith("linux_"):
         return here
@@ -43,7 +43,7 @@ def platform_of(extension):
 
 
 def pack(name, extension, summary, needs, more=()):
-    """One wheel: an extension, what else is in the package, and who wrote it."""
+    """Writes one wheel: an extension, further files of the package, and licences. Replaces older wheels of that name."""
     tags = f"{tag}-{tag}-{platform_of(extension)}"
     info = f"{name}-{version}.dist-info"
     metadata = f"""Metadata-Version: 2.1

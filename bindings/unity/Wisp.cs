@@ -1,4 +1,4 @@
-// Wisp for C# and for Unity: a thin cover of the C ABI (include/wisp/wisp.h), one file to copy into Assets/ beside the
+// Wisp for C# and for Unity: a thin wrapper of the C ABI (include/wisp/wisp.h), one file to copy into Assets/ beside the
 // native library (Assets/Plugins: libwisp.so, wisp.dll, libwisp.dylib). Calls of a frame allocate nothing: the caller
 // owns the arrays. An object may be used by one thread at a time.
 //

@@ -1,4 +1,4 @@
-"""A chain of recorded segments: a walk over modes, each of them a segment, that meet half-way."""
+"""Plays a chain of recorded segments: a walk over modes draws each segment; two joined segments each take half of the gap."""
 import itertools, math, sys
 import numpy as np
 from shared import F, normals, regress, unit_of, words
@@ -7,7 +7,7 @@ from shared import F, normals, regress, unit_of, words
 def vector(*numbers): return np.array(numbers, F)
 
 
-def dot(a, b):  # numpy's own adds in another order
+def dot(a, b):  # in this order of additions, which np.dot does not keep: results must agree to the bit
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:]):
         total = total + x * y
@@ -20,14 +20,14 @@ def clamped(numbers, most): return np.clip(numbers, -F(most), F(most))
 def share_of(word, count): return word * count >> 32
 
 
-class Turn:  # about z, by cosine and sine of its half; the whole and the half also times the scales of what they turn
+class Turn:  # a rotation about z: `half` is (cos, sin) of half the angle; `cos`, `sin` (angle) and `scaled` (half) include row scales
     def __init__(self, cos, sin, place, attitude):
         self.half = cos, sin
         self.cos, self.sin = (cos * cos - sin * sin) * place, cos * sin * (F(2) * place)
         self.scaled = cos * attitude, sin * attitude
 
 
-class Spread:  # two parabolas over so many steps, as their second differences
+class Spread:  # a fading offset of `steps` steps, two joined parabolas: factors that give the second difference of each
     def __init__(self, steps):
         m = (steps + 1) // 2
         n = steps - m
@@ -51,20 +51,20 @@ class Segments:
     def position(self, segment, row): return vector(*self.rows[self.first[segment] + row][:3])
     def rate(self, segment, end): return self.rates[2 * segment + end]
 
-    def quaternion(self, segment, row):  # as it is stored, made as long as that allows
+    def quaternion(self, segment, row):  # the stored quaternion, rescaled to the length 32767 and rounded
         q = self.rows[self.first[segment] + row][3:]
         square = float(sum(x * x for x in q))
         factor = 32767 / math.sqrt(square) if square > 0 else 0
         return vector(*(int(factor * x + (0.5 if factor * x >= 0 else -0.5)) for x in q))
 
-    def change(self, segment, end):  # of the stored quaternion in half a step
+    def change(self, segment, end):  # how the stored quaternion changes in half a step, at the start (0) or the end (1)
         spin, q = vector(*self.rate(segment, end)[3:]) * self.spin, self.quaternion(segment, end * self.steps[segment])
         v = spin * q[0] + cross(spin, q[1:])
         return vector(F(0) - dot(spin, q[1:]), *v) * F(0.5) * (F(0.5) * self.dt)
 
     def turn(self, cos, sin): return Turn(cos, sin, self.place, self.attitude)
 
-    def turn_after(self, turn, before, segment):  # how a segment lies that follows another
+    def turn_after(self, turn, before, segment):  # rotation of `segment` that joins it to `before`, which is rotated by `turn`
         a, b = self.quaternion(segment, 0), self.quaternion(before, self.steps[before])
         cos, sin = F(1), F(0)
         if not self.free:
@@ -76,7 +76,7 @@ class Segments:
         square = cos * cos + sin * sin
         return self.turn(cos * (F(1) / np.sqrt(square)), sin * (F(1) / np.sqrt(square)))
 
-    def gap(self, before, turn, segment, next_turn):  # half of what differs where two segments join
+    def gap(self, before, turn, segment, next_turn):  # half of the difference at a join: attitude, its change per step, step length
         def velocity(turn, v): return vector(turn.cos * v[0] - turn.sin * v[1], turn.sin * v[0] + turn.cos * v[1], v[2])
         slip = velocity(turn, vector(*self.rate(before, 1)[:3])) - velocity(next_turn, vector(*self.rate(segment, 0)[:3]))
         half = F(0.5) * self.dt * self.speed
@@ -85,7 +85,7 @@ class Segments:
         return clamped(lean * F(0.5), 1e9), clamped(rate, 1e9), clamped(slip * vector(half / self.place, half / self.place, half), 1e9)
 
 
-class Walk:  # what comes next: a mode by what came before, then a segment of it
+class Walk:  # draws the next mode by a Markov chain, then a segment of that mode
     def __init__(self, d, noise):
         self.noise, self.breadth, self.follow = noise, d["best_of"], d["follow"]
         self.modes = len(d["initial"])
@@ -112,7 +112,7 @@ class Walk:  # what comes next: a mode by what came before, then a segment of it
 
     def draw(self, before, w):
         mode = self.mode(w[0])
-        last = (self.state - 1) % self.modes  # rows: the beginning, after one mode, and after two
+        last = (self.state - 1) % self.modes  # rows of `tops`: the initial one, those after one mode, those after two
         self.state = 1 + mode + (self.modes * (1 + last) if self.history > 1 and self.state > 0 else 0)
         if before is None or self.breadth == 0:
             return self.any(mode, w[1])
@@ -120,7 +120,7 @@ class Walk:  # what comes next: a mode by what came before, then a segment of it
         return best[share_of(w[1], self.breadth) if self.noise else 0]
 
 
-class Gust:  # what the wind has changed of the velocity
+class Gust:  # change of the body's velocity due to wind, in m/s
     def __init__(self, d, model):
         low, high = min(i["range"][0] for i in model["inputs"]), max(i["range"][1] for i in model["inputs"])
         unit = unit_of({"range": [min(low, 0), max(high, 0)]})
@@ -156,12 +156,12 @@ def play_chain(model, winds, seed=1, noise=True):
     if of.free and size > F(1e-6):
         turn = of.turn(x / size, y / size)
 
-    def prepare(w):  # what follows, how it lies, and what differs
+    def prepare(w):  # draws the next segment; returns it, its rotation and half of the gap at the join
         after = walk.draw(segment, w)
         after_turn = of.turn_after(turn, segment, after)
         return after, after_turn, of.gap(segment, turn, after, after_turn) if blend else none
 
-    def spread(steps, a, b):  # what is added to the orientation, with its differences; and to the base
+    def spread(steps, a, b):  # a fade from offsets `a` to -`b`: orientation offset with its first and second differences; velocity offset
         s = Spread(steps)
         way, change = b[0] + a[0] + F(steps) * a[1], b[1] + a[1]
         first, second = s.way[0] * way + s.change[0] * change, s.way[1] * way + s.change[1] * change

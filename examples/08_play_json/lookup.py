@@ -1,4 +1,4 @@
-"""Residuals that no input drives: a block of rows is played, then one that begins where the model's state was alike."""
+"""Resampled residuals without a driving input: plays a block of rows, then jumps to a row where the model's state is similar."""
 import math
 from shared import F
 
@@ -6,7 +6,7 @@ TRAITS, PLACES, NEAREST, PARTS, NONE = 6, 128, 4, 32, F(1e30)
 
 
 class Lookup:
-    """Residuals row after row, and after a drawn time a jump to a place near in position and speed, and little played."""
+    """Plays residuals row after row. After a random time it jumps to a row near in position and speed and rarely played."""
 
     def __init__(self, model, rows, left):
         self.rows, self.left, rate = rows, left, model["rate_hz"]
@@ -23,10 +23,10 @@ class Lookup:
         self.traits = [self.position[b] + [self.quickness * (y - x) for x, y in zip(self.position[b], self.position[row])]
                        for b, row in zip(before, self.places)]
         self.ahead = [[min(row + k * ahead // 4, count - 1) // self.part_rows for k in (1, 3)] for row in self.places]
-        self.played, self.length, self.best = [(0, 0)] * 4, 0, []  # (last row, rows) of blocks; (cost, place), the best first
+        self.played, self.length, self.best = [(0, 0)] * 4, 0, []  # (last row, rows) of blocks; (cost, place), cheapest first
         self.weight, self.counts = F(0), [F(0)] * PARTS
 
-    def find_positions(self, model):  # of the components that move most, as if rows before each had been played
+    def find_positions(self, model):  # of each row: the model's output after the rows before it, in the components that vary most
         d, shape = model["dynamics"], (model.get("view") or {}).get("shape")
         r, ny, states, begin = d["noise"]["resampled"], len(d["output_mean"]), [], 0
         for row, residual in enumerate(r["rows"]):
@@ -64,7 +64,7 @@ class Lookup:
         self.quickness = F(min(math.sqrt(position / speed), 1e6)) if speed > 0 else F(0)
         self.position = [[F(min(max(state[k] * weights[k] * scale, -1e6), 1e6)) for k in order] for state in states]
 
-    def look(self):  # compares some places with where the block will end
+    def look(self):  # compares a few of the places with the end of the current block; a block's steps share the work
         (last, now), groups = self.played[0], -(-len(self.places) // 8)
         if now == 0 or now > self.length:
             return
@@ -84,7 +84,7 @@ class Lookup:
             if cost < NONE:
                 self.best = sorted(self.best + [(cost, k)], key=lambda one: one[0])[:NEAREST]
 
-    def barred(self, row, end, ahead):  # near what would follow, or played just now
+    def barred(self, row, end, ahead):  # whether a row is near the natural successor, or was played within 0.7 s
         room = self.recent
         for k, (last, count) in enumerate(self.played):
             last, count = last + (ahead if k == 0 else 0), min(count + (ahead if k == 0 else 0), room)

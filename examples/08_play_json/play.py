@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Plays a model from nothing but what `wisp info MODEL.wisp --json` says of it: a player in another language.
+"""Plays a model from the output of `wisp info MODEL.wisp --json` alone: a pattern for players in other languages.
 
     wisp info MODEL.wisp --json | python3 play.py [FRAMES] [WIND] [SEED] [on|off] >play.csv
 
 The numbers are those of `wisp run MODEL.wisp --frames FRAMES --wind WIND --seed SEED --noise on|off`, to the bit. WIND is a
-number, or a file of lines with one for each input. docs/reference/model-file.md ("How a model is played")
-says the same in words. Here are ARX and switched models; resampled.py and chain.py have the rest.
+number, or a file with a line per frame: one number per input, separated by commas. docs/reference/model-file.md ("How a model
+is played") says the same in words. This file plays ARX and switched models; resampled.py and chain.py have the rest.
 """
 import itertools, json, math, sys
 from chain import play_chain
@@ -13,7 +13,7 @@ from resampled import Resampled
 from shared import FORMS, F, clamp, edges, kept, normals, regress, settle, unit_of, words
 
 
-def likely(chances, word):  # a step of a Markov chain; without a word the likeliest
+def likely(chances, word):  # one step of a Markov chain by a random word; without a word, the most probable state
     last = max(k for k, p in enumerate(chances) if p > 0)
     sums = [min(math.floor(s * 2**32), 2**32 - 2) for s in itertools.accumulate(chances)]
     tops = [2**32 - 1 if k >= last else s for k, s in enumerate(sums)]
@@ -23,7 +23,7 @@ def likely(chances, word):  # a step of a Markov chain; without a word the likel
 
 
 class Life:
-    """Whether a flame burns: wind harms it; one that is out has the sizes of a recorded event and its last step's shape."""
+    """Extinction: wind adds harm, at harm 1 the flame goes out: its last shape is then scaled by the sizes of a recorded event."""
 
     def __init__(self, rule, model, seed):
         step, self.input = 1 / model["rate_hz"], [i["name"] for i in model["inputs"]].index(rule["input"])
@@ -47,7 +47,7 @@ class Life:
 
 
 def points_of(shape, components):
-    """Control points of a shape: rest + basis · components in pairs of flanks, symmetric coordinates first."""
+    """Control points of a shape: rest + basis · components; left and right points in pairs, symmetric coordinates first."""
     points, even, odd = len(shape["rest"]) // 2, shape["symmetric"], shape["antisymmetric"]
 
     def coordinate(i):
@@ -70,9 +70,9 @@ def points_of(shape, components):
 
 
 def play(model, winds, seed=1, noise=True):
-    """Yields the outputs of every frame; `winds` has the inputs of each."""
+    """Yields the outputs of every frame; `winds` has each frame's inputs."""
     d, outputs, shape = model["dynamics"], model["outputs"], (model.get("view") or {}).get("shape")
-    if shape:  # the dynamics move components of it
+    if shape:  # the dynamics' outputs are components of the shape
         outputs = [{"range": r} for r in shape["components"]]
     ny = len(outputs)
     if d["kind"] == "chain":
@@ -82,7 +82,7 @@ def play(model, winds, seed=1, noise=True):
     unit = [unit_of(o) for o in outputs] + [unit_of(item) ** power for item, _, power in forms]
     clamped = [[F((edge - mean) / u) for edge in edges(o)] for o, mean, u in zip(outputs, d["output_mean"], unit)]
 
-    def row(mode, i):  # of one output: its constant, its taps (weight, channel, lag), its shocks (size, deviate)
+    def row(mode, i):  # of output i: constant, taps (weight, channel, lag), shocks (standard deviation, index of the deviate)
         taps = [(b * unit[ny + k] / unit[i], ny + k, d["nk"][i][k] + lag)
                 for k in range(len(forms)) for lag, b in reversed(list(enumerate(mode["B"][i][k])))]
         taps += [(-a * unit[j] / unit[i], j, 1 + lag)

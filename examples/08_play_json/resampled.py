@@ -1,10 +1,10 @@
-"""Residuals as they were (the resampled residuals of a model's noise)."""
+"""Resampled residuals: the recorded residuals are played in blocks instead of Gaussian noise."""
 from lookup import Lookup
 from shared import F, bounded
 
 
 class Resampled:
-    """Residuals as they were: row after row, and a jump where another row's past is more like the input's."""
+    """Plays recorded residuals row after row, and jumps where another row's recorded input resembles the recent input more."""
 
     def __init__(self, model, unit):
         d = model["dynamics"]
@@ -37,7 +37,7 @@ class Resampled:
     def past(self, row, k):
         return -self.pasts[row][k] if self.turned[row] else self.pasts[row][k]
 
-    def grow(self, node, begin, end, nodes):  # a balanced tree over the pasts: halves by the lag that spreads widest
+    def grow(self, node, begin, end, nodes):  # a balanced k-d tree over the rows' input pasts: splits at the lag of widest range
         if node >= nodes:
             return
         spread = [max(column) - min(column) for column in
@@ -53,7 +53,7 @@ class Resampled:
         if self.toward >= 0:
             self.heard = [regressors[self.toward]] + self.heard[:-1]
 
-    def apart(self, row, side):  # how far the input's past is from a row's
+    def apart(self, row, side):  # distance of the recent input from a row's past: sum of absolute differences over the lags
         total = F(0)
         for then, lag in zip(self.pasts[row], self.lags):
             total = total + abs(then + self.heard[lag] if side else then - self.heard[lag])
@@ -70,7 +70,7 @@ class Resampled:
             node, word = 2 * node + 1 + right, (word << 1 | word >> 31) & 0xFFFFFFFF
         return self.order[begin:end]
 
-    def jump(self, on, ahead, words):  # where to go on; `ahead`: what staying costs, None where that cannot be
+    def jump(self, on, ahead, words):  # the next (row, side); `ahead`: the distance of `on`, None if the block cannot continue
         turned = len(self.sides) > 1 and sum((self.heard[lag] for lag in self.lags), F(0)) < 0
         found = [(row, int(turned != self.turned[row])) for row in self.leaf(turned, words[0])]
         fresh = [at for at in found if not any(n > 0 and at[0] <= last + 1 and at[0] + n > last for last, n in self.played)]
@@ -81,7 +81,7 @@ class Resampled:
             return on
         return nearest[words[1] * len(nearest) >> 32][1]
 
-    def step(self, words):  # what is added to every output
+    def step(self, words):  # returns the residual of every output, in units
         if self.toward < 0:
             return self.lookup.step(words)
         (row, side), steps = self.at, self.played[0][1]

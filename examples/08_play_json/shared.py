@@ -1,4 +1,4 @@
-"""Arithmetic of the players: single precision, random words and deviates, and an input as the dynamics see it."""
+"""Arithmetic of the players: single precision, random words and deviates, and the regressors of an input."""
 import math
 import numpy as np
 
@@ -11,12 +11,12 @@ def settle(z): return F(0) if abs(z) < F(1e-20) else z
 def clamp(z, low, high): return min(max(z, low), high)
 
 
-def edges(item):  # the range and half of it more on either side
+def edges(item):  # limits of clamping: the range, extended on either side by half of its width
     low, high = item["range"]
     return low - 0.5 * (high - low), high + 0.5 * (high - low)
 
 
-def unit_of(item):  # a power of two near the range
+def unit_of(item):  # 1 where the range is 1/128 to 128 wide, else the largest power of two not above its width
     size = item["range"][1] - item["range"][0]
     return 1.0 if size <= 0 or 1 / 128 <= size <= 128 else 2.0 ** (math.frexp(size)[1] - 1)
 
@@ -25,7 +25,7 @@ FORMS = {"linear": [("whole", 1)],
          "even_odd": [(part, power) for part in ("size", "whole") for power in (1, 0.5, 2)]}
 
 
-def regress(item, part, power, mean, u):  # one of the numbers that the dynamics see of an input
+def regress(item, part, power, mean, u):  # one regressor of the input value u, in units and without its mean
     unit = unit_of(item)
     u = clamp(F(u), *map(F, edges(item)))
     u = abs(u) if part == "size" else u
@@ -46,7 +46,7 @@ def words(seed, step, group, stream=0):  # Philox4x32 of 7 rounds: four random w
     return w
 
 
-def normals(word):  # the two deviates that a word stands for
+def normals(word):  # converts a random word to two standard normal deviates
     def polynomial(x, *c): return F(c[0]) + x * polynomial(x, *c[1:]) if c[1:] else F(c[0])
     bits = int((F(word & 0xFFFFF) + F(0.5)).view(np.uint32)) - 0x3F3504F3 - (20 << 23)
     place = np.uint32((bits & 0x7FFFFF) + 0x3F3504F3).view(F) - F(1)

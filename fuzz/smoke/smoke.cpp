@@ -1,5 +1,5 @@
-// Runs a fuzzer's target over its seeds and over seeds that were changed: a few thousand inputs, the same every time,
-// with any compiler. script/fuzz goes on from there for hours.
+// Runs a fuzzer's target over its seeds and over INPUTS changed seeds, the same ones every time, with any compiler.
+// script/fuzz searches for longer.
 //
 //   smoke FOLDER-OF-SEEDS INPUTS
 

@@ -1,5 +1,5 @@
 // `wisp capture outline`, its preset `wisp capture flame`, `capture brightness`, `capture wind` and `capture fall`:
-// each converts a clip to a recording.
+// each converts a clip to a recording; `brightness` also takes a photodiode's table, and `wind` a sound file.
 
 #include <algorithm>
 #include <chrono>
@@ -18,14 +18,15 @@
 namespace wisp::cli {
 namespace {
 
-// Whether output goes to a folder: for several clips, or one clip (a wildcard may match one) where the folder exists.
+// Whether --output is a folder: with several clips, if it ends in a slash or exists (a wildcard may match one clip).
 bool goes_to_folder(const Arguments& arguments) {
   std::error_code none;
   const std::filesystem::path output(arguments.text("output"));
   return arguments.positionals().size() > 1 || !output.has_filename() || std::filesystem::is_directory(output, none);
 }
 
-// Output paths of several clips: their own names in the folder. Errors: two with one name, no folder.
+// One output path per clip: the clip's name in the folder, which is created.
+// Errors: two clips with the same name; `folder` is a table's name or cannot be created.
 Result<std::vector<std::filesystem::path>> tables_in(const std::string& folder, const std::vector<std::string>& clips) {
   if (is_table(folder)) {
     return Error{"--output " + folder + " is the name of one recording, expected a folder for those of " +
@@ -101,7 +102,7 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
 }
 
 // Number of samples during which a lamp or an amplifier starts up: the first ones that are below all samples after the
-// first second. 0 if the first sample is at least half of the mean.
+// first second. 0 if the first sample is at least half of the mean, or if the trace lasts at most a second.
 std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
   const auto second = std::min(light.size(), static_cast<std::size_t>(std::max(1.0, rate_hz)));
   if (second == light.size() ||

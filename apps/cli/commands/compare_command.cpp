@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxPlots = 4;
 
-// Reads models and names them by their files' names, or by whole paths where two names are equal.
+// Reads models and names each by its file's name, or by its whole path if an earlier model has that name.
 Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& paths) {
   std::vector<NamedModel> models;
   std::vector<std::string> names;
@@ -31,7 +31,7 @@ Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& path
   return models;
 }
 
-// Inputs and outputs of all models.
+// Table options with the inputs and outputs of all models, and the rate of the first.
 CsvOptions channels_of(const std::vector<NamedModel>& models) {
   CsvOptions all{.rate_hz = models.front().model.rate_hz};
   const auto add = [&](const auto& channels, std::vector<std::string>& names) {
@@ -46,7 +46,7 @@ CsvOptions channels_of(const std::vector<NamedModel>& models) {
   return all;
 }
 
-// One plot per output, with the measured line first.
+// One plot per output, up to kMaxPlots, with the measured line first.
 PlotSheet sheet_of(const Report& report) {
   PlotSheet sheet{.columns = 1, .plot_width = 800};
   for (const ReportSeries& series : report.sections.front().series) {

@@ -132,7 +132,7 @@ Result<void> all_steps(const Places& places, const Clips& clips, const Arguments
   const std::string frames = std::to_string(std::max(1, static_cast<int>(20 * model->rate_hz)));
   Step film{"run", run_command(), {path}, {{"output", places.at("flame.mp4")}, {"frames", frames}}};
   if (!model->inputs.empty()) film.flags.push_back({"input", recording});
-  // A film on black has no candle to show.
+  // Draws on the clip's own candle, unless capture found none (a flame on black).
   const auto seen = [](const Figure& figure) { return figure.name == kCandleFigures[0]; };
   if (is_flame(*model) && std::ranges::any_of(model->training.figures, seen)) film.flags.push_back({"clip", recording});
   return run(film, terminal);

@@ -316,7 +316,7 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
     if (!merged) return merged.error();
     return merged->finish(recipe, terminal.progress());
   }
-  // A search, a preparation, open delays and free runs need all recordings in memory.
+  // A search, a preparation, --nk auto and --focus simulation need all recordings in memory.
   const bool whole = arguments.has("search") || arguments.has("prepare") || !recipe.nk;
   if (whole || recipe.focus == ArxFocus::kSimulation || !too_large(arguments)) {
     return learned_from_memory(recipe, arguments, terminal);

@@ -11,7 +11,7 @@
 namespace wisp::cli {
 namespace {
 
-// Rows of --range of falls; pairs stay whole, as every gust needs all of its clones.
+// Applies --range to recordings of falls. Those of a pair stay whole, since every gust needs all of its clones.
 Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
   for (Recording& recording : recordings) {
     if (find_attribute(recording, "pair")) continue;

@@ -29,7 +29,7 @@ using window::SceneKind;
 // File of the first flame: the one with the default recipe, as on the page.
 constexpr const char* kFirst = "flame.wisp";
 
-// Rank in the list: the first flame, other kinds, then flames of other orders.
+// Rank in the list: the first flame, falling bodies, other outlines, then plain models.
 int rank(const fs::path& path, const View& view) {
   if (path.filename() == kFirst) return 0;
   if (std::holds_alternative<PlainView>(view)) return 3;
@@ -64,8 +64,7 @@ std::vector<fs::path> model_folders() {
   return folders;
 }
 
-// Models of the first folder that has any: flames, falling things, others, each sorted by name. Other files are
-// skipped.
+// Models of the first folder that has any, sorted by rank and then by name. Files that are no models are skipped.
 std::vector<fs::path> shipped_models() {
   for (const fs::path& folder : model_folders()) {
     if (auto models = models_in(folder); !models.empty()) return models;

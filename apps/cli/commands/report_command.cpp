@@ -104,7 +104,7 @@ class Scratch {
   fs::path path_;
 };
 
-// Pictures of a folder: vector graphics, and pixels where there are none, as for a film strip.
+// Pictures below a folder: all .svg files, and .png files without an .svg of the same name, such as a film strip.
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> pictures;
   std::error_code error;

@@ -47,7 +47,7 @@ Result<SteerTarget> target_from(const std::string& text) {
 }
 
 // Target of the walk from --steer.
-// Errors: a model that cannot be steered, or a number out of range.
+// Errors: a model that cannot be steered; text of another form; a number out of range.
 Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const Arguments& arguments) {
   if (!arguments.has("steer")) return std::optional<SteerTarget>();
   const auto* chain = std::get_if<ChainModel>(&model.dynamics);
@@ -117,7 +117,7 @@ class Player {
 
   bool burns(int slot) const { return burnt_[slot]; }
 
-  // Wind that carries smoke: the input of the extinction rule.
+  // Wind that carries smoke: the input of the extinction rule; of a body, the wind to the right of the camera.
   float wind(const std::vector<float>& inputs) const {
     const auto& rule = play_.model.extinction;
     if (!rule) return 0.0F;
@@ -130,7 +130,7 @@ class Player {
     return camera;
   }
 
-  // Extinctions of instances, for programs.
+  // Table of extinctions: instance and frame.
   const ReportTable& deaths() const { return deaths_; }
 
  private:
@@ -224,7 +224,7 @@ Result<void> write_falls(const Play& play, const Bank& bank, Player& player, con
                          Terminal& terminal) {
   const auto& pose = std::get<PoseView>(play.model.view);
   LeafFilmOptions film{.max_seconds = static_cast<double>(play.frames) / play.model.rate_hz};
-  // A leaf's long axis is the body's x axis; the pose has the half width across it.
+  // A leaf's long axis is the body's first axis, along which PoseView::half_width is measured.
   if (pose.half_width > 0) film.style.length = static_cast<float>(2 * pose.half_width);
   if (pose.half_length > 0) film.style.width = static_cast<float>(2 * pose.half_length);
   return write_leaf_film(path, falls(play, bank, player), film, terminal);
@@ -276,7 +276,7 @@ Result<void> check_drive(const Model& model, const Arguments& arguments) {
   return {};
 }
 
-// Warns of wind above the range of a chain's training: it is clamped to 1.5 times that range.
+// Warns of wind above the range of a chain's training, where its response is extrapolated and then clamped.
 void warn_of_wind(const Play& play, Terminal& terminal) {
   if (!std::holds_alternative<ChainModel>(play.model.dynamics)) return;
   std::vector<float> most(play.model.inputs.size());
@@ -304,7 +304,7 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// Applies --camera, --orbit and --toward, for models of bodies.
+// Applies --camera, --orbit, --wind-direction: converts the model to a body. Errors: it cannot be one; bad --camera.
 Result<void> go_round(const Arguments& arguments, Play& play) {
   if (!arguments.has("camera") && arguments.number("orbit") == 0) return {};
   auto round = in_the_round(play.model);
@@ -341,7 +341,7 @@ Result<Play> prepare(const Arguments& arguments) {
   return play;
 }
 
-// Watches the film of --clip.
+// Learns the look of the candle in the film of --clip, on which the flame is drawn.
 Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& play) {
   if (!arguments.has("clip")) return {};
   const std::string &path = arguments.text("clip"), &out = arguments.text("output");

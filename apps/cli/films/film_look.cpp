@@ -225,7 +225,7 @@ float FilmLook::stillness(std::size_t pixel, float height) const {
 }
 
 void FilmLook::finish() {
-  constexpr float kUnlit = 0.25F;  // of the light of a room that no frame showed without its flame
+  constexpr float kUnlit = 0.25F;  // brightness without the flame, as a share, if no frame shows the room without it
   colours_ = flame_colours();
   plate_ = surroundings();
   foot_.resize(plate_.size());

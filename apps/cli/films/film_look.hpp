@@ -38,13 +38,14 @@ class FilmLook {
   bool known() const { return frames_ > 0; }
 
   /// Draws the view with another outline burning in it; empty: none. `light`, 0 to 1, is the share of the flame's light
-  /// that falls on the surroundings: at 0 they are as when the flame is out or, if no frame showed that, at a quarter.
+  /// that falls on the surroundings: at 0 they look as in frames without a flame or, if there were none, at a quarter
+  /// of their brightness.
   ///
   /// Precondition: known() and finish().
   Image draw(std::span<const Point> outline, float light = 1) const;
 
  private:
-  using Sum = std::array<float, 4>;  // sums of red, green and blue codes, and their count
+  using Sum = std::array<float, 4>;  // weighted sums of red, green and blue codes, and sum of the weights
 
   float stillness(std::size_t pixel, float height) const;
 
@@ -55,8 +56,8 @@ class FilmLook {
   int frames_ = 0;
   std::vector<Sum> flame_;      // by height in the flame and depth inside its outline
   std::vector<Sum> around_;     // per pixel, over frames with the flame elsewhere
-  std::vector<Sum> still_;      // per pixel, over all frames: wick and wax
-  std::vector<float> squares_;  // per pixel, over all frames: squared sum of its codes
+  std::vector<Sum> still_;      // per pixel, over frames with an outline: wick and wax
+  std::vector<float> squares_;  // per pixel, over frames with an outline: sum of squares of its brightness
   std::vector<Sum> out_;        // per pixel, over frames without a flame
 
   // Means, computed by finish().

@@ -29,16 +29,16 @@ int number_attribute(const Recording& recording, const char* name);
 /// The clip's frame of the first row, 0-based.
 std::size_t first_frame_of(const Recording& recording);
 
-/// Visits the clip's frames that have a row in the recording, up to `last_row`.
-/// Errors: the clip cannot be read; those of `visit`.
+/// Visits the clip's frames from the first row to `last_row`; `visit` takes the row and a function that returns its
+/// image. Errors: the clip cannot be read; those of `visit`.
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
                           const std::function<Result<void>(std::size_t, const std::function<Image()>&)>& visit);
 
-/// The outline in model units, of that many pixels.
+/// Converts an outline from the clip's pixels to model units, each `pixels_per_unit` long.
 Outline in_units(Outline outline, double pixels_per_unit);
 
-/// Space that a view takes about the flame's base, in model units; less where the clip ends before, but not less than
-/// the flame needs.
+/// Space that a view takes about the flame's base, in model units; less where the clip's edge is nearer, but at least
+/// `least_beside` and `least_above`.
 struct ViewSpace {
   double beside = 1.5, least_beside = 0.5;  ///< to each side
   double above = 2.1, least_above = 1.1;
@@ -47,15 +47,15 @@ struct ViewSpace {
 
 class FilmedFlame {
  public:
-  /// A view of `height` pixels on outlines captured from a clip of `width_of_clip` × `height_of_clip` pixels (0:
-  /// unknown). It follows the base only where that moves, as with a camera in the hand.
+  /// A view of `height` pixels on outlines captured from a clip of `clip_size` (width and height in pixels, 0:
+  /// unknown). The view follows the flame's base only if the base moves, as with a hand-held camera.
   ///
   /// Precondition: height > 0, pixels_per_unit > 0.
   FilmedFlame(const OutlineRows& captured, double pixels_per_unit, std::array<int, 2> clip_size, const ViewSpace& space,
               int height);
 
-  /// Learns the look from frames spread over the clip's first minute, and returns the views of the rows shown. A row
-  /// whose frame was lost takes the next frame. Errors: the clip cannot be read.
+  /// Learns the look from frames spread over the first 1800 rows (from 24 rows if the base moves), and returns the
+  /// views of the rows shown. A row whose frame was lost takes the next frame. Errors: the clip cannot be read.
   Result<std::map<std::size_t, Image>> watch(const ClipFrames& clip, const OutlineRows& captured,
                                              const std::vector<std::size_t>& shown = {});
 
@@ -82,8 +82,8 @@ class FilmedFlame {
   FilmLook look_;
 };
 
-/// The flame of the film that a recording names as its source, watched. Errors: the film cannot be read, or none of its
-/// frames has an outline.
+/// The flame of the film that a recording names as its source, after watch(), in a view of `height` pixels.
+/// Errors: the recording names no film or has no outline; the film cannot be read; none of its frames has an outline.
 Result<FilmedFlame> filmed_flame(const Recording& recording, int height);
 
 }  // namespace wisp::cli

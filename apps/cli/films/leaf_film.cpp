@@ -89,7 +89,7 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
     }
     fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
     falls.push_back(fall);
-    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // at rest from this time on
+    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // when this fall's leaf lies flat
     row = fall.last + 1;
   }
   return falls;

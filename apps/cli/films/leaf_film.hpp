@@ -35,7 +35,7 @@ struct LeafPanel {
   std::string caption{};  ///< empty: none
 };
 
-/// Writes a film with several recordings side by side, in equal shares of the width, with as many leaves as fit.
+/// Writes a film with several recordings side by side, in equal shares of the width, each with 3/5 of the leaves.
 /// Errors: as write_leaf_film(); rates that differ.
 ///
 /// Precondition: !panels.empty().

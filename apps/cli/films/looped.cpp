@@ -71,7 +71,6 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
 }
 
 Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal) {
-  // A loop has constant conditions.
   auto constant = refuse(arguments, {"frames", "input", "relight", "steer", "clip"},
                          "does not go with --loop, a loop of so many seconds in a constant wind");
   if (!constant) return constant;

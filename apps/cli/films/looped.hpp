@@ -14,8 +14,8 @@ namespace wisp::cli {
 /// The flag --loop of `run` and `export`.
 Flag loop_flag();
 
-/// Plays the take requested by --loop, --seconds, --instances, --seed, --noise and --wind; adds its size to the result.
-/// Errors: as take(); --wind for a model without inputs.
+/// Plays the take requested by --loop, --seconds, --instances, --seed, --noise and --wind or --input; adds its size to
+/// the result. `round`: as TakeOptions::round. Errors: those of take() and InputTrack::from(); --wind without an input.
 Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal, bool round = false);
 
 /// `run --loop`: writes the loop as numbers (.csv) or, for outlines, as a film (.mp4) whose last frame joins its first.

@@ -20,7 +20,7 @@ struct OverlayContent {
 };
 
 /// Writes the clip with captured and simulated outlines drawn over it.
-/// Errors: the clip or the film cannot be read or written.
+/// Errors: the recording lacks its picture's width or height; the clip cannot be read; the film cannot be written.
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
                            const OverlayContent& content, Terminal& terminal);
 
@@ -37,7 +37,7 @@ struct StripContent {
 };
 
 /// Writes the strip: filmed frames above (drawn from the captured outline without a clip), synthesized frames below in
-/// the clip's own crop, colours and exposure. Errors: as write_overlay().
+/// the clip's own crop, colours and exposure. Errors: the clip cannot be read; the strip cannot be drawn or written.
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content);
 
 }  // namespace wisp::cli

@@ -12,8 +12,8 @@ namespace wisp::cli {
 /// Additions to the help of the order flags.
 struct OrderHelp {
   const char* fallback;    ///< default of --na and --nb
-  const char* of_a = "";   ///< object that A describes
-  const char* delay = "";  ///< further values of --nk
+  const char* of_a = "";   ///< appended to "order of A" in the help of --na
+  const char* delay = "";  ///< appended to the help of --nk: further values
 };
 
 /// The flags --na, --nb and --nk.
@@ -24,7 +24,7 @@ std::vector<Flag> order_flags(const OrderHelp& help);
 /// Errors: text that cannot be parsed or has another shape, with what was found and expected.
 Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& flag);
 
-/// All values of --steps: numbers of steps ahead, or `inf` for kFreeRun. Errors: a value of another form.
+/// All values of --steps: numbers of steps ahead, 1 to 100000, or `inf` for kFreeRun. Errors: any other value.
 Result<std::vector<int>> steps_in(const Arguments& arguments);
 
 Flag initial_flag();

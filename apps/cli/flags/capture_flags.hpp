@@ -10,18 +10,18 @@
 
 namespace wisp::cli {
 
-/// Flags --points, --channel, --dark, --region, --frames, --rate and --wind-measure.
+/// Flags --points, --channel, --flame (default `flame`), --dark, --region, --frames, --rate and --wind-measure.
 std::vector<Flag> capture_flags(const std::string& flame);
 
 /// Capture options from these flags.
-/// Errors: a value out of range.
+/// Errors: a --region of another form or without area.
 Result<ClipCapture> capture_options(const Arguments& arguments);
 
 /// Why a flag of clips is refused where a table is read.
 std::string of_clips(const std::string& table);
 
 /// Recordings of outlines: tables are read, other files are captured, with the curve shape of the first. A bad one is
-/// an error or, with --skip-bad, skipped and listed.
+/// an error or, with --skip-bad, skipped and listed. Errors: also if none remains; flags of clips for tables alone.
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal);
 

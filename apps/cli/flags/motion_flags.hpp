@@ -17,8 +17,8 @@ std::vector<Flag> motion_flags();
 /// Errors: not three positions, or not four orientations.
 Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 
-/// Options for reading a plain table of motion. Names that learning expects need no flag unless flags give others; the
-/// same holds for the rate. A time column is kept, so that uneven time is detected.
+/// Options for reading a plain table of motion. Columns with the names that learning expects need no flags. `rate_hz`
+/// is used if neither a flag nor the table states the rate. A time column is kept, so that uneven time is detected.
 CsvOptions motion_table(const Arguments& arguments, double rate_hz = 0);
 
 /// Renames the columns of a recording to those that learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z.

@@ -41,7 +41,7 @@ Result<Preparation> preparation_of(const Arguments& arguments) {
 
 namespace {
 
-// Hz: range of sampling rates for recordings of moving things, from once in eleven days to a radio's.
+// Accepted sampling rates, Hz: from one sample in 11.6 days to those of radio receivers.
 constexpr double kMinRate = 1e-6, kMaxRate = 1e7;
 
 std::string extension_of(const std::filesystem::path& path) {

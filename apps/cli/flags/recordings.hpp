@@ -30,7 +30,7 @@ bool is_table(const std::filesystem::path& path);
 bool is_matlab(const std::filesystem::path& path);
 
 /// Options for reading a table from --inputs, --outputs, --columns, --rate and --dt, with `otherwise` for flags not
-/// given. Errors: --dt that is not above 0.
+/// given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
 /// Reads one table with the options of csv_options().

@@ -39,7 +39,7 @@ WindMeasure measure_of(const Input& input) {
   return WindMeasure::kSpeed;
 }
 
-// Value of an input's channel that equals 1 in the model. Speeds are scaled by the sound itself.
+// Value of an input's channel that equals 1 in the model. Wind speeds heard in a sound are already in the model's unit.
 Result<double> scale_of(const Model& model, std::size_t input) {
   if (measure_of(model.inputs[input]) != WindMeasure::kRms) return 1.0;
   if (input < model.training.inputs.size()) return model.training.inputs[input].scale;

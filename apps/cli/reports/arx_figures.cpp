@@ -17,7 +17,7 @@ constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxOutputs = 4;
 constexpr std::size_t kMaxRows = 1000;       // maximum rows of a plot: more rows than pixels are illegible
 constexpr std::size_t kPredictedRows = 200;  // few enough to show the interval's width
-constexpr double kFar = 1.5;                 // larger zeros would shrink the unit circle to a dot, and are only listed
+constexpr double kFar = 1.5;  // zeros beyond this |z| would shrink the unit circle to a dot; the title counts them
 
 // Series of a report, by their ids.
 class Figures {
@@ -62,7 +62,7 @@ PlotSeries unit_circle() {
   return circle;
 }
 
-// Marks of a pole (a cross, by convention) or a zero (a ring).
+// Poles, drawn as crosses by convention.
 PlotSeries crosses(const ReportSeries& places) {
   constexpr double kArm = 0.04;
   PlotSeries series{.label = "poles ×", .width = 1.6};

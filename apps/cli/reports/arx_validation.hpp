@@ -23,7 +23,7 @@ Result<void> write_arx_figures(const std::filesystem::path& folder, const Model&
 
 /// Validates a model on a table: fit, J and errors per number of steps, coverage of the model's own intervals, and
 /// residual tests; with --figures also their plots.
-/// Errors: the table cannot be read or lacks the model's channels; a flag for outlines only.
+/// Errors: the table cannot be read or lacks the model's channels; a flag that draws nothing for this kind of model.
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);
 

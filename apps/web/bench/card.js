@@ -1,5 +1,5 @@
-// Pastes a link into a made-up conversation and shows the card that programs make of it: what the page says of itself in
-// its head, and the picture at the address that it gives.
+// Renders the card that chat programs make of a link: title, description and og:image from the head of the page, in a
+// mock conversation.
 //
 //     npm run card --workspace apps/web -- [ADDRESS] [PICTURE.png]        default: the built page, card.png in the folder for temporary files
 
@@ -15,7 +15,7 @@ const image = new URL(told['og:image'] ?? '', address);
 const answer = await fetch(image);
 if (!answer.ok) throw new Error(`${image} is not there (${answer.status})`);
 const bytes = Buffer.from(await answer.arrayBuffer());
-// Two of three programs take whole addresses alone.
+// Two of three chat programs accept absolute addresses only.
 if (!/^https?:/.test(told['og:image'])) console.log('og:image is relative: build with WISP_ADDRESS=https://… before it is published');
 const page = await opened.browser.newPage({ viewport: { width: 420, height: 520 } });
 await page.setContent(`<style>

@@ -8,11 +8,11 @@ import { fileURLToPath } from 'node:url';
 
 const CLIPS = 24;
 const SECONDS = 2;
-/** Seconds of wind before each, for the played flame to live through. */
+/** Seconds of wind before each clip, in which the played flame settles. */
 const BEFORE = 2;
-/** Of the outlines that are kept, a second; wind is kept whole. */
+/** Outlines kept per second; wind is kept at the recording's rate. */
 const RATE = 30;
-/** Stronger wind may put a flame out. */
+/** Clips with stronger wind are skipped, since it may extinguish the flame. */
 const MOST_WIND = 1.3;
 const out = fileURLToPath(new URL('../public/models/filmed.json', import.meta.url));
 

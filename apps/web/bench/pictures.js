@@ -1,4 +1,4 @@
-// Pictures of every state of the page, at the sizes of a phone, a laptop and a large screen: for eyes, not for tests.
+// Takes pictures of every state of the page, at the sizes of a phone, a laptop and a large screen. No test compares them.
 //
 //     npm run pictures --workspace apps/web -- FOLDER [STATE…] [--size 390x844]…      default: all states, all sizes
 
@@ -14,7 +14,7 @@ if (folder === undefined) throw new Error('which folder do the pictures go to?')
 if (sizes.length === 0) sizes.push('390x844', '1280x800', '2560x1440');
 
 const pass = (page, seconds) => page.waitForTimeout(1000 * seconds);
-/** What is done before a picture is taken, from a link on. */
+/** Per state: the link, and the actions before its picture is taken. */
 const states = {
   candle: ['#scene=candle', (page) => pass(page, 2)],
   lean: ['#scene=candle', async (page) => {
@@ -44,7 +44,7 @@ for (const size of sizes) {
   const [width, height] = size.split('x').map(Number);
   for (const name of wanted.length > 0 ? wanted : Object.keys(states)) {
     const [hash, act] = states[name];
-    // Coarse while it comes about, so that time passes where the processor draws; then as it is.
+    // Low detail until the state is reached, so that frames are fast without a graphics card; then full detail.
     const page = await opened.page(`${hash}&seed=3&detail=0.1`, { viewport: { width, height } });
     await act(page);
     await page.evaluate(() => {

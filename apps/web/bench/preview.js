@@ -1,5 +1,5 @@
-// The pictures that stand for the page elsewhere, made of the page itself: its icons, the picture in a message, and the
-// README's first one, which moves: a flame of the rig's model burns, is blown out, smokes, and is lit again.
+// Makes the pictures that represent the page elsewhere: icons from icon.svg and, from the page itself, the preview in
+// messages and the README's animation, in which the shipped flame burns, is blown out, smokes, and is lit again.
 //
 //     npm run preview --workspace apps/web        after script/web build; then build once more
 
@@ -16,10 +16,10 @@ const MOST_BYTES = 1_000_000;
 /** CSS pixels that the page keeps free for its controls below the picture. */
 const COVERED = 118;
 const RATE = 15;
-/** Seconds at which something happens. */
+/** Times of the actions in the animation, seconds. */
 const ACTS = { blow: 1.2, breathe: 2, light: 4.4, end: 6.6 };
 
-/** In the page: time passes by steps, so that a slow machine films what a quick one shows. */
+/** Runs in the page: time advances by calls of step(), so that a slow machine films what a fast one shows. */
 function steps() {
   const real = window.requestAnimationFrame.bind(window);
   let waiting = [];
@@ -40,7 +40,7 @@ const opened = await openBrowser();
 const open = async (hash, width, height) => {
   const page = await opened.page(hash, { viewport: { width, height: height + COVERED }, bypassCSP: true, before: steps });
   await page.addStyleTag({ content: 'body > :not(#stage) { display: none !important; }' });
-  // Coarse, until what is to be kept.
+  // Low detail while the scene settles, then full detail for the pictures that are kept.
   const pass = async (seconds) => {
     for (let k = 0; k < seconds * 30; ++k) await page.evaluate(() => window.step(1 / 30));
   };
@@ -73,8 +73,8 @@ async function inMessages() {
 }
 
 /**
- * Pictures as one WebP that moves for ever, every frame whole: an encoder of differences leaves the edges of its rectangles in
- * dark pictures. Container: https://developers.google.com/speed/webp/docs/riff_container
+ * Joins pictures into one endlessly repeated WebP of whole frames: encoders of differences leave visible rectangles in dark
+ * pictures. Container: https://developers.google.com/speed/webp/docs/riff_container
  */
 function animated(pictures, width, height) {
   const chunk = (name, ...parts) => {

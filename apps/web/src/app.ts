@@ -46,7 +46,7 @@ export class App {
   private readonly backButton = byId('back', HTMLButtonElement);
   private readonly tuneButton = byId('tune-play', HTMLButtonElement);
   private readonly greeting = byId('greeting', HTMLElement);
-  /** whether keys without Ctrl or Alt act */
+  /** whether keys of a single character act */
   singleKeys = true;
   readonly help = byId('help', HTMLDialogElement);
   readonly notices = new Notices(byId('notices', HTMLElement));
@@ -264,7 +264,7 @@ export class App {
     const data: ShareData = { title: name === '' ? 'Blow it out' : `For ${name}: blow it out`, url: location.href };
     const picture = new File([await this.stage.snapshot()], 'candle.png', { type: 'image/png' });
     const whole = { ...data, files: [picture] };
-    // A cancelled dialog needs no message.
+    // Cancelling the dialog is not an error.
     await navigator.share(navigator.canShare?.(whole) === true ? whole : data).catch(() => undefined);
     return 'Sent';
   }
@@ -404,7 +404,7 @@ export class App {
     return { wick: page(wick), match: page(match) };
   }
 
-  /** Direction of wind: across by keys and tilt, away from the eye by the microphone. */
+  /** Wind as a vector: to the right by keys and tilt, away from the eye by microphone and tilt. */
   private air(): Air {
     const { right, away } = this.breath.air;
     const tilt = this.parts?.senses.air ?? { right: 0, away: 0 };

@@ -16,10 +16,9 @@ import { Ear } from './wind/ear.js';
 
 export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
-/** Parts of the page available from then on. */
+/** Parts of the page that furnish() creates. */
 export type Parts = ReturnType<typeof furnish>;
 
-/** Creates these parts. */
 export function furnish(app: App) {
   const ear = new Ear(app);
   const tuning = new Tuning(ear, byId('tuning', HTMLElement), byId('blow', HTMLButtonElement));

@@ -4,7 +4,7 @@ import { fetchBytes } from './shipped.js';
 
 /** Prefix of packed models (no address begins so): the compressed bytes follow in base64url. */
 const PACKED = 'packed,';
-/** Maximum length of a packed model; programs truncate longer links. */
+/** Maximum size of a model in a link, bytes before packing; programs truncate longer links. */
 export const MAX_PACKED_BYTES = 24_000;
 
 async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {

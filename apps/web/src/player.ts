@@ -14,7 +14,7 @@ export interface Playing {
   model: Model;
   bytes: Uint8Array;
   file: string;
-  /** false: a dropped file */
+  /** false: a dropped file, or the model of a link */
   shipped: boolean;
   /** whether its wind response is borrowed from the shipped flame */
   borrows: boolean;

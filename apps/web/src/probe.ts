@@ -18,7 +18,7 @@ export class Probe {
   burning: { lit: number; of: number } | null = null;
   /** whether smoke is in the air */
   smoking = false;
-  /** number of leaves in the air and on the ground; null in other scenes */
+  /** number of all leaves, and of those on the ground; null in other scenes */
   leaves: { count: number; lying: number } | null = null;
   /** x of the first candle, room units from the middle */
   candleX = 0;

@@ -86,7 +86,7 @@ export class StudioDoor {
     if (app.parts?.ear.state === 'off') app.toggleMicrophone();
   }
 
-  /** Saves some seconds of it there. Returns a message about the result. */
+  /** Saves a film or GIF of a flame in the page's own scene. Returns a message about the result. */
   async film(file: string, model: Uint8Array, kind: Moving): Promise<string> {
     const { app } = this;
     await app.player.playFile(file, model);

@@ -341,7 +341,7 @@ export class Bank {
     });
   }
 
-  /** Number of steps of instances with an output clamped to its range, and of all such steps. */
+  /** Number of instance-steps in which an output was clamped to its range, and of all instance-steps. */
   clamped(): { clamped: number; steps: number } {
     const { clamped, steps } = this.facts;
     return { clamped, steps };

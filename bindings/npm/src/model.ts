@@ -9,7 +9,7 @@ export interface Channel {
   name: string;
   /** Unit of the values; '' if none. */
   unit: string;
-  /** Trained or observed range; the bank clamps to 1.5 times this range. */
+  /** Trained or observed range; the bank clamps values to it extended by half its width at each end. */
   lowest: number;
   highest: number;
   /** For inputs: whether the dynamics have separate coefficients for positive and negative values. */

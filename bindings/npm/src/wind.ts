@@ -118,7 +118,7 @@ export class WindLevel {
     return at.valuesAt(this.native, this.frames, at.windFrame);
   }
 
-  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. The room needs no calibration. */
+  /** Uses the coming seconds of sound, 0.5 to 30, as the requested sound. A number as `ask`, for the room, does nothing. */
   calibrate(ask: WindAsk | number, seconds = 3): void {
     if (typeof ask === 'string') this.native.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }

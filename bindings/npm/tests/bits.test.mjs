@@ -1,5 +1,5 @@
-// The same model, seed and wind give the same bits in WebAssembly, with SIMD and without, as natively: tests/c holds
-// the native library to the same file of hashes.
+// The same model, seed and wind give the same bits in WebAssembly, with SIMD and without, as natively: tests/c compares
+// the native library with the same file of hashes.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

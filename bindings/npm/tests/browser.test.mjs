@@ -63,7 +63,7 @@ describe('in Chromium', { skip }, () => {
     return page;
   }
 
-  // 1000 frames, so that the whole of the check in Node.js is not done again; the hash is what Node.js finds.
+  // 1000 frames only, as bits.test.mjs runs the full check; the expected hash is computed in Node.js.
   for (const name of ['plain', 'vite']) {
     test(`a page made with ${name} plays with the bits that Node.js has, in a worker too`, async (t) => {
       const expected = hashOfLife(await load(), readFileSync(join(models, 'leaf.wisp')), 1000);
@@ -94,7 +94,7 @@ describe('in Chromium', { skip }, () => {
       await until(page, 'page.strongest() > 0.3');
       const known = await page.evaluate('page.calibration()');
       assert.ok(known.gustRms > 0);
-      // Interrupted, as by a telephone call: it is told, and wakes at a key.
+      // An interruption, as by a telephone call, is reported; a key resumes the sound.
       await page.evaluate('AudioContext.prototype.resume = () => new Promise(() => {}), heardBy.suspend()');
       await until(page, 'page.slept.at(-1) === true');
       await page.evaluate('delete AudioContext.prototype.resume, AudioContext.prototype.resume = resumes');

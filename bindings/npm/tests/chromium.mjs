@@ -43,10 +43,10 @@ export function pack(work) {
   return join(work, packed.toString().trim());
 }
 
-/** Milliseconds until what does not happen has failed: many times what anything takes, also on a busy machine. */
+/** Timeout of every wait, milliseconds: many times what any step takes on a busy machine. */
 export const patience = 180_000;
 
-/** Waits until something holds; `what` says so when it does not. */
+/** Waits until `holds()` returns true; after the timeout fails with the words `what`. */
 export async function seen(what, holds) {
   for (const end = Date.now() + patience; !(await holds()); ) {
     if (Date.now() > end) assert.fail(`never: ${what}`);
@@ -54,10 +54,10 @@ export async function seen(what, holds) {
   }
 }
 
-/** The same of an expression in a page. Asks from here, since the policy forbids Playwright's own way. */
+/** Waits until an expression is true in a page. Polls from here, since the page's policy forbids Playwright's own wait. */
 export const until = (page, expression) => seen(expression, () => page.evaluate(`Boolean(${expression})`));
 
-/** A new page whose errors are kept in `page.errors`, and in `page.strangers` what it asks of others than that address. */
+/** A new page that keeps its errors in `page.errors`, and requests to other addresses in `page.strangers`. */
 export async function watched(browser, address, options = {}) {
   const page = await browser.newPage(options);
   page.setDefaultTimeout(patience);
@@ -86,7 +86,7 @@ export function wavOf(samples, rate) {
   return Buffer.concat([header, Buffer.from(samples.buffer)]);
 }
 
-/** A folder with the packed package installed, a page, what both pages share, and the models. */
+/** A folder with the packed package installed, a page, and the scripts that pages share; the caller adds models. */
 export function furnish(work, tarball, name) {
   const folder = join(work, name);
   const installed = join(folder, 'node_modules/@wisp/player');

@@ -143,7 +143,7 @@ describe('elements in Chromium', { skip }, () => {
     await until(page, `${button}.ariaPressed === 'true'`);
     await page.evaluate(`${button}.click()`);
     await until(page, `${button}.ariaPressed === 'false'`);
-    // Below the edge of the page it waits.
+    // An element out of view does not start.
     assert.equal(await page.evaluate(`document.getElementById('two').scene?.leaves().count ?? 0`), 0);
     await page.evaluate(`document.getElementById('two').scrollIntoView()`);
     await until(page, `document.getElementById('two').scene?.leaves().count === 20`);

@@ -1,4 +1,4 @@
-// Lives and sounds as tests/c/frames_in_c.c has them, through the package: the same hashes must come out.
+// Plays models and sounds as tests/c/frames_in_c.c does, through the package: the hashes must be equal.
 
 /** Two of FNV's 32-bit hashes, word by word, the second of the word with its halves swapped. */
 export class Hash {
@@ -27,7 +27,7 @@ export class Chance {
   }
 }
 
-/** The hash of a life of so many frames. */
+/** Hash of the outputs of that many frames. */
 export function hashOfLife(wisp, bytes, frames) {
   const model = wisp.model(bytes);
   const isChain = model.kind === 'chain';
@@ -72,7 +72,7 @@ export function* gusts(seconds) {
   }
 }
 
-/** The hash of the wind of so many seconds of sound. */
+/** Hash of the wind in that many seconds of sound. */
 export function hashOfWind(wisp, seconds) {
   const wind = wisp.windLevel({ sampleRate: 48000 });
   const hash = new Hash();

@@ -1,4 +1,4 @@
-// A candle in the round: who blows from where the eye is sees the flame lean away, from all sides alike; candles shelter each other.
+// A candle in the round: blown at from the eye, the flame leans away, from all sides alike; candles shelter each other.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -34,7 +34,7 @@ test('a breath from the eye leans it away and not aside; a wind across leans it 
 });
 
 test('one flame in one wind is the same from every side', () => {
-  // A wind of the room, as the eye has it there; and the tip that the eye sees, in the room again.
+  // Converts a wind from the room's axes to the eye's; with a negative azimuth, the tip from the eye's axes to the room's.
   const seen = (azimuth, x, z) => [Math.cos(azimuth) * x - Math.sin(azimuth) * z, Math.sin(azimuth) * x + Math.cos(azimuth) * z];
   const tips = [0, 2.1].map((azimuth) => {
     const [right, near] = seen(azimuth, 0.4, -0.2);

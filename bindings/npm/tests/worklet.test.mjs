@@ -1,4 +1,4 @@
-// The worklet's processor in a stand-in for the audio thread: what it says is what WindLevel says of the same sound.
+// The worklet's processor in a mock of the audio thread: its messages must equal WindLevel's frames for the same sound.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -33,7 +33,7 @@ test('it says the wind that WindLevel says, and when a calibration has ended', (
   tell(processor, { type: 'calibrate', seconds: 1, ask: 1 });
   assert.equal(play(processor, 5), true);
   const level = wisp.windLevel({ sampleRate: 48000 });
-  for (const ask of [3, 'blow hard']) level.calibrate(ask, 1); // seconds alone, of the room, change nothing
+  for (const ask of [3, 'blow hard']) level.calibrate(ask, 1); // a number, as for the room, changes nothing
   const expected = [...gusts(5)].flatMap((block) => level.feed(block));
   const frames = processor.said.filter(({ type }) => type === 'wind');
   assert.equal(frames.length, 300);
@@ -44,7 +44,7 @@ test('it says the wind that WindLevel says, and when a calibration has ended', (
   });
   const calibrated = processor.said.filter(({ type }) => type === 'calibrated');
   assert.equal(calibrated.length, 1);
-  assert.ok(calibrated[0].known.backgroundRms > 0 && !calibrated[0].heard); // it is still for two seconds
+  assert.ok(calibrated[0].known.backgroundRms > 0 && !calibrated[0].heard); // the sound begins with two quiet seconds
   assert.equal(frames.at(-1).roomRise, level.roomRise);
   tell(processor, { type: 'tell calibration' });
   assert.deepEqual(processor.said.at(-1), { type: 'calibration', known: level.calibration });

@@ -27,7 +27,7 @@ class Words {
     }
     while (count > 0) add(digits[--count]);
   }
-  // Writes six decimals. Of numbers with more than 18 digits before the point, the first digits.
+  // Writes six decimals. From 1e18 on, digits after the first eighteen are written as zeros.
   void add(double number) {
     if (std::isnan(number)) return add("nan");
     if (std::signbit(number)) add('-');

@@ -1,4 +1,4 @@
-"""examples/10_dask_fit.py on two workers, one of which is killed half-way: the model is one machine's, to the byte.
+"""examples/10_dask_fit.py on two workers, one of which is killed half-way, gives one machine's model to the byte.
 
     WISP_PROGRAM=build/release/bin/wisp python3 -m unittest discover bindings/python/tests
 """
@@ -16,7 +16,7 @@ import unittest
 root = pathlib.Path(__file__).resolve().parents[3]
 program = os.environ.get("WISP_PROGRAM", str(root / "build/release/bin/wisp"))
 example = root / "examples/10_dask_fit.py"
-flags = ["--inputs", "wind", "--outputs", "p3.x,p3.y", "--na", "2", "--nb", "2", "--nk", "1", "--offset", "estimate"]  # one level: parts do not know the others' means
+flags = ["--inputs", "wind", "--outputs", "p3.x,p3.y", "--na", "2", "--nb", "2", "--nk", "1", "--offset", "estimate"]  # a part does not know the other parts' means
 there = importlib.util.find_spec("distributed") is not None
 
 
@@ -34,7 +34,7 @@ class Dask(unittest.TestCase):
             words = [program, "simulate", "candle", "-o", clip, "--seconds", 3, "--seed", seed, "--quiet"]
             subprocess.run(list(map(str, words)), check=True, stdout=subprocess.DEVNULL)
             cls.clips.append(str(clip))
-        # One machine's. A model remembers what its recordings were called: both say work/….
+        # The models of one machine. A model stores its recordings' names, so both runs call them work/….
         for name in ("alone", "spread"):
             (cls.at / name / "work").mkdir(parents=True)
         for model, kind, more in (("tip.wisp", "arx", flags), ("flame.wisp", "flame", [])):
@@ -65,7 +65,7 @@ class Dask(unittest.TestCase):
             tasks.append(client.submit(run, *of, pure=False, retries=3))
             return tasks[-1]
 
-        # The workers load the example as code of the task, not as a module that they would have to find.
+        # The workers receive the example's code with the task, since they cannot import it as a module.
         import cloudpickle
 
         sys.modules["dask_fit"] = fit

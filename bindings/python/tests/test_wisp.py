@@ -1,4 +1,4 @@
-"""The module against the program: the same files, the same bytes, the same figures.
+"""Compares the module with the program: the same files, the same bytes, the same figures.
 
     WISP_PROGRAM=build/release/bin/wisp python3 -m unittest discover bindings/python/tests
 """
@@ -114,7 +114,7 @@ class Capturing(unittest.TestCase):
             self.assertIn("usable", captured.report.to_dict())
 
     def test_ctrl_c_ends_it(self):
-        # What a shell starts in the background ignores the signal.
+        # A process that a shell starts in the background ignores the signal.
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.addCleanup(signal.signal, signal.SIGINT, before)
         with tempfile.TemporaryDirectory() as folder:
@@ -200,7 +200,7 @@ class Playing(unittest.TestCase):
         bank = wisp.Bank(wisp.read_model(flame), 5)
         with self.assertRaisesRegex(ValueError, "expected 1 for all or 1 for each of 5 slots"):
             bank.set_inputs([1, 2, 3])
-        # One row an input in the place of one a slot blew another leaf, without a word.
+        # An array with a row per input instead of per slot would blow on other leaves.
         leaves = wisp.Bank(wisp.read_model(root / "apps/web/public/models/leaf.wisp"), 10)
         leaves.set_inputs(np.zeros((10, 3)))
         leaves.set_inputs([0, 0, 1])
@@ -352,8 +352,8 @@ class EveryModel(unittest.TestCase):
         for through in (1, width):  # shells that a ray meets at the rim, and in the middle
             drawn, traced, left = np.zeros(3), np.zeros(3), 1.0
             for emitted, opacity in zip(light[:through], shells[:through, 3]):
-                drawn = opacity * screen(emitted) + (1 - opacity) * drawn  # a screen's colours, the innermost last: three.js
-                traced, left = traced + left * opacity * emitted, left * (1 - opacity)  # light, the outermost first: Cycles
+                drawn = opacity * screen(emitted) + (1 - opacity) * drawn  # in display colours, innermost last (three.js)
+                traced, left = traced + left * opacity * emitted, left * (1 - opacity)  # in light, outermost first (Cycles)
             for red, green, blue in (drawn, screen(traced)):
                 self.assertGreater(red, 0.6)
                 if through == 1:
@@ -363,7 +363,7 @@ class EveryModel(unittest.TestCase):
 
 
 class Guide(unittest.TestCase):
-    """docs/guide/python.md: what stands there runs."""
+    """The programs in docs/guide/python.md run."""
 
     def test_its_programs_run_from_a_film_and_from_a_table(self):
         if not importlib.util.find_spec("matplotlib"):
@@ -427,7 +427,7 @@ class Guide(unittest.TestCase):
             wrong.write_text("import wisp\nwisp.Bank('flame.wisp').polyline(3)\n")
             said = {}
             for path in (whole, wrong):
-                # Where the package is installed, mypy of another interpreter finds it by its marker py.typed.
+                # MYPYPATH stands for an installation, where mypy finds the package by its marker py.typed.
                 done = subprocess.run(["mypy", "--ignore-missing-imports", "--no-error-summary", "--cache-dir", folder, path],
                                       env={**os.environ, "MYPYPATH": str(pathlib.Path(wisp.__file__).parents[1])},
                                       capture_output=True, text=True)
@@ -462,7 +462,7 @@ class Threads(unittest.TestCase):
             for work in (lambda: wisp.learn(recording, recipe), lambda: bank.step(3000)):
                 before = turns[0]
                 work()
-                # Where a call keeps the interpreter's lock the other thread turns once at most, just before it.
+                # If a call kept the interpreter's lock, the other thread would run at most once, just before it.
                 self.assertGreater(turns[0] - before, 3)
         finally:
             over.set()

@@ -35,7 +35,7 @@ def __dir__():
 
 
 def _poles(self):
-    """The roots of the model's denominator, complex: below 1 in size it is stable. One row a mode of a switched model."""
+    """Roots of the denominator, complex; stable if all magnitudes are below 1. One row per mode of a switched model."""
     a = self.a
     if a.ndim == 4:
         return _numpy.stack([_poles_of(each) for each in a])
@@ -63,7 +63,7 @@ def _time(self):
 
 
 def _to_pandas(self):
-    """A pandas frame: a column a channel, inputs first, over seconds."""
+    """A pandas frame with a column per channel, inputs first, indexed by seconds."""
     import pandas
 
     return pandas.DataFrame({name: self[name] for name in self.inputs + self.outputs},
@@ -71,7 +71,7 @@ def _to_pandas(self):
 
 
 def _to_xarray(self):
-    """An xarray dataset: a variable a channel over the coordinate `time`, seconds; who is an input is in its attributes."""
+    """An xarray dataset with a variable per channel over the coordinate `time`, seconds; attributes list the inputs."""
     import xarray
 
     return xarray.Dataset({name: ("time", self[name]) for name in self.inputs + self.outputs}, {"time": self.time},
@@ -84,11 +84,11 @@ Recording.to_xarray = _to_xarray  # noqa: F405
 
 
 def simulate(model, u=None, *, steps=None, instances=1, seed=1, noise=1.0):
-    """What a model does in an input: y (steps x outputs) for u (steps x inputs; one column may be a vector).
+    """Simulates a model: y (steps x outputs) for an input u (steps x inputs; a single column may be a vector).
 
-    With `instances` above 1 y is steps x instances x outputs, and u may be steps x instances x inputs. Without u it plays
-    `steps` steps in calm. noise=0 is what follows from the input alone. A pandas frame or an xarray dataset whose columns
-    are called as the inputs gives one of the outputs, over the same times.
+    With `instances` above 1 y is steps x instances x outputs, and u may be steps x instances x inputs. Without u all inputs
+    are 0 for `steps` steps. noise=0 leaves the response to the input alone. A pandas frame or an xarray dataset with a
+    column per input (for one instance) gives one of the outputs, over the same times.
     """
     if hasattr(u, "data_vars") or hasattr(u, "columns"):
         if instances != 1:
@@ -120,8 +120,8 @@ def simulate(model, u=None, *, steps=None, instances=1, seed=1, noise=1.0):
 
 
 def film_strip(rows, times=None):
-    """A film strip as a matplotlib figure: `rows` are captions and their outlines (frames x points x 2, bank.polylines() of one
-    flame frame by frame), `times` what stands under the columns, in seconds.
+    """A film strip as a matplotlib figure: `rows` maps captions to outlines (frames x points x 2, such as bank.polylines() of
+    one flame frame by frame); `times` are the columns' labels, seconds.
     """
     import matplotlib.pyplot as plt
 

@@ -208,7 +208,7 @@ class Verdict(NamedTuple):
     reason: str
 
 class Model:
-    """What a thing is like: equal where its file is."""
+    """A model of a thing's behaviour; two models are equal if their files are."""
 
     def __init__(self, bytes: bytes) -> None: ...
     name: str
@@ -309,7 +309,7 @@ class WindAsk(Enum):
     BLOW_HARD = ...
 
 class WindLevel:
-    """The wind that a microphone hears, as its sound comes."""
+    """Estimates wind from a microphone's sound, block by block."""
 
     def __init__(self, rate_hz: float = 44100, channels: int = 1, frame_rate_hz: float = 60) -> None: ...
     def feed(self, samples: ArrayLike) -> dict[str, NDArray[np.float32]]: ...

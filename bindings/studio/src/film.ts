@@ -11,7 +11,7 @@ const FORMATS = [MP4, QTFF, MATROSKA, WEBM];
 /** Number of glimpses over the whole film before the first frame. */
 const GLIMPSES = 4;
 
-/** Rates of cameras; a rate within rounding of one of these is taken as it. */
+/** Rates of cameras, Hz; a rate within 0.4 % of one of these is taken as it. */
 const RATES = [24_000 / 1001, 24, 25, 30_000 / 1001, 30, 48, 50, 60_000 / 1001, 60, 90, 100, 120_000 / 1001, 120, 240_000 / 1001, 240];
 
 /**

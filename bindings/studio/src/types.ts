@@ -58,7 +58,7 @@ export interface Watch {
   signal?: AbortSignal;
   /** stage in words, and its finished share: 0 to 1, negative for unknown length */
   progress?: (stage: string, share: number) => void;
-  /** findings, about fifteen times a second of work */
+  /** findings, at most ten times a second, except that short films give at least sixteen */
   seen?: (seen: Seen) => void;
 }
 

@@ -10,7 +10,7 @@ import { rawOfBitmap, rawOfFrame } from './pictures.js';
 import { smallPicture } from './small.js';
 import type { Captured, Seen } from './types.js';
 
-// All decoding in this worker is paced; tables are also learned in engines without a decoder.
+// All decoding in this worker is paced. Browsers without a decoder can still learn from tables.
 if (typeof VideoDecoder !== 'undefined') globalThis.VideoDecoder = paced(VideoDecoder);
 
 const SHOWN_EVERY_MS = 100;
@@ -19,7 +19,7 @@ const SHOWN_SHARE = 1 / 16;
 const SHOWN_PIXELS = 512;
 /** Maximum wait for the page to draw: hidden pages draw nothing. */
 const SHOWN_WITHIN_MS = 200;
-/** Longer gaps in live sound are silence. */
+/** Longer gaps in live sound are filled with silence. */
 const LOST_SECONDS = 0.05;
 
 async function fetched(address: URL): Promise<ArrayBuffer> {
@@ -53,7 +53,7 @@ const tell = (message: FromWorker, carried: Transferable[] = []): void => self.p
 /** Called when the page has drawn the findings. */
 let shown: () => void = () => undefined;
 
-/** Waits for that. With few processors, the page would otherwise draw only after the film's end. */
+/** Waits until shown() is called. With few processors, the page would otherwise draw only after the film's end. */
 const drawn = (): Promise<void> =>
   new Promise((resolve) => {
     const late = setTimeout(resolve, SHOWN_WITHIN_MS);
@@ -63,7 +63,7 @@ const drawn = (): Promise<void> =>
     };
   });
 
-/** What reports findings at intervals, with a small picture of the frame where there is one. */
+/** Returns a function that reports findings at intervals, with a small picture of the frame if there is one. */
 function showing(of: number, wisp: Engine): (picture: RawPicture | null, share: number) => Promise<void> {
   let [last, before] = [0, 0];
   return async (picture, share) => {

@@ -1,4 +1,4 @@
-// Which colours a film is in: what its file states, and what is taken where it states nothing.
+// The colour standard of a film: what its file states, and the default if it states nothing.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -12,7 +12,7 @@ import { isBt709 } from '../dist/pictures.js';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-colours-'));
 const tags = (name) => (name === '' ? [] : ['-colorspace', name, '-color_primaries', name, '-color_trc', name]);
 
-/** What the file of a film of that kind states. `more`: of ffmpeg. */
+/** The colour space that a file states which ffmpeg made with the flags `more`. */
 async function statedIn(file, ...more) {
   const path = join(folder, file);
   execFileSync('ffmpeg', ['-y', '-loglevel', 'error', '-f', 'lavfi', '-i', 'testsrc=size=1280x720:rate=10:duration=0.2', '-pix_fmt', 'yuv420p', '-c:v', 'libx264', ...more, path]);
@@ -24,7 +24,7 @@ async function statedIn(file, ...more) {
 
 describe('the colours of a film', () => {
   after(() => rmSync(folder, { recursive: true }));
-  // What a browser makes of a film of that size by itself.
+  // What a browser guesses for a film of that size.
   const guessed = { matrix: 'bt709' };
 
   for (const kind of ['mp4', 'mkv']) {

@@ -1,5 +1,5 @@
-// The module against the program: from the same frames and sound the same recording, from the same recording the same
-// model. ffmpeg decodes for both, as the program's own decoder is of it.
+// Compares the modules with the program: the same frames and sound give the same recording, and the same recording the same
+// model. ffmpeg decodes for both, since the program's decoder is FFmpeg's.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -18,7 +18,7 @@ const exporting = new WebAssembly.Module(readFileSync(new URL('../dist/export.wa
 const shipped = (name) => readFileSync(new URL(`../../../apps/web/public/models/${name}.wisp`, import.meta.url));
 const program = new URL('../../../build/release/bin/wisp', import.meta.url).pathname;
 
-/** Shows a clip to an engine as its decoder left it. */
+/** Passes a clip's decoded frames and sound to an engine. */
 function capture(engine, clip, settings) {
   const decoded = (...how) => execFileSync('ffmpeg', ['-v', 'error', '-i', clip, ...how, '-'], { maxBuffer: 4e9 });
   const film = decoded('-f', 'rawvideo', '-pix_fmt', 'yuv420p');
@@ -54,7 +54,7 @@ function soundOf(clip) {
   return { sampleRate, channels };
 }
 
-/** Where its decoder goes to a key frame for a glimpse, as the program does: at the ends of quarters. */
+/** Key frames that the program takes as glimpses: the last one before the end of each quarter. */
 function glimpsesOf(clip) {
   const packets = probe(clip, 'v', 'packet=flags').split('\n');
   const keys = packets.flatMap((flags, k) => (flags.includes('K') ? [k] : []));
@@ -113,7 +113,7 @@ describe('the modules that learn', () => {
     const fit = engine.learn([csv], recipe);
     assert.ok(fit.judged.report.rows <= 150);
     assert.ok(fit.judged.report.channels[0].fit_percent.inf > 99);
-    // What comes out last has nothing to do with what went in.
+    // The last outputs are unrelated to the input.
     const lines = table(600).toString().trim().split('\n');
     const broken = lines.map((line, k) => (k < 460 ? line : line.replace(/[^,]*$/, String(Math.sin(k * k)))));
     const odd = engine.table('odd.csv', Buffer.from(broken.join('\n')), { inputs: ['heat'], outputs: ['temperature'], rate: 10 });
@@ -285,8 +285,8 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
       assert.deepEqual(fit.report.usable, report.usable);
       const theirs = numbersIn(report);
       const ours = numbersIn(fit.report);
-      // Sums are in one order; what C libraries have of exponentials and angles differs in its last digit, and on other
-      // processors vectors are of another width.
+      // Sums are in the same order; exponentials and angles of C libraries differ in their last digit, and vectors of
+      // other processors have other widths.
       for (const [path, value] of theirs) {
         if (path === '.seconds') continue;
         const other = ours.get(path);
@@ -300,7 +300,7 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     writeFileSync(join(folder, 'recording.csv'), csv);
     wisp('learn', 'arx', join(folder, 'recording.csv'), '--inputs', 'heat', '--outputs', 'temperature', '--na', '2', '--nb', '2', '--nk', '1', '-o', join(folder, 'table.wisp'), '--quiet');
     const { model } = engine.learn([csv], { kind: 'arx', name: 'table', inputs: ['heat'], outputs: ['temperature'], order: 2, nk: 1 });
-    // Where vectors are as wide: on every x86-64 that the program is built for.
+    // Equal where vectors have the same width: on every x86-64 that the program is built for.
     if (process.arch === 'x64') assert.ok(readFileSync(join(folder, 'table.wisp')).equals(Buffer.from(model)));
   });
 });

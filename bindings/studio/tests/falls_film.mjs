@@ -7,7 +7,7 @@ const HEIGHT = 240;
 const RATE = 30;
 const FRAMES_A_FALL = 48;
 
-/** Where the slip is in a frame; every fall begins elsewhere in its swing. */
+/** Position of the slip in a frame, pixels; every fall begins at another phase of the swing. */
 export function slipAt(frame) {
   const [fall, seconds] = [Math.floor(frame / FRAMES_A_FALL), (frame % FRAMES_A_FALL) / RATE];
   const phase = 0.7 * fall;
@@ -26,7 +26,7 @@ function picture(frame) {
   return grey;
 }
 
-/** Writes it. */
+/** Writes the film with that many falls. */
 export function fallsFilm(film, falls) {
   const input = Buffer.concat(Array.from({ length: falls * FRAMES_A_FALL }, (_, frame) => picture(frame)));
   const raw = ['-f', 'rawvideo', '-pix_fmt', 'gray', '-s', `${WIDTH}x${HEIGHT}`, '-r', String(RATE), '-i', '-'];

@@ -1,11 +1,11 @@
-// The decoder that does not run ahead, over one that does: it takes every packet at once, and reorders.
+// The paced decoder around a mock of a decoder that takes every packet at once, and reorders.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { paced } from '../dist/paced_decoder.js';
 
-/** Gives back frames three packets late, as decoders that reorder do, and the rest on flush. */
+/** Emits frames three packets late, as decoders that reorder do, and the rest on flush. */
 class Eager extends EventTarget {
   state = 'configured';
   held = [];
@@ -65,7 +65,7 @@ test('hands every frame on in its order, and few of them wait', async () => {
   await flushed;
   assert.deepEqual(seen, Array.from({ length: 60 }, (_, k) => k));
   assert.equal(Eager.open, 0);
-  // Four, and what a flush gives back at the end.
+  // Four, and those that a flush emits at the end.
   assert.ok(Eager.most <= 4 + 3, `${Eager.most} frames were open at once`);
 });
 

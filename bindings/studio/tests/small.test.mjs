@@ -1,4 +1,4 @@
-// The small picture that is shown of a frame, of planes with known colours.
+// Previews of frames whose planes have known colours.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -27,7 +27,7 @@ const pixel = ({ data, width }, x, y) => [...data.subarray(4 * (y * width + x), 
 const near = (found, wanted) => found.forEach((value, k) => assert.ok(Math.abs(value - wanted[k]) <= 2, `${found} for ${wanted}`));
 
 test('white and the primary red of each standard come out as they are', () => {
-  // Red as BT.709 and BT.601 code it, of limited and of full range: their own tables.
+  // Codes of red from the tables of the standards: BT.709, BT.601, and BT.601 in full range.
   for (const [red, white, how] of [
     [[63, 102, 240], [235, 128, 128], { bt709: true }],
     [[81, 90, 240], [235, 128, 128], { bt709: false }],
@@ -45,7 +45,7 @@ test('a pixel is the mean of those that it stands for, whatever the sizes', () =
   const data = Uint8Array.from({ length: 49 }, (_, k) => k);
   const small = smallPicture({ layout: 'grey', width, height: 7, data, planes: [{ offset: 0, stride: width, step: 1 }] }, 3);
   assert.deepEqual([small.width, small.height], [3, 3]);
-  // Columns 0-1, 2-3 and 4-6 of such rows.
+  // A pixel is the mean of columns 0-1, 2-3 or 4-6, and of the same rows.
   near(pixel(small, 0, 0), [4, 4, 4, 255]);
   near(pixel(small, 2, 2), [40, 40, 40, 255]);
 });

@@ -16,7 +16,7 @@ using nlohmann::json;
 // State of the current capture.
 struct Desk {
   std::optional<LiveCapture> capture;
-  std::optional<FallCapture> falls;  // beside `outline`, where the film may show either
+  std::optional<FallCapture> falls;  // beside `capture`, where the film may show either
   std::optional<FrameGrid> grid;
   std::string source;
 };
@@ -130,7 +130,7 @@ int studio_frame(int layout, int width, int height, const std::uint8_t* first, i
   return fed ? kDone : fail(fed.error());
 }
 
-// Takes interleaved samples that begin `begin` seconds after the first frame.
+// Takes interleaved samples that begin `begin` seconds after the first frame. Ignored where only falls are looked for.
 WISP_STUDIO(sound)
 int studio_sound(const float* samples, std::size_t count, int channels, double rate, double begin) {
   Desk& all = desk();
@@ -140,7 +140,7 @@ int studio_sound(const float* samples, std::size_t count, int channels, double r
 }
 
 // Returns {frames, decided, channel, threshold, clipped, flames, box}; numbers: the outline's points. For falls only
-// {frames, moving}, with the box of the motion.
+// {frames, decided: false, moving}, with the box of the motion.
 WISP_STUDIO(seen) int studio_seen() {
   Desk& all = desk();
   if (all.falls && !all.capture) {

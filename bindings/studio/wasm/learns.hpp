@@ -1,5 +1,5 @@
 #pragma once
-// Two modules learn: one learns chains, from falls; the other everything else, and it captures.
+// Two modules learn: one learns chains; the other learns everything else, and captures.
 
 #include <string>
 

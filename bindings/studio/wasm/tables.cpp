@@ -16,7 +16,7 @@ WISP_STUDIO(table) int studio_table(const char* bytes, std::size_t size, const c
   return hand_over(*recording, {});
 }
 
-// Reads a table and reports remarks that need no model. Samples are in the answer once.
+// Reads a table and reports remarks that need no model, without series, as the answer has the samples already.
 WISP_STUDIO(advise) int studio_advise(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
   const auto recording = read_recording(bytes, size, parsed(text, text_size));
   if (!recording) return fail(recording.error());

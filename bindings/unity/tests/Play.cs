@@ -1,4 +1,4 @@
-// What a program in C# sees of a model: play.cmake compares it with `wisp run`.
+// Plays models from C#, and compares the numbers with a table that play.cmake made by `wisp run`.
 using System;
 using System.Globalization;
 using System.IO;
@@ -11,7 +11,7 @@ internal static class Play
         if (!held) throw new InvalidOperationException(what);
     }
 
-    // Three flames in half a wind, held against what `wisp run` wrote: the wind, then all outputs.
+    // Compares three flames at a wind of 0.5 with the table of `wisp run`: the wind, then all outputs.
     private static void Numbers(string path, string table)
     {
         using (var model = Model.Read(path))
@@ -27,7 +27,7 @@ internal static class Play
                 bank.Step();
                 bank.Outputs(outputs);
                 string[] cells = row.Split(',');
-                Expect(cells.Length > outputs.Length, "a row of " + cells.Length);  // and whether each burns
+                Expect(cells.Length > outputs.Length, "a row of " + cells.Length);  // the wind comes before, whether each burns after
                 for (int k = 0; k < outputs.Length; ++k)
                     Expect((float)double.Parse(cells[k + 1], CultureInfo.InvariantCulture) == outputs[k], "frame " + frames + ": " + outputs[k] + ", wisp run has " + cells[k + 1]);
                 ++frames;
@@ -79,7 +79,7 @@ internal static class Play
         bank.Dispose();
     }
 
-    // Two seconds of a room, white noise of this size.
+    // Two seconds of a room: white noise of this peak-to-peak amplitude.
     private static float[] Room(float size)
     {
         var block = new float[2 * 48000];
@@ -105,7 +105,7 @@ internal static class Play
         wind.Dispose();
     }
 
-    // The pendulum of examples/09_c_learn.c: what is learned of it leans half a metre in a steady wind.
+    // Learns the pendulum of examples/09_c_learn.c: the model leans half a metre in steady wind.
     private static void Learning()
     {
         const int rows = 2000;
@@ -147,7 +147,7 @@ internal static class Play
         }
     }
 
-    // A flame in the round leans towards a wind from behind, and has a surface.
+    // A flame in the round leans towards the camera in a wind from behind, and has a surface.
     private static void Round(Model plane, string path)
     {
         using (var model = plane.InTheRound())
@@ -173,7 +173,7 @@ internal static class Play
         }
     }
 
-    // Numbers of another count than the stated one are an exception, whatever the model.
+    // A wrong number of values is an exception, whatever the model.
     private static void WrongSizes(Model model, Bank bank, string path)
     {
         ulong first = bank.At(0);
@@ -191,7 +191,7 @@ internal static class Play
         }
     }
 
-    // Every shipped model: what a component does with it, then save, many steps and what only some have.
+    // Calls for every shipped model: those of WispFlame, saving, many steps, and those that only some models accept.
     private static void Any(string path)
     {
         using (var model = Model.Read(path))

@@ -1,4 +1,4 @@
-# Compiles Wisp.cs with a program and runs both under mono: what it plays are the numbers of `wisp run`.
+# Compiles Wisp.cs with a program and runs it under mono: it must play the numbers of `wisp run`.
 #
 #   cmake -DSOURCE=… -DLIBRARY=libwisp.so -DPROGRAM=wisp -DWORK=… -P play.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -7,7 +7,7 @@ static uint32_t next_step;
 
 void setup() {
   pinMode(pin, OUTPUT);
-  candle_start(&flame, analogRead(A0));  // noise of an open pin: no two lamps are in step
+  candle_start(&flame, analogRead(A0));  // seeded by the noise of an open pin, so that lamps differ
   next_step = millis();
 }
 

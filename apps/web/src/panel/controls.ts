@@ -8,7 +8,7 @@ import { byId } from './element.js';
 export type Hearing = 'off' | 'asking' | 'listening' | 'asleep';
 
 export class Controls {
-  /** of the scenes; a new one needs a button in index.html and a line in player.ts */
+  /** buttons of the scenes; a new scene needs a button in index.html and a line in player.ts */
   private readonly tabs = [...byId('scenes', HTMLElement).querySelectorAll('button')];
   private readonly count = byId('count', HTMLInputElement);
   private readonly countName = byId('count-name', HTMLSpanElement);

@@ -15,7 +15,7 @@ import { Plot } from './plot.js';
 const PLOT_EVERY = 2;
 
 export class Drawer {
-  /** of wind, answer and cost */
+  /** plots of wind, response and cost */
   private plots: readonly Plot[] = [];
   private frames = 0;
   private sensesOn = false;

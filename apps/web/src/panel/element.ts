@@ -12,7 +12,7 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return filled(document.createElement(tag), attributes, children);
 }
 
-/** The same of a drawing. */
+/** Creates an SVG element likewise. */
 export function drawing<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Attributes, ...children: SVGElement[]): SVGElementTagNameMap[Tag] {
   return filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 }

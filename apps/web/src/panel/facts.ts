@@ -14,7 +14,7 @@ const KINDS: Readonly<Record<Model['view'], string>> = {
 };
 
 function inputOf({ name, unit, lowest, highest }: Model['inputs'][number]): string {
-  // A unit may be a number itself: "0.73 1" means that a breath is 0.73.
+  // The unit "0.73 1" means 0.73 of a recording without a unit, and is left out.
   const said = unit === '' || /1$/.test(unit) ? '' : ` ${unit}`;
   return `${name}, ${number(lowest, 2)} to ${number(highest, 2)}${said}`;
 }

@@ -14,7 +14,7 @@ interface Kind {
   good: string;
 }
 
-/** Three significant digits, in plain notation where it is common. */
+/** Formats a number with `digits` significant digits; below 0.001 with two digits and a power of ten. */
 export function number(value: number, digits = 3): string {
   if (Number.isInteger(value)) return value.toLocaleString('en');
   const size = Math.abs(value);

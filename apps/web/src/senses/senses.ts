@@ -33,7 +33,7 @@ class Angle {
   }
 }
 
-/** Orientation of the picture: how far its right edge is down and its upper edge up; azimuth of its right edge. */
+/** Orientation of the picture, radians: how far its right edge is down and its upper edge up; azimuth of its right edge. */
 function lie({ alpha, beta, gamma }: DeviceOrientationEvent): [roll: number, pitch: number, heading: number] | null {
   if (alpha === null || beta === null || gamma === null) return null;
   const [a, b, c, held] = [alpha, beta, gamma, window.screen.orientation?.angle ?? 0].map((degrees) => (degrees * Math.PI) / 180) as [number, number, number, number];

@@ -4,14 +4,14 @@
 /** Tempo in beats per second. */
 const PACE = 2.1;
 const LOUD = 0.11;
-/** Semitones above C4 and beats; a third voice below from the second line on. */
+/** Notes of the melody: semitones above C4, and beats. */
 const MELODY: readonly (readonly [number, number])[] = [
   [7, 0.75], [7, 0.25], [9, 1], [7, 1], [12, 1], [11, 2],
   [7, 0.75], [7, 0.25], [9, 1], [7, 1], [14, 1], [12, 2],
   [7, 0.75], [7, 0.25], [19, 1], [16, 1], [12, 1], [11, 1], [9, 1.6],
   [17, 0.75], [17, 0.25], [16, 1], [12, 1], [14, 1], [12, 2.5],
 ];
-/** Chords: semitones and beats; the first is an upbeat. */
+/** Chords below the melody: semitones above C3, and beats; the first is the upbeat's rest. */
 const CHORDS: readonly (readonly [readonly number[], number])[] = [
   [[], 1], [[0, 4], 3], [[-1, 5], 3], [[-1, 5], 3], [[0, 4], 3], [[0, 4], 3], [[0, 5], 3.6], [[0, 4], 2], [[-1, 5], 1], [[0, 4, 7], 2.5],
 ];

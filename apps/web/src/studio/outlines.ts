@@ -24,7 +24,7 @@ export class Outlines {
   /** median height, and position of the base, pixels */
   readonly height: number;
   readonly base: { x: number; y: number };
-  /** bounding box of all outlines, pixels */
+  /** bounding box of the outlines without outliers, pixels */
   readonly bounds: Region;
   private readonly xs: Float64Array[] = [];
   private readonly ys: Float64Array[] = [];

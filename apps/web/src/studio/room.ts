@@ -88,7 +88,7 @@ export class Room {
     this.story.append(this.steps, this.panel, this.spoken);
     this.place.append(this.left, this.story, this.below);
     document.querySelector('header.top')?.after(this.place);
-    // The page's keys for blowing and pausing type text here.
+    // Keys that blow or pause elsewhere on the page type text here.
     this.place.addEventListener('keydown', (event) => event.stopPropagation());
     fetchShipped(FLAME).then(
       (model) => this.invitation.fill(model),
@@ -413,7 +413,7 @@ export class Room {
     if (thing === 'flame') await this.judge();
   }
 
-  /** What is learned of a session by its recipe with changes. */
+  /** Learns a model from a session's takes by its recipe, with `change` applied. */
   private async learned(session: Session, change: Partial<Recipe>, watch: Watch = {}): Promise<Learned> {
     const { takes, recipe } = session;
     const studio = await this.studio();

@@ -10,7 +10,7 @@ import type { Thing } from './words.js';
 export interface Looked {
   name: string;
   reel: Reel;
-  /** the film's file if it is playable */
+  /** the film's file; null for pictures, tables and the camera */
   film: File | null;
   settings: PictureSettings;
   /** analyses it again with other settings; null: the camera's film was not kept */
@@ -57,7 +57,7 @@ export function emptied({ takes }: Session): Session {
   return newSession();
 }
 
-/** Adds a take, in place of an earlier version of it or last. Flames and leaves are not learned together. */
+/** Adds a take, in place of an earlier version of its film or last. Takes of another kind are dropped first. */
 export function withTake(session: Session, take: Take): Session {
   const thing = shownIn(take);
   const made = session.takes.some((one) => shownIn(one) !== thing) ? emptied(session) : session;

@@ -26,7 +26,7 @@ export function sentence(words: string): string {
 /** A sentence of the program with its flags replaced by the page's terms. */
 export const inPage = (words: string): string => sentence(words.replace('--rate HZ or --dt S', 'how many rows a second there are'));
 
-/** Remedies of remarks that name the program's flags, by kind. */
+/** Remedies by kind of remark, in place of the program's where those name its flags. */
 const CURES: Readonly<Record<number, string>> = {
   8: 'Delays are found while it learns',
   9: 'Let the change from row to row be what comes out',

@@ -19,9 +19,9 @@ const VAIN_BLOWS = 3;
 /** Share of samples at full scale above which a microphone needs tuning to separate soft from hard. */
 const CLIPPED = 0.02;
 
-/** dB above the quietest sound that count as the requested blow during tuning, whatever the spectrum. */
+/** Factors of the quiet level's RMS above which any sound counts as the requested blow during tuning. */
 const RISES: Readonly<Record<Asked, number>> = { 'breathe gently': 3, 'blow hard': 5 };
-/** Frames before a step that define the quiet level; softer ones than this are ignored, as microphones open silent. */
+/** Frames before a step that define the quiet level, and its minimum (RMS), since microphones are silent at first. */
 const READY = 60;
 const SILENT = 3e-4;
 
@@ -88,12 +88,12 @@ export class Ear {
   private loudSince = 0;
   private vain = 0;
   private offered = false;
-  /** incremented by openings: one closed before permission is abandoned */
+  /** incremented by opening and closing: an opening that is closed before permission is abandoned */
   private turn = 0;
 
   constructor(private readonly app: App) {}
 
-  /** Strength of breath, 0 to 1. */
+  /** Strength of breath: 1 at a wind of 1.5, more in stronger wind; 0 unless it listens. */
   get level(): number {
     return this.state === 'listening' ? (this.tuning ? this.heard : this.wind) / 1.5 : 0;
   }

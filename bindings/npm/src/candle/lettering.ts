@@ -64,7 +64,7 @@ export class Lettering {
     this.words = new Words(gl);
   }
 
-  /** Binds a name's texture to a unit. Returns half width and height of its plaque in the room; 0 without a name. */
+  /** Binds a name's texture to a unit. Returns half width and half height of its plaque in the room; 0 without a name. */
   name(name: string, unit: number): [number, number] {
     const shape = this.words.write(name, FONT, 99, unit);
     const wide = Math.min(PLAQUE.wide, 0.8 * PLAQUE.high * shape);

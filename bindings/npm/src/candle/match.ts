@@ -3,7 +3,7 @@
 import { FlameShape } from './flame_shape.js';
 import { smokeAfter } from './candle.js';
 
-/** Seconds of a match's own way to a wick, and of its striking before that: distance, and duration of the flare. */
+/** Seconds to reach a wick by itself and of the strike before; distance of the strike, room units; flare's decay, s. */
 const ERRAND = 0.75;
 const STRIKE = 0.22;
 const STRUCK = 0.34;

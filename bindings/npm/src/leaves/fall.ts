@@ -15,7 +15,7 @@ const CELL = 0.16;
 const HALF_COLUMNS = 40;
 const LAYER = 0.0045;
 const MAX_LAYERS = 30;
-/** Factor by which leaves lie longer in heaps. */
+/** Additional rest in the middle of a heap, as a multiple of a leaf's usual rest. */
 const LONGER = 6;
 /** Maximum number of leaves placed anew per frame, as each search covers all segments. */
 const PLACINGS = 6;

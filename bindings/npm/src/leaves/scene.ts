@@ -74,7 +74,7 @@ export class LeavesScene implements Scene {
 
   release(x: number, y: number, tap: boolean): void {
     if (!tap) return;
-    // Position on the ground, or below it in the air.
+    // Position on the ground, also below a tap in the air.
     const [near] = this.camera.at(x, y, STIRRED_DEPTH);
     this.gust.kickX = near;
     this.gust.kickY = this.groundDepth(y);

@@ -11,7 +11,7 @@ export interface PointerEvents {
   press(x: number, y: number): void;
   release(x: number, y: number, tap: boolean): void;
   hover(x: number, y: number): 'none' | 'grab';
-  /** any event occurred */
+  /** a press occurred, of any button */
   touched(): void;
 }
 

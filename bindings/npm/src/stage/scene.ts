@@ -82,7 +82,7 @@ export interface Scene {
   /** The scene's own action: lights candles, kicks leaves. */
   act(): void;
   apply(settings: SceneSettings): void;
-  /** Number of leaves in the air and on the ground, in a scene with leaves. */
+  /** Number of all leaves, and of those on the ground, in a scene with leaves. */
   leaves?(): { count: number; lying: number };
   /** A sentence that describes the picture, for screen readers. */
   describe(): string;

@@ -4,7 +4,7 @@ import { FrameLoop } from './frame_loop.js';
 import { PointerReader } from './pointer.js';
 import type { Air, Scene } from './scene.js';
 
-/** Maximum time per frame; after a pause the scene continues where it was. */
+/** Maximum seconds per frame; after a pause the scene continues where it was. */
 const LONGEST_FRAME = 0.1;
 /** Maximum number of drawn pixels: more are invisible and heat a phone. */
 const MAX_PIXELS = 2.6e6;
@@ -144,7 +144,7 @@ export class Stage {
     event.preventDefault();
     if (this.given) return;
     this.events.context('lost');
-    // It was released and is needed again before its loss was reported.
+    // take() was called before the loss caused by giveBack() was reported.
     if (this.loser !== null) setTimeout(() => this.restore());
   }
 

@@ -1,14 +1,14 @@
-// What both pages do with the package, for the test to call.
+// Functions of both pages that use the package, for the test to call.
 
 import { hashOfLife } from './lives.mjs';
 
-/** Offers the package's doings to the test, as `window.page`. */
+/** Provides these functions as `window.page`. */
 export function offer({ load, openMicrophone }, worker) {
   let wisp;
   let microphone;
   const winds = [];
   const page = {
-    /** Milliseconds until the library runs, and until the first outline of a model is there. */
+    /** Starts the library and a model; returns milliseconds until the library runs, and until the first outline. */
     async start(model) {
       const began = performance.now();
       wisp = await load();
@@ -33,7 +33,7 @@ export function offer({ load, openMicrophone }, worker) {
       });
     },
 
-    /** Opens the microphone; says what it is, or why there is none. */
+    /** Opens the microphone; returns its settings, or why there is none. */
     async listen(options) {
       page.lost = null;
       page.slept = [];

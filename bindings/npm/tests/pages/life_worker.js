@@ -1,4 +1,4 @@
-// A life in a worker, which loads the package for itself.
+// Computes the hash of a model's outputs in a worker, which loads the package itself.
 
 import { hashOfLife } from './lives.mjs';
 

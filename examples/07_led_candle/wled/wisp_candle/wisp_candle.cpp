@@ -11,7 +11,7 @@ class WispCandleUsermod : public Usermod {
 
   void loop() override {}
 
-  // WLED calls this when the strip is about to be shown: what stands in it is dimmed as the candles burn.
+  // WLED calls this before the strip is shown: dims each pixel by its candle's light.
   void handleOverlayDraw() override {
     if (!enabled_) return;
     step(millis());
@@ -56,7 +56,7 @@ class WispCandleUsermod : public Usermod {
         light_[k] = static_cast<uint8_t>(level < 0 ? 0 : level > 255 ? 255 : level);
       }
     }
-    if (steps > 5) next_ = now;  // WLED was away for long
+    if (steps > 5) next_ = now;  // more than five steps late: drops the rest
   }
 
   static void dim(uint16_t i, uint8_t level) {

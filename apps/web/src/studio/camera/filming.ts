@@ -1,4 +1,4 @@
-// Filming with the camera: a preview, then half a minute with instructions.
+// Filming with the camera: a preview, then half a minute (of falls a minute) with instructions.
 
 import type { LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
 import { button, drawing, element } from '../../panel/element.js';
@@ -204,7 +204,7 @@ export class Filming {
     else this.keepPicture(seconds);
   }
 
-  /** Reduces the exposure where the whole flame is saturated. */
+  /** Reduces the exposure where at least half of the flame is saturated. */
   private brighten(): void {
     const now = performance.now();
     if ((this.seen?.clipped ?? 0) < 0.5 || now - this.darkened < DARKER_EVERY) return;
@@ -212,7 +212,7 @@ export class Filming {
     this.camera.darker().catch(() => undefined);
   }
 
-  /** Keeps the next picture with its capture time, as it is displayed some frames later than its outline is found. */
+  /** Keeps the next picture with its capture time, since a picture is displayed some frames after it was captured. */
   private keepPicture(seconds: number): void {
     const { video } = this.viewer;
     const { reel } = this;

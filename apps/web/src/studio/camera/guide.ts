@@ -106,7 +106,7 @@ export function hintOfFalls({ moving, width, height }: Seen): string {
   return moving !== null && moving.width * moving.height > SHAKEN * width * height ? 'Almost all of the picture moves. Let the camera lie still, before a plain wall.' : '';
 }
 
-/** Shares of the picture: minimum distance to its border, and minimum height. */
+/** Shares of the picture: minimum distance to its border, and minimum height; share of the flame that may be saturated. */
 const BORDER = 0.015;
 const SMALL = 0.12;
 const WHITE = 0.5;

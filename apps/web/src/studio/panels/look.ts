@@ -38,7 +38,6 @@ function factsOf({ captured }: Take): Fact[] {
   return facts;
 }
 
-/** The panel. */
 export function lookPanel(take: Take, takes: readonly Take[], room: Room): HTMLElement {
   const { captured, settings } = take;
   const { report } = captured;

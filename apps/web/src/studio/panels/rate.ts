@@ -26,7 +26,7 @@ export function wallField(now: number, chosen: (metres: number) => void): HTMLEl
 /** The footer of a panel with buttons to continue or go back. */
 export const goOrBack = (go: HTMLButtonElement, back: () => void): HTMLElement => element('div', { class: 'actions' }, go, button('Back', 'back', back));
 
-/** The panel. `go` receives the rate. */
+/** The panel that asks for the rate of numbered pictures; `go` receives it, Hz. */
 export function ratePanel(name: string, pictures: number, go: (rate: number) => void, back: () => void): HTMLElement {
   const { input: rate, label } = rateField('pictures-rate', 'Pictures a second', USUAL);
   const look = button('Look at them', 'look', () => go(rate.valueAsNumber), true);

@@ -20,7 +20,6 @@ export interface TableEvents {
   back(): void;
 }
 
-/** The panel. */
 export function tablePanel(name: string, head: TableHead, events: TableEvents): HTMLElement {
   const roles = rolesOf(head);
   const rows = element('div', { class: 'columns' });

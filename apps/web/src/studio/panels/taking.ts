@@ -20,7 +20,7 @@ export type Moving = 'film' | 'gif';
 export type Format = ExportSettings['format'];
 
 export interface TakingEvents {
-  /** saves three seconds of the flame in the page's room */
+  /** saves a film or GIF in which the flame is blown out and lit again; returns a message about the result */
   film(kind: Moving): Promise<string>;
   /** learns a model small enough for a link */
   small(): Promise<Uint8Array>;

@@ -26,7 +26,7 @@ const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^(input|output):/, ''],
 ];
 
-/** Key of the plot of a curve: its channel, or its kind where it has no channel. */
+/** Key shared by the curves of one plot: family and channel; null: not plotted. */
 function plotKey({ id }: Curve): string | null {
   const family = FAMILIES.findIndex(([begins]) => begins.test(id));
   if (family < 0) return null;

@@ -142,7 +142,7 @@ export class Duet {
     const kept = this.take.reel.at(0.4 * (this.outlines.rows / this.outlines.rate));
     if (kept === null) return;
     const { base, height: tall } = this.outlines;
-    const foot = Math.round(fit.y + fit.scale * (base.y + 0.03 * tall)); // a part of a pixel would be drawn brighter than its cover
+    const foot = Math.round(fit.y + fit.scale * (base.y + 0.03 * tall)); // whole pixels: no row is partly covered
     context.save();
     context.beginPath();
     context.rect(0, foot, width, height - foot);

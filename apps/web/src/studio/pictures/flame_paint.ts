@@ -47,7 +47,7 @@ export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array
   context.restore();
 }
 
-// The same shape, narrowed towards its middle at every height, and slightly lower.
+// Fills one layer of the core: the outline narrowed towards its middle by `inset` at every height, and slightly lower.
 function paintCore(context: CanvasRenderingContext2D, line: Float32Array, foot: number, top: number, inset: number): void {
   const points = line.length / 2;
   context.beginPath();

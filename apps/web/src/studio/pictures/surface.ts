@@ -19,7 +19,7 @@ export function surfaceOf(canvas: HTMLCanvasElement): { context: CanvasRendering
   return { context, width, height };
 }
 
-/** What draws at most once per screen refresh, when the page is laid out. */
+/** Returns a function that requests `draw` for the next screen refresh, at most once per refresh. */
 export function atRefresh(draw: () => void): () => void {
   let asked = 0;
   return () => {
@@ -30,7 +30,7 @@ export function atRefresh(draw: () => void): () => void {
   };
 }
 
-/** Placement of a picture: `scale` of our pixels per pixel, its corner at x and y. */
+/** Placement of a picture: `scale` CSS pixels per pixel of the picture, its upper left corner at x and y. */
 export interface Fit {
   scale: number;
   x: number;
@@ -49,12 +49,12 @@ export function fitPart(part: Region, cell: Region): Fit {
   return { scale, x: cell.x + x - scale * part.x, y: cell.y + y - scale * part.y };
 }
 
-/** A line in pixels of the film, placed. */
+/** Converts a line from pixels of the film to CSS pixels. */
 export const placed = (line: Float32Array, { scale, x, y }: Fit): Float32Array => line.map((value, k) => (k % 2 === 0 ? x : y) + scale * value);
 
 export const WHOLE: Fit = { scale: 1, x: 0, y: 0 };
 
-/** Draws a line through points, x and y alternating; `x` and `y` convert coordinates. */
+/** Begins a path through points, x and y alternating, placed by a fit; the caller strokes or fills it. */
 export function trace(context: CanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
   context.beginPath();
   for (let k = 0; k + 1 < line.length; k += 2) context.lineTo(x + scale * (line[k] as number), y + scale * (line[k + 1] as number));

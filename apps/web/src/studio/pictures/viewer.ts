@@ -98,7 +98,7 @@ export class Viewer {
     this.draw();
   }
 
-  /** Shows the last picture with an outline, as after blowing out the picture is dark. */
+  /** Shows the last picture with an outline: later ones are dark if the flame was blown out. */
   showFollowed(): void {
     if (this.followed === null) return;
     if (this.picture !== this.followed.picture) this.picture?.close();

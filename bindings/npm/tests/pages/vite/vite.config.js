@@ -1,2 +1,2 @@
-// What a page of one's own needs to say for the package: that workers are modules.
+// The only setting that a project needs for the package: workers are modules.
 export default { base: './', worker: { format: 'es' } };
