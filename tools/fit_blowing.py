@@ -18,7 +18,7 @@ from sklearn.neural_network import MLPClassifier
 
 FEATURES = ["low", "high", "voicing", "tone", "peaked", "voice", "newest", "flutter", "clipped"]
 STEADY = ["seawaves", "helicopter", "traffic", "fan"]
-HIDDEN = 6
+HIDDEN = 8
 FOLDS = 5
 
 

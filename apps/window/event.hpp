@@ -196,7 +196,7 @@ class Ear {
   EarState closed_ = EarState::kOff;
 };
 
-/// A sound file in place of a microphone: its samples arrive in real time, and none after its end.
+/// A sound file in place of a microphone: its samples arrive in real time, then a second of silence that ends its wind.
 class SoundFile {
  public:
   /// Errors: those of stream_sound(), or a file without sound.
@@ -209,6 +209,7 @@ class SoundFile {
     });
     if (!sound) return sound.error();
     if (file.samples_.empty()) return Error{path + ": holds no samples; expected the sound of blowing"};
+    file.samples_.resize(file.samples_.size() + static_cast<std::size_t>(file.format_.rate_hz * file.format_.channels));
     return file;
   }
 

@@ -287,10 +287,11 @@ void warn_of_wind(const Play& play, Terminal& terminal) {
   for (std::size_t k = 0; k < most.size(); ++k) {
     const Input& input = play.model.inputs[k];
     const double learned = std::max(std::abs(input.lowest), std::abs(input.highest));
+    const double clamped = learned + kRangeMargin * (input.highest - input.lowest);
     if (most[k] <= learned) continue;
     terminal.warn(input.name + " reaches " + shown(most[k], 3) + " " + input.unit +
                   ", and the model was learned up to " + shown(learned, 3) +
-                  ": beyond that its response is a guess, and beyond " + shown(1.5 * learned, 3) + " it is clamped");
+                  ": beyond that its response is a guess, and beyond " + shown(clamped, 3) + " it is clamped");
   }
 }
 

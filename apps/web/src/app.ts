@@ -264,9 +264,8 @@ export class App {
     const data: ShareData = { title: name === '' ? 'Blow it out' : `For ${name}: blow it out`, url: location.href };
     const picture = new File([await this.stage.snapshot()], 'candle.png', { type: 'image/png' });
     const whole = { ...data, files: [picture] };
-    // Cancelling the dialog is not an error.
-    await navigator.share(navigator.canShare?.(whole) === true ? whole : data).catch(() => undefined);
-    return 'Sent';
+    // Cancelling the dialog is not an error: the link is copied then.
+    return navigator.share(navigator.canShare?.(whole) === true ? whole : data).then(() => 'Sent', () => said);
   }
 
   /** Sends one candle back to the sender, with thanks written in its smoke. */

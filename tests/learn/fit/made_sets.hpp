@@ -78,7 +78,7 @@ inline Recording recording_of(const Set& set) {
     for (std::size_t k = 0; k < nu; ++k) {
       auto& u = recording.channels[k].samples;
       u[t] = words.uniform();
-      if (set.binary) u[t] = t > 0 && u[t] < 0.25 ? u[t - 1] : words.uniform() < 0 ? 1 : -1;  // jumps one time in four
+      if (set.binary) u[t] = t > 0 && u[t] < 0.25 ? u[t - 1] : words.uniform() < 0 ? 1 : -1;  // three times in four
     }
     for (std::size_t i = 0; i < ny; ++i) {
       const SetOutput& row = set.outputs[i];

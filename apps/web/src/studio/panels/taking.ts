@@ -58,7 +58,7 @@ export function takingOf(session: Session, { model }: Learned, events: TakingEve
   const file = (words: string, format: Format): HTMLButtonElement => telling(words, format, 'Making it…', () => events.make(format));
   const itself: Readonly<Record<Thing, readonly HTMLElement[]>> = { flame: [save, recordings, link, tag], fall: [save, recordings], table: [save, recordings] };
   const elsewhere: Readonly<Record<Thing, readonly HTMLElement[]>> = {
-    flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('glTF', 'glb'), file('Lottie', 'json')],
+    flame: [moving('A film', 'film'), moving('As a GIF', 'gif'), file('glTF', 'glb'), file('Lottie', 'json')],
     fall: [file('glTF', 'glb')],
     table: outputs === 1 ? [file('C for a microcontroller', 'c')] : [],
   };
