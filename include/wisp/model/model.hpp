@@ -86,7 +86,7 @@ struct Model {
 
 /// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
 /// become vectors of the horizontal plane, and so does the wind, in two inputs. Wind along x reproduces the numbers of
-/// `plane`, in its camera's view, to the bit. A body's model is returned unchanged. Errors: those of check(); not an ARX
+/// `plane`, in its camera's view, to the bit. A body's model is returned unchanged. Errors: those of check(); no ARX
 /// outline of uncoupled symmetric and antisymmetric components with resampled residuals; inputs other than one wind.
 Result<Model> in_the_round(const Model& plane);
 

@@ -35,7 +35,7 @@ class WindTracker {
 
   /// For video whose frames come at uneven times: frame k covers the sound from frame_seconds[k] to frame_seconds[k +
   /// 1], so there is one frame fewer than times.
-  /// Errors: those of WindLevel::create(); times not finite, negative or not ascending (named by index).
+  /// Errors: those of WindLevel::create(); fewer than 2 times; one not finite, negative or not ascending (by index).
   static Result<WindTracker> create(const SoundFormat& format, std::span<const double> frame_seconds,
                                     const WindOptions& options = {});
 
