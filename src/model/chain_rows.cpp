@@ -276,7 +276,7 @@ std::vector<std::uint8_t> packed_successors(const ChainModel& chain) {
   return std::move(out).bytes();
 }
 
-// Reads them into a chain whose segments have their modes.
+// Reads the successors into a chain whose segments' modes are set.
 // Errors: too few bytes, or too many; a successor that does not exist in its mode.
 Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& chain) {
   const Error damaged{"is damaged: the successors of its chain's segments are cut off or too long"};

@@ -69,7 +69,7 @@ bool is_missing(const Cell& cell) {
   static constexpr std::array<std::string_view, 8> kWords = {"nan",  "na",   "n/a",  "n.a.",
                                                              "#n/a", "null", "none", "-nan"};
   if (cell.text.empty()) return true;
-  // Most cells are numbers; a quick test, as all words begin with one of these characters.
+  // Most cells are numbers; the words begin with one of these characters, so others are not compared.
   const char first = cell.text.front();
   if (first != 'n' && first != 'N' && first != '#' && first != '-') return false;
   return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return same_word(cell.text, word); });

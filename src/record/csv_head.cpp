@@ -36,7 +36,7 @@ bool fits(const Shape& names, const Shape& row) {
   return names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled;
 }
 
-// Detects the cell separator: a tab, a semicolon, a comma or blanks. `lines`: the first ones that are no comments.
+// Detects the cell separator: a tab, a semicolon, a comma or blanks. `lines`: the first lines, without comments.
 char separator_of(const std::vector<std::string>& lines) {
   const std::string_view names = lines.front(), row = lines.back();
   for (char candidate : {'\t', ';', ',', kBlanks}) {

@@ -25,7 +25,7 @@ inline constexpr Float4 kAmbient = {0.0F, 0.0F, kAmbientTemperature, 0.0F};
 
 /// Sizes and layout. Cell (i, j) spans [i h, (i+1) h] × [j h, (j+1) h], y up. Face u(i, j) is the cell's left one and
 /// v(i, j) its lower one, so u has one more column and v one more row. All arrays have a border of one cell on the left
-/// and below and of at least two on the right and above, so that one index serves all and no stencil needs a test.
+/// and below and of at least two on the right and above, so that they share one index and stencils need no bounds test.
 struct FlowGrid {
   int nx = 0;
   int ny = 0;
