@@ -13,7 +13,7 @@
  *       wisp_bank_polyline(bank, flame, points, 2 * polyline_points);
  *     }
  *
- * C99; no function throws, ends the process, or keeps a pointer passed to it, other than a bank's memory.
+ * C99; no function throws, ends the process, or keeps a pointer passed to it, other than a bank's memory and its crew.
  *
  * Errors. Functions that can fail return a wisp_status; wisp_last_error() describes the failure. A function that fails
  * changes nothing. A null handle or pointer, and a count that is not the stated one, are WISP_BAD_ARGUMENT.
@@ -80,8 +80,8 @@ WISP_API wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model*
 /* Frees a model; banks made from it stay valid. NULL is allowed. */
 WISP_API void wisp_model_free(wisp_model* model);
 
-/* Creates the three-dimensional body of a flame, by rotational symmetry, as a separate model: its wind is two inputs, x
- * to the right of the camera that filmed it and z towards that camera. */
+/* Creates the three-dimensional body of a flame, by rotational symmetry, as a separate model. Its wind is two inputs, x
+ * to the right of the camera that filmed it and z towards it. WISP_BAD_ARGUMENT if the model cannot be made a body. */
 WISP_API wisp_status wisp_model_in_the_round(const wisp_model* model, wisp_model** round);
 
 /* Dynamics of the outputs. */
@@ -109,7 +109,7 @@ typedef struct wisp_model_facts {
   double rate_hz;         /* the model's steps per second */
   double metres_per_unit; /* of an outline; 0: unknown */
   int64_t step_nanoseconds;
-  int64_t multiply_adds_per_frame; /* by the paper's count: number of nonzero coefficients */
+  int64_t multiply_adds_per_frame; /* number of nonzero coefficients, the count of Reissell and Pai (2001) */
   int64_t operations_per_frame;    /* all arithmetic, including noise and a polyline of 32 points. Both counts are as
                                       stored in the file; 0: not stored */
   double blow_out_level;   /* least wind that blows an instance out, in the unit of its input; 0: no wind does */
@@ -132,7 +132,7 @@ typedef struct wisp_channel {
   uint32_t reserved;
   const char* name; /* name and unit live as long as the model */
   const char* unit;
-  double lowest; /* trained or seen range; values are clamped to it extended by half its width */
+  double lowest; /* range in training; values, but not a chain's, are clamped to it extended by half its width */
   double highest;
   uint32_t even_odd; /* for inputs: 1 if even and odd functions of it are the regressors */
   uint32_t reserved2;
@@ -197,7 +197,7 @@ WISP_API wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values,
 WISP_API wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count);
 WISP_API wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count);
 
-/* Reads the standard deviation of each output's own noise, in its unit: outputs. */
+/* Reads the standard deviation of the noise per output of the dynamics, in its unit: wisp_arx_facts.outputs values. */
 WISP_API wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count);
 
 /* Facts of a model whose dynamics are WISP_DYNAMICS_CHAIN; others are a WISP_BAD_ARGUMENT. */
@@ -259,7 +259,7 @@ typedef struct wisp_bank_facts {
   uint32_t polyline_points; /* 0 if the outputs are not an outline */
   uint32_t reserved;
   uint64_t clamped; /* instance-steps in which an output was clamped to its range */
-  uint64_t steps;   /* all instance-steps; above 1 clamped in 1000 on ordinary input the model is not usable */
+  uint64_t steps;   /* all instance-steps; a model with more than 1 in 1000 clamped on ordinary input is not usable */
 } wisp_bank_facts;
 
 /* From here to wisp_bank_restore() is the frame path.
@@ -289,8 +289,8 @@ WISP_API wisp_status wisp_bank_set_common_inputs(wisp_bank* bank, const float* v
 WISP_API wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instance instance, const float* values,
                                                    size_t count);
 
-/* Sets the scale of the residual noise: 1 as learned, 0 none; clamped to 0 … 10. A chain's randomness is its walk: at 0
- * the likeliest mode follows as the best-joining segment, any other scale leaves it unchanged. */
+/* Sets the scale of the residual noise: 1 as learned, 0 none; clamped to 0 … 10. A chain has no residual noise: at 0 it
+ * always takes the likeliest mode and its best-joining segment, other scales change nothing. */
 WISP_API wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
 
 /* Reads the current scale. */
@@ -299,15 +299,15 @@ WISP_API wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
 /* Makes one step of the model, whatever the time. */
 WISP_API wisp_status wisp_bank_step(wisp_bank* bank);
 
-/* Advances time and interpolates outputs between the last two steps, one step late. Negative time counts as 0, more
- * than the option `longest` as that. Sets *steps, unless NULL, to the steps made. */
+/* Advances time and interpolates outputs between the last two steps, one step late. Negative time counts as 0, time
+ * above the option `longest` as `longest`. Sets *steps, unless NULL, to the number of steps made. */
 WISP_API wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int32_t* steps);
 
 /* Advances time in seconds; NaN counts as 0. */
 WISP_API wisp_status wisp_bank_advance_seconds(wisp_bank* bank, double seconds, int32_t* steps);
 
-/* Makes many steps in one call, for offline play, with the same bits as single steps. Row t of steps * slots * inputs
- * values is set before step t, row t of steps * slots * outputs values is read after it; either may be none. */
+/* Makes up to 2^24 steps in one call, for offline play, with the same bits as single steps. Row t of steps * slots *
+ * inputs values is set before step t, row t of steps * slots * outputs values is read after it; either may be NULL. */
 WISP_API wisp_status wisp_bank_step_many(wisp_bank* bank, uint32_t steps, const float* inputs, size_t input_count,
                                          float* outputs, size_t output_count);
 
@@ -316,8 +316,8 @@ WISP_API wisp_status wisp_bank_step_many(wisp_bank* bank, uint32_t steps, const 
 typedef void (*wisp_crew_task)(void* of, int32_t part);
 typedef void (*wisp_crew_run)(void* pool, int32_t parts, wisp_crew_task task, void* of);
 
-/* Distributes steps over a crew from now on, with the same bits; `pool` is passed to `run`. Worthwhile from some
- * thousand instances on. NULL: the calling thread steps all instances. */
+/* Distributes steps over a crew of 1 to 4096 parts from now on, with the same bits. `pool` is passed to `run`; if `run`
+ * is NULL, the calling thread steps all instances. Worthwhile from some thousand instances on. */
 WISP_API wisp_status wisp_bank_set_crew(wisp_bank* bank, uint32_t parts, wisp_crew_run run, void* pool);
 
 /* Read outputs, in their units: of all (slots * outputs), of one (outputs). */
@@ -330,13 +330,13 @@ WISP_API wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_inst
 WISP_API wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t count);
 WISP_API wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
-/* For a model of a body. The first sets the level camera that sees outputs and outlines by its unit vector to the
- * right, (x, z). The second reads an instance's rings, (polyline_points + 1) / 2 times 6 numbers from base to tip: the
- * centre's x, y, z, the radius, and the rise from centre to rim towards +x and +z. */
+/* For a model of a body, else WISP_BAD_ARGUMENT. The first sets the level camera that sees outputs and outlines, by its
+ * unit vector to the right, (x, z). The second reads an instance's rings from base to tip, (polyline_points + 1) / 2
+ * times 6 numbers: the centre's x, y, z, the radius, and the rise from centre to rim towards +x and +z. */
 WISP_API wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_z);
 WISP_API wisp_status wisp_bank_rings(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
-/* Compute the surface of `rings` rings: rings * segments vertices, position and normal, `stride` numbers apart,
+/* Compute the surface of 2 or more rings: rings * segments vertices, position and normal, `stride` >= 6 numbers apart,
  * segments from 3 to 256; and 2 * rings * segments - 4 triangles, anticlockwise from outside, equal in all frames. */
 WISP_API wisp_status wisp_ring_mesh(const float* rings, uint32_t count, uint32_t segments, float* numbers, size_t room,
                                     size_t stride);
@@ -344,7 +344,7 @@ WISP_API wisp_status wisp_ring_triangles(uint32_t rings, uint32_t segments, uint
 
 /* Whether an instance burns. In a model with a blow_out_level, wind that is too strong for too long extinguishes it,
  * until it is relit. Outputs and outlines then shrink to 0; for smoke and ember there is the time since the event, in
- * nanoseconds of the displayed state, or WISP_NEVER. For an outline, its light too. */
+ * nanoseconds of the displayed state, or WISP_NEVER. An outline also has its light, which is 0 for other views. */
 #define WISP_WENT_OUT 1u
 #define WISP_RELIT 2u
 #define WISP_NEVER INT64_MAX
@@ -352,10 +352,10 @@ typedef struct wisp_flame_state {
   uint32_t size;     /* sizeof(wisp_flame_state), set by the caller */
   uint32_t lit;      /* 1 or 0 */
   float flame_size;  /* 0 to 1: factor that outputs already contain */
-  uint32_t events;   /* sum of the flags above: in the last call of step or advance, or by hand since */
+  uint32_t events;   /* sum of the flags above: events of the last call of step or advance, and by hand since */
   int64_t since_lit; /* since it was last relit; WISP_NEVER if never since spawned */
   int64_t since_out; /* since it was last extinguished */
-  float light[3];    /* position: middle of its outline, x, y, and z of a body */
+  float light[3];    /* position: centroid of its outline, x, y, and z of a body */
   float intensity;   /* area relative to that at rest */
   float kelvin;      /* colour temperature: 1900 at rest, redder below */
 } wisp_flame_state;
@@ -381,7 +381,7 @@ typedef struct wisp_chain_place {
   float velocity[3]; /* mean over the last step, metres per second */
   float spin[3];     /* radians per second, world axes */
   uint32_t lies;     /* 1: at rest on the ground */
-  uint32_t landed;   /* 1: touched the ground in the last call of step or advance, the last 0.35 s of a longer one */
+  uint32_t landed;   /* 1: touched the ground in the last call of step or advance, at most 0.35 s before its end */
 } wisp_chain_place;
 
 WISP_API wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
@@ -397,7 +397,7 @@ typedef struct wisp_body {
 
 /* Sets the state of an instance of a chain, as after a throw, a collision or a kick: it continues with the segment
  * whose initial motion is nearest; the difference decays. Searches every segment once: too expensive for every frame.
- * WISP_BAD_ARGUMENT if a number is not finite. */
+ * WISP_BAD_ARGUMENT if a number is not within +-1e6, or the orientation's norm is below 0.001. */
 WISP_API wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
 
 /* Position that a body shall reach, and when. */
@@ -416,7 +416,7 @@ WISP_API wisp_status wisp_bank_release(wisp_bank* bank, wisp_instance instance);
 WISP_API int32_t wisp_bank_can_steer(const wisp_bank* bank);
 
 /* Set the height of level ground, on which instances of a chain come to rest until they are placed or reset; or remove
- * it (the default): they fall for ever. WISP_BAD_ARGUMENT for a height that is not finite. */
+ * it (the default): they fall for ever. WISP_BAD_ARGUMENT for a height that is not finite; +-1e6 or more removes it. */
 WISP_API wisp_status wisp_bank_set_ground(wisp_bank* bank, float height);
 WISP_API wisp_status wisp_bank_clear_ground(wisp_bank* bank);
 
@@ -429,12 +429,12 @@ typedef struct wisp_chain_settings {
 /* Reads the current settings. */
 WISP_API wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
 
-/* Reset one instance, or all and the bank's time, to the state at spawning, lit. */
+/* Reset one instance, or all instances and the time passed since the last step, to the state at spawning, lit. */
 WISP_API wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance);
 WISP_API wisp_status wisp_bank_reset(wisp_bank* bank);
 
 /* Save the whole state as bytes, and restore it: the bank continues with the same bits. The same model and capacity are
- * needed. Restoring fails with WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version. */
+ * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version: only then it allocates. */
 WISP_API wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
 WISP_API wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
 WISP_API wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
@@ -451,7 +451,7 @@ typedef struct wisp_wind_options {
   double exponent;                 /* exponent of wind speed as a power of the sound's RMS, 0.1 to 2 */
   double smoothing_seconds;        /* averaging time of the level, 0 to 1 */
   double floor_rise_db_per_second; /* largest growth rate of the background estimate, 0 to 60 */
-  double first_gust_rms;           /* initial RMS at wind 1, full scale 1, 1e-6 to 8 */
+  double first_gust_rms;           /* initial RMS of the wind band at wind 1, full scale 1, 1e-6 to 8 */
 } wisp_wind_options;
 
 /* Returns the default options: one channel of 44100 Hz, 60 frames per second (reasons: docs/explanation/wind.md). */
@@ -497,13 +497,13 @@ WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* fr
 #define WISP_WIND_BREATHE_GENTLY 0u /* wind that leans a flame without extinguishing it */
 #define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes it */
 
-/* Uses the next seconds of sound (0.5 to 30) for the requested calibration. */
+/* Uses the next seconds of sound, clamped to 0.5 to 30, for the requested calibration; NaN is WISP_BAD_ARGUMENT. */
 WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds);
 
 /* Returns 1 while that time is still running, else 0. */
 WISP_API int32_t wisp_wind_calibrating(const wisp_wind* wind);
 
-/* Returns 1 if the last calibration has ended and heard its request. */
+/* Returns 1 if the last calibration has ended and heard at least 0.1 s of blowing, else 0. */
 WISP_API int32_t wisp_wind_calibrated(const wisp_wind* wind);
 
 /* Returns the rise of the room's level since its first seconds or its lowest since, dB, at least 0. From 6 on a steady
@@ -511,13 +511,13 @@ WISP_API int32_t wisp_wind_calibrated(const wisp_wind* wind);
  * for NULL. */
 WISP_API double wisp_wind_room_rise(const wisp_wind* wind);
 
-/* Estimated properties of a microphone in a room; stored, they replace the estimation at the next start. */
+/* Estimated properties of a microphone in a room. A program may store them, and set them at its next start. */
 typedef struct wisp_wind_calibration {
   uint32_t size;          /* sizeof(wisp_wind_calibration), set by the caller */
-  float background_rms;   /* RMS without wind */
-  float background_level; /* RMS of the wind band, without wind */
-  float floor_db;         /* level without wind, dB of full scale */
-  float gust_rms;         /* RMS of the band at wind 1; 0: unknown */
+  float background_rms;   /* RMS without wind, 0 to 8 */
+  float background_level; /* RMS of the wind band, without wind, 0 to 8 */
+  float floor_db;         /* level without wind, dB of full scale, -200 to 40 */
+  float gust_rms;         /* RMS of the band at wind 1, 0 to 8; 0: unknown */
 } wisp_wind_calibration;
 
 WISP_API wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration);
@@ -526,7 +526,7 @@ WISP_API wisp_status wisp_wind_set_calibration(wisp_wind* wind, const wisp_wind_
 /* Forgets everything but the options. */
 WISP_API wisp_status wisp_wind_reset(wisp_wind* wind);
 
-/* Returns the delay of a frame against the wind, seconds, beyond the frame itself. 0 for NULL. */
+/* Returns the delay by filters and smoothing, seconds, in addition to the duration of a frame. 0 for NULL. */
 WISP_API double wisp_wind_latency(const wisp_wind* wind);
 
 /* ---- Learning ----
@@ -552,14 +552,14 @@ enum {
   WISP_ROLE_MOTION = 2  /* position of the object's support */
 };
 
-/* Creates an empty recording of so many samples per second. Sets *recording. */
+/* Creates an empty recording. Sets *recording. WISP_BAD_ARGUMENT unless 0 < rate_hz < 1e9 (samples per second). */
 WISP_API wisp_status wisp_recording_create(double rate_hz, wisp_recording** recording);
 
 /* Frees a recording. NULL is allowed. */
 WISP_API void wisp_recording_free(wisp_recording* recording);
 
 /* Adds a channel, whose samples are copied; NaN is a missing sample. All channels have equal counts. `unit` may be
- * NULL. Fails with WISP_BAD_DATA if the name exists already or a sample is infinite. */
+ * NULL. Fails with WISP_BAD_DATA if the name is empty or exists already, or a sample is infinite. */
 WISP_API wisp_status wisp_recording_add(wisp_recording* recording, uint32_t role, const char* name, const char* unit,
                                         const double* samples, size_t count);
 
@@ -590,7 +590,7 @@ typedef struct wisp_recipe {
   const char* name;  /* name of the model; NULL: the recipe's default */
 } wisp_recipe;
 
-/* Returns the library's default recipe; open settings are chosen on held-out data. */
+/* Returns the library's default recipe of that kind. Learning chooses the settings that it leaves open. */
 WISP_API wisp_recipe wisp_recipe_default(uint32_t kind);
 
 /* Called now and then on the calling thread with a stage in words and its finished share, 0 to 1, or below 0 if its
@@ -600,8 +600,8 @@ typedef int32_t (*wisp_progress)(void* of, const char* stage, double share);
 typedef struct wisp_fit wisp_fit;
 
 /* Learns one model from recordings. `progress` may be NULL. Sets *fit. A bad model is no failure: wisp_fit_usable()
- * reports it.
- * Fails with WISP_BAD_DATA if the recordings cannot be learned from, with WISP_STOPPED if stopped. */
+ * reports it. Fails with WISP_BAD_DATA if the recordings cannot be learned from, with WISP_STOPPED if stopped, with
+ * WISP_BAD_ARGUMENT for an unknown kind of recipe or event. */
 WISP_API wisp_status wisp_learn(const wisp_recording* const* recordings, size_t count, const wisp_recipe* recipe,
                                 wisp_progress progress, void* of, wisp_fit** fit);
 
@@ -612,7 +612,7 @@ WISP_API void wisp_fit_free(wisp_fit* fit);
  * Fails with WISP_BAD_DATA if the learned model cannot be played. */
 WISP_API wisp_status wisp_fit_get_model(const wisp_fit* fit, const void** bytes, size_t* size);
 
-/* Return 1 if the model is fit for use, and the reason in one sentence. */
+/* Return 1 if the model is fit for use, else 0, and the reason in one sentence, which lives as long as the fit. */
 WISP_API int32_t wisp_fit_usable(const wisp_fit* fit);
 WISP_API const char* wisp_fit_reason(const wisp_fit* fit);
 

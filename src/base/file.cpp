@@ -118,8 +118,8 @@ void make_alike(const fs::path& pending, const fs::path& old) {
   }
 }
 
-// Names of pending files in a form that a signal handler may read: it can neither lock nor allocate. If there are more
-// files at once than entries, an interruption leaves the excess behind.
+// Names of pending files for the signal handler, which can neither lock nor allocate. Files that find no free entry, or
+// whose names are longer, are left behind by an interruption.
 constexpr std::size_t kMaxListed = 32, kMaxName = 4096;
 struct Listed {
   std::atomic<int> state{0};  // 0 free, 1 being written, 2 holds a name
@@ -271,8 +271,8 @@ void remove_pending_files_when_interrupted() {
 #else
   constexpr std::array kSignals{SIGINT, SIGTERM};
 #endif
-  for (const int signal : kSignals) {
-    if (std::signal(signal, wisp_remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup stays nohup
+  for (const int signal : kSignals) {  // an ignored signal stays ignored, as under nohup
+    if (std::signal(signal, wisp_remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
 

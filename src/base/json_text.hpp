@@ -1,6 +1,6 @@
 #pragma once
 // Writer of JSON text: objects, lists and values in order, numbers as the shortest text that reads back as the same
-// number. For documents of a fixed shape, whose keys need no escape.
+// number. For documents of a fixed shape: keys need no escape, numbers are finite. Control characters become blanks.
 
 #include <charconv>
 #include <concepts>

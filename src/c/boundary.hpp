@@ -1,5 +1,5 @@
 #pragma once
-// Common parts of the C ABI: the types behind its handles, error messages, structs of other sizes, no exceptions.
+// Common parts of the C ABI: types behind its handles, error messages, structs of other versions, and exceptions.
 
 #include <algorithm>
 #include <cstddef>
@@ -65,7 +65,7 @@ bool struct_is_right(const char* function, const Handle* handle, const Struct* g
   return false;
 }
 
-/// Runs a function that may throw for lack of memory only. Without exceptions, lack of memory ends the program.
+/// Runs a function; an exception becomes an error status. Without exceptions, lack of memory ends the program.
 template <class Work>
 wisp_status guarded(const char* function, Work work) {
 #ifdef __cpp_exceptions

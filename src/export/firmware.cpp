@@ -1,8 +1,8 @@
-// Fixed point: the state is in units of 2^-29 of a power of two above its range, coefficients in 2^-28, and sums in
-// 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the inverse of their distribution from 17
-// quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986, section II.2), linear between them and of the
-// fourth power towards the first and the last; bits by G. Marsaglia's xorshift32 (Journal of Statistical Software 8,
-// 2003).
+// Fixed point. P is a power of two above the output's range. The state is in units of P · 2^-29, coefficients in 2^-28
+// and sums in P · 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks are drawn by inversion from 17
+// quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986, section II.2), interpolated linearly and,
+// towards the first and the last, by a fourth power; bits by G. Marsaglia's xorshift32 (Journal of Statistical Software
+// 8, 2003).
 
 #include <algorithm>
 #include <array>
@@ -191,7 +191,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const double lowest = output.lowest >= 0 ? std::max(0.0, below) : below;  // light is never negative
   const double reach = std::max({highest - lamp->mean, lamp->mean - lowest, 1e-6});
   const int exponent = static_cast<int>(std::ceil(std::log2(reach)));
-  // The output range then fits into 16 bits.
+  // Within these limits the output range fits into 16 bits.
   if (exponent > 2 || exponent < -8 || std::abs(lamp->mean) > 3.9) {
     return Error{"the output is about " + std::to_string(lamp->mean) + " and moves by " + std::to_string(reach) +
                  ", expected at most 3.9 and 0.004 to 4; learn it with mean 1"};

@@ -40,7 +40,7 @@ void append(std::vector<std::byte>& bytes, std::uint32_t word, int size = 4) {
 
 class Buffer {
  public:
-  /// Adds numbers, of vertices if the target is kVertices; returns the index of their accessor.
+  /// Adds numbers; `target` is kVertices for vertex attributes. Returns the index of their accessor.
   int add(std::span<const float> values, Shape shape, int target = 0) {
     const auto width = static_cast<std::size_t>(shape);
     Accessor accessor{bytes_.size(), values.size() * 4, values.size() / width, shape, target, {}, {}};
@@ -236,7 +236,7 @@ Document body_document(const Take& take, double half_width, double half_length) 
   return document;
 }
 
-// Weight of a target: the position of its number in the bank's range, since tools clamp weights to 0 … 1.
+// Returns a target's weight: the position of its output in the bank's range, since tools clamp weights to 0 … 1.
 double weight_of(const Mesh& mesh, std::size_t target, double value) {
   const double range = mesh.highest[target] - mesh.lowest[target];
   return range > 0 ? std::clamp((value - mesh.lowest[target]) / range, 0.0, 1.0) : 0;
@@ -261,7 +261,7 @@ void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
 // edge, in any drawing order; flame.png has a column for each.
 constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
-// Rows below the base, a drop around the wick, and one that closes the tip.
+// A row of vertices made from a ring. Some rows form a drop around the wick below the base, and one closes the tip.
 struct MeshRow {
   int ring = 0;
   double width = 1;  // width as a share of the ring's
@@ -294,7 +294,7 @@ std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   return ring_places(all, kSegments);
 }
 
-// Each vertex's place in the flame's picture: rows at their height above the base in the outline at rest.
+// Texture coordinates: a column per shell, and the height of a vertex row above the base in the outline at rest.
 constexpr double kFlameDrop = 0.12;  // lower edge of the picture, as a share of the distance from base to tip
 
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {

@@ -56,16 +56,14 @@ void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
 
 constexpr int kWalks = 64;       // number of walks in parallel
 constexpr double kSeconds = 80;  // duration of each walk, in addition to the loop
-constexpr double kSettled =
-    4;  // seconds until a walk is independent of its start and has reached its response to the wind
-constexpr int kMaxRounds =
-    64;  // batches of walks, 0.1 s of work each; for a leaf learned from 60 falls the 95th percentile is 35
+constexpr double kSettled = 4;   // seconds until a walk is independent of its start and responds fully to the wind
+constexpr int kMaxRounds = 64;   // batches of walks, 0.1 s of work each; a leaf of 60 falls needs 35 (95th percentile)
 
 using Vector = std::array<double, 3>;
 
 struct Walk {
   std::vector<float> rows;           // frames × outputs
-  std::vector<std::uint32_t> place;  // segment and step
+  std::vector<std::uint32_t> place;  // per frame 65536 · segment + step
 };
 
 std::vector<Walk> walk(const Model& model, std::size_t frames, std::uint64_t seed, const std::vector<float>& inputs) {
@@ -107,7 +105,7 @@ Quaternion product(const Quaternion& p, const Quaternion& q) {
 
 Quaternion conjugate(const Quaternion& q) { return {q[0], -q[1], -q[2], -q[3]}; }
 
-// Returns the rotation about a vector's direction by its length.
+// Returns the rotation about a vector's direction by `share` of its length, radians.
 Quaternion rotation(const Vector& by, double share) {
   const double angle = std::hypot(by[0], by[1], by[2]) * share;
   if (std::abs(angle) < 1e-12) return {1, 0, 0, 0};
@@ -123,7 +121,7 @@ Vector turned(const Vector& v, const Quaternion& by) {
 Quaternion attitude(const std::vector<float>& rows, std::size_t outputs, std::size_t frame) {
   const float* stored = &rows[frame * outputs + 3];
   const Quaternion q{stored[0], stored[1], stored[2], stored[3]};
-  // std::sqrt is exact on every machine, std::hypot is not.
+  // std::sqrt is rounded correctly on every machine, std::hypot is not.
   const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};
 }

@@ -21,7 +21,7 @@ std::vector<float> outline_points(const std::vector<double>& knots, std::span<co
 /// first.
 std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knots, std::span<const float> control);
 
-/// Returns the operating point of the outputs of an ARX or switched model.
+/// Returns the operating point of the outputs of an ARX or switched model; zeros for a chain.
 std::vector<double> operating_point(const Model& model);
 
 inline constexpr int kRings = 12, kSegments = 12;  ///< mesh size of an exported flame
@@ -31,7 +31,7 @@ inline constexpr int kRings = 12, kSegments = 12;  ///< mesh size of an exported
 std::vector<float> rings_of(const std::vector<double>& knots, std::span<const float> front,
                             std::span<const float> side);
 
-/// Return the positions of their surface's vertices, and three indices per triangle.
+/// Return the vertex positions of the surface of rings, and three vertex indices per triangle of it.
 std::vector<float> ring_places(const std::vector<float>& rings, int segments);
 std::vector<std::uint16_t> ring_corners(int rings, int segments);
 
@@ -45,7 +45,7 @@ struct Surface {
 /// unknown.
 Surface leaf_blade(double half_width, double half_length);
 
-/// Errors: the take's outputs differ from the model's, or it has no frames.
+/// Errors: the number of outputs differs from the model's; no frames or instances; a wrong number of values.
 Result<void> check_take(const Model& model, const Take& take);
 
 /// Replaces rows of an ARX or switched model's outputs by the periodic orbit under their own shocks: adds to each row

@@ -23,7 +23,7 @@ std::size_t largest_lag(const ArxOrders& orders, int i) {
   return static_cast<std::size_t>(most);
 }
 
-// Weights of lags 0, 1, 2, … (`size` of them) of an output or an input in an output's row of A(q) y = B(q) u.
+// Weights of lags 0, 1, 2, … (at least `size`) of an output, or an input, in an output's row of A(q) y = B(q) u.
 std::vector<double> lags_of_output(const ArxModel& arx, int i, int j, std::size_t size) {
   std::vector<double> lags{i == j ? 1.0 : 0.0};
   lags.insert(lags.end(), arx.a(i, j).begin(), arx.a(i, j).end());

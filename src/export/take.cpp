@@ -145,7 +145,7 @@ Model model_of_components(const Model& model, const ShapeComponents& shape) {
   return out;
 }
 
-// Returns a body's shape in side view: with z in the place of x.
+// Returns a body's shape in side view: its z coordinates replace its x coordinates.
 ShapeComponents from_the_side(ShapeComponents shape) {
   const auto points = static_cast<std::ptrdiff_t>(shape.points());
   std::copy_n(shape.rest.end() - points, points, shape.rest.end() - 2 * points);

@@ -20,10 +20,10 @@ inline std::string filled(std::string text, const std::vector<std::pair<std::str
   return text;
 }
 
-/// Returns whether all four languages accept the text as the beginning of a name.
+/// Returns whether the text is an identifier: letters, digits and _, no digit first. Keywords are not excluded.
 bool is_name(std::string_view name);
 
-/// Removes characters that would end a comment or a line.
+/// Removes characters that would end a comment or a line: * / " and control characters.
 std::string comment_text(std::string text);
 
 }  // namespace wisp::exporting

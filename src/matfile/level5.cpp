@@ -1,6 +1,6 @@
 // MAT-file format, The MathWorks, "MAT-File Level 5 File Format": elements of a tag (type and length) and data, padded
 // to eight bytes; an array is an element that contains elements: flags, dimensions, name, then numbers or fields. Read
-// in one pass from front to back, so that sizes that a file only claims allocate nothing.
+// from front to back, in one pass per variable, so that sizes that a file only claims allocate nothing.
 
 #include "matfile/level5.hpp"
 
@@ -22,7 +22,7 @@ constexpr std::uint32_t kMatrix = 14, kCompressed = 15;
 constexpr unsigned kStruct = 2, kFirstNumeric = 6, kLastNumeric = 15;
 constexpr unsigned kComplex = 0x08;
 constexpr std::size_t kMaxDimensions = 32, kMaxFields = 4096, kMaxName = 256;
-constexpr std::size_t kMaxNames = 10'000;  // largest number of listed names: packed structures could hold millions
+constexpr std::size_t kMaxNames = 10'000;  // listing stops there: packed structures could hold millions of names
 constexpr int kDeepest = 16;               // largest nesting depth of structures
 
 // Bytes of a stored number, by the element types 1 to 13.
@@ -262,7 +262,7 @@ void for_each_variable(std::span<const std::byte> file, Visit visit) {
   }
 }
 
-// Lists every numeric array within one whose head was read. Returns false if it is damaged.
+// Lists an array whose head was read, if it is numeric, and those in its fields. Returns false if it is damaged.
 bool list(Reader& reader, const Head& head, const std::string& name, int depth, std::vector<Name>& names) {
   if (head.numeric()) names.push_back({name, head.dims[0], head.dims[1]});
   if (!head.single_struct() || depth == kDeepest || names.size() >= kMaxNames) return true;
@@ -278,7 +278,7 @@ bool list(Reader& reader, const Head& head, const std::string& name, int depth, 
   return true;
 }
 
-// Finds the target of the path from an array whose head was read; the first `at` names are resolved.
+// Reads the numbers that `path` names, in an array whose head was read. The first `at` names are already resolved.
 Found find(Reader& reader, const Head& head, const Path& path, std::size_t at, std::size_t max_numbers) {
   if (at == path.size()) return head.numeric() ? reader.numbers(head, max_numbers) : Miss::kNotNumbers;
   if (!head.single_struct()) return Miss::kNoField;

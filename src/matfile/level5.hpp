@@ -40,10 +40,10 @@ using Path = std::vector<std::string>;
 /// Returns whether bytes begin like a level 5 file.
 bool is_level5(std::span<const std::byte> file);
 
-/// Returns whether a file ends at the end of an element.
+/// Returns whether a level 5 file ends at the end of an element.
 bool is_whole_level5(std::span<const std::byte> file);
 
-/// Returns the first ten thousand numeric variables and fields. Damaged ones are omitted.
+/// Returns the numeric variables and fields, about ten thousand at most. Damaged ones are omitted.
 std::vector<Name> names_in_level5(std::span<const std::byte> file);
 
 /// Reads a table of at most `max_numbers`. Memory grows with the existing data, whatever sizes the file claims.

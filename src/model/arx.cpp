@@ -176,8 +176,8 @@ double frobenius(const Square& m) {
   return std::sqrt(sum);
 }
 
-// Gelfand's formula, rho = lim ‖Mᵏ‖^(1/k), with k doubled by squaring: after 40 doublings the ratio of norm to radius
-// has been raised to 2^−40. The matrix is scaled to norm 1 before each squaring, and log2 of the scales is summed.
+// Gelfand's formula, rho = lim ‖Mᵏ‖^(1/k), with k doubled by squaring up to 2^39: the ratio of norm to radius is raised
+// to 2^−39. The matrix is scaled to norm 1 before each squaring, and log2 of the scales is summed.
 double radius(Square m, int n) {
   double log_radius = 0;
   double share = 1;

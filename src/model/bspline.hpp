@@ -1,5 +1,5 @@
 #pragma once
-// Cubic B-splines: knots, basis, and tables of basis weights.
+// Cubic B-splines: knots, basis functions and their derivatives.
 //
 // Source: C. de Boor, A Practical Guide to Splines, chapter IX (the recurrence); L. Piegl & W. Tiller, The NURBS Book,
 // section 2.2. Only + − × ÷ is used, so that the weights are the same bits on every machine.

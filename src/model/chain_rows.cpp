@@ -10,12 +10,12 @@
 namespace wisp {
 namespace {
 
-constexpr int kEscape = 24;     // number of ones before a number that is written without prediction
-constexpr int kWholeBits = 20;  // bits of such a number, sign included
+constexpr int kEscape = 24;     // number of ones before a folded difference that is written in full
+constexpr int kWholeBits = 20;  // bits of such a difference
 constexpr std::size_t kOrders = 4;
 
-// Numbers of one kind share the parameter of their codes: rows by channel and by the number of rows before them, and
-// rates.
+// Numbers of one kind share the parameter of their Rice code. A kind is a channel of the rows with an order of
+// prediction, or an axis of the rates.
 std::size_t kinds_of(const ChainModel& chain) {
   return static_cast<std::size_t>(channel_count(chain.motion)) * kOrders +
          static_cast<std::size_t>(rate_count(chain.motion));
@@ -86,7 +86,7 @@ class BitReader {
   bool sound_ = true;
 };
 
-// Predicts a number from `order` rows before it, the nearest one `stride` before it.
+// Predicts a number from the `order` rows before it, which are `stride` numbers apart.
 std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_t stride) {
   const auto before = [&](std::size_t k) { return std::int32_t{*(at - k * stride)}; };
   switch (order) {
@@ -101,8 +101,8 @@ std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_
   }
 }
 
-// Integer factors from differences of stored rows to a rate (a power of 2 is divided out later): for velocities, and
-// for angular velocities.
+// Factors from told_rate() to a stored rate, as integers in units of 2^−kShifts: of velocities, and of angular
+// velocities.
 using RateFactors = std::array<std::int32_t, 2>;
 
 struct SegmentOf {
@@ -118,7 +118,7 @@ struct SegmentOf {
   }
 };
 
-// Predicts a rate from rows, in another unit: for an angular velocity the vector part of q̇ q*.
+// Predicts a rate from rows, up to a factor: for an angular velocity by the vector part of q̇ q*.
 std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
   if (axis < 3) return segment.change(end, axis);
   const std::int16_t* q = segment.rows + (end ? segment.steps * segment.channels : 0) + 3;
@@ -127,8 +127,8 @@ std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
   return d(i) * q[0] - d(0) * q[i] - d(j) * q[k] + d(k) * q[j];
 }
 
-constexpr std::array<int, 2> kShifts = {10, 26};  // divisor of a factor of 1, as a power of 2
-constexpr std::int32_t kMaxFactor = 10'000'000;   // times the largest row difference, 2^38, it fits in 64 bits
+constexpr std::array<int, 2> kShifts = {10, 26};  // log2 of the integer that stands for a factor of 1
+constexpr std::int32_t kMaxFactor = 10'000'000;   // its product with a told_rate() clamped to 2^38 fits in 64 bits
 
 std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis, const RateFactors& factors) {
   const std::int64_t limit = std::int64_t{1} << 38;
@@ -231,11 +231,11 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   const Error damaged{"is damaged: the rows and rates of its chain's segments are cut off or too long"};
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
   ChainSegments& segments = chain.segments;
-  // This number of segments can be counted in 32 bits.
+  // With at most kMaxSegments segments, the number of rows fits in 32 bits.
   if (segments.steps.size() != segments.size() || segments.size() > kMaxSegments) return damaged;
   const std::size_t rows = std::size_t{segment_rows(segments).back()} * channels;
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
-  // A number takes at least one bit: fewer bits than numbers allocate nothing.
+  // Each number takes at least one bit, so a size that the bytes cannot hold allocates nothing.
   if (rows + rates > 8 * bytes.size()) return damaged;
   segments.rates.assign(rates, 0);
   segments.rows.assign(rows, 0);
@@ -276,7 +276,7 @@ std::vector<std::uint8_t> packed_successors(const ChainModel& chain) {
   return std::move(out).bytes();
 }
 
-// Reads them into a chain whose segments have their modes.
+// Reads the successors into a chain whose segments' modes are set.
 // Errors: too few bytes, or too many; a successor that does not exist in its mode.
 Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& chain) {
   const Error damaged{"is damaged: the successors of its chain's segments are cut off or too long"};

@@ -1,10 +1,9 @@
 #pragma once
-// Serialised rows and rates of a chain's segments. Rows and rates are integers, stored as differences from
-// a prediction, in Rice codes. R. F. Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979.
-// Lossless.
+// Lossless serialisation of the rows and rates of a chain's segments: integers, stored as differences from a
+// prediction, in Rice codes. R. F. Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979.
 //
-// Motion is smooth, so a row is predicted by the cubic through the rows before it (a straight line or a parabola at
-// first), and a rate by the parabola through the first or last three rows.
+// Motion is smooth, so a row is predicted by the parabola through the three rows before it (with fewer rows: by a line,
+// a constant, or 0), and a rate by the parabola through the first or last three rows.
 
 #include <cstdint>
 #include <span>
@@ -18,8 +17,8 @@ namespace wisp {
 /// Serialises the rows and rates of a chain.
 std::vector<std::uint8_t> packed_segments(const ChainModel& chain);
 
-/// Reads them into a chain whose other fields are set.
-/// Errors: bytes that are not of this code, too few or too many.
+/// Reads rows and rates into a chain whose motion and segments' modes and steps are set.
+/// Errors: too few or too many bytes, or numbers outside 16 bits.
 Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& chain);
 
 }  // namespace wisp

@@ -24,7 +24,7 @@ constexpr std::uint8_t kCatching[] = {167, 222, 255, 255, 197, 197, 207, 220, 22
                                       254, 254, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
 constexpr std::uint32_t kCatchingEnds[] = {42};
 
-// Returns the events at another rate, each step the recorded one before it.
+// Returns the events at another rate: each step has the recorded size at or before its time.
 FlameEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::uint32_t> ends, double rate_hz) {
   FlameEvents out;
   std::uint32_t begin = 0;

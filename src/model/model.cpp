@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kPowers = 3;  // number of powers of a wind's magnitude, with its sign, and of each component of a vector
+constexpr int kPowers = 3;  // powers of a wind's size (1, root, square): regressors per sign or component
 
 // Indices of outputs and regressors in the model of the body. Rows of coefficients stay unchanged.
 struct Places {
@@ -17,7 +17,7 @@ struct Places {
   int outputs() const { return symmetric + 2 * vectors; }
   bool is_across(int output) const { return output >= symmetric + vectors; }
   int source(int output) const { return is_across(output) ? output - vectors : output; }
-  // Shift of a row's regressors: those of x stay in place.
+  // Shift of a row's regressors: rows of z components take those of the wind's z, other rows stay.
   int shift(int output) const { return is_across(output) ? kPowers : 0; }
 };
 
@@ -45,7 +45,7 @@ void repeat_last(std::vector<T>& values, std::size_t count) {
   values.insert(values.end(), last.begin(), last.end());
 }
 
-// Across the picture the flame stands upright: no camera saw its lean there.
+// The z components have mean and constant 0, since the camera does not see a lean towards it.
 void turn_dynamics(ArxModel& arx, const Places& places) {
   const auto vectors = static_cast<std::size_t>(places.vectors);
   arx.orders = orders_of(arx.orders, places);

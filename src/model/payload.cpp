@@ -166,7 +166,7 @@ Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& sto
 }
 
 ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
-  constexpr std::uint32_t kLargest = 1U << 30;  // outside of every range, but an int
+  constexpr std::uint32_t kLargest = 1U << 30;  // above every field's range, so check() rejects it, and fits an int
   ResampledResiduals resampled;
   resampled.scale = copied(stored.scale());
   resampled.rows = copied(stored.rows());
@@ -204,7 +204,7 @@ Result<ArxOrders> read_all_orders(const Stored& stored, int ny, int nu) {
   return ArxOrders{std::move(*na), std::move(*nb), std::move(*nk)};
 }
 
-// Reads the coefficients of a model or of a mode of one, and their standard errors if there are any.
+// Reads the coefficients of an ARX model or of one mode, and their standard errors if there are any.
 template <class Stored, class Arx>
 Result<void> read_coefficients(const Stored& stored, const ArxOrders& orders, const std::string& of, Arx& arx) {
   auto theta = read_rows(*stored.theta(), orders, of + "theta");
@@ -256,7 +256,7 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   return model;
 }
 
-// Unknown values are read as the least informative one.
+// Unknown values are read as kDefault.
 Origin read_origin(file::Origin origin) {
   return origin == file::Origin::Learned ? Origin::kLearned
          : origin == file::Origin::Given ? Origin::kGiven

@@ -32,7 +32,7 @@ Result<Model> read_payload(std::span<const std::byte> payload);
 wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBuilder& builder,
                                                   const ChainModel& chain);
 
-/// Errors: an enumeration that this program does not know, or probabilities whose number does not fit the histories.
+/// Errors: an unknown kind of motion; successors, rows or rates that are cut off or too long; a drift of not 3 axes.
 Result<ChainModel> read_chain(const file::Chain& stored);
 
 }  // namespace wisp

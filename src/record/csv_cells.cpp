@@ -69,7 +69,7 @@ bool is_missing(const Cell& cell) {
   static constexpr std::array<std::string_view, 8> kWords = {"nan",  "na",   "n/a",  "n.a.",
                                                              "#n/a", "null", "none", "-nan"};
   if (cell.text.empty()) return true;
-  // Most cells are numbers, and no number begins with these characters.
+  // Most cells are numbers; the words begin with one of these characters, so others are not compared.
   const char first = cell.text.front();
   if (first != 'n' && first != 'N' && first != '#' && first != '-') return false;
   return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return same_word(cell.text, word); });
@@ -83,7 +83,7 @@ std::optional<double> number_of(const Cell& cell, char separator) {
   const bool comma = separator != ',' || cell.quoted;
   const std::size_t at = text.find(',');
   if (at != text.npos && comma && text.find('.') == text.npos) text[at] = '.';
-  // Fortran's double precision exponent.
+  // Fortran writes D for the exponent of double precision.
   const std::size_t exponent = text.find_first_of("dD");
   if (exponent != text.npos && exponent > 0) text[exponent] = 'e';
   return text == cell.text ? std::nullopt : parsed(text);
@@ -136,7 +136,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// Returns a name and its suffix in round brackets, or after an underscore.
+// Returns a name in lower case and its suffix in round brackets, or after an underscore.
 std::pair<std::string, std::string> taken_apart(std::string_view name) {
   const std::string text = lower(trimmed(name));
   const std::size_t bracket = text.find('('), line = text.find('_');
@@ -216,8 +216,8 @@ std::optional<double> seconds_of_date(std::string_view text) {
 
 namespace {
 
-// Error estimate of linear interpolation, as a share of a channel's deviation: half the second difference times f (1 −
-// f), f the share of a step from the sample before.
+// Error estimate of linear interpolation, relative to a channel's standard deviation: half the second difference times
+// f (1 − f), where f is the distance from the sample before as a share of a step.
 class LineError {
  public:
   void add(std::span<const double> samples, std::size_t row, double share) {
@@ -237,8 +237,8 @@ class LineError {
   double sum_ = 0, square_ = 0, error_ = 0, rows_ = 0;
 };
 
-// Returns whether a channel is constant over most steps, like an input that is set now and then. Linear interpolation
-// would give its jumps intermediate values.
+// Returns whether most samples of a channel equal the previous one, as of an input that is set now and then. Linear
+// interpolation would give its jumps intermediate values.
 bool moves_in_steps(std::span<const double> samples) {
   std::size_t still = 0;
   for (std::size_t t = 1; t < samples.size(); ++t) still += samples[t] == samples[t - 1];

@@ -66,8 +66,8 @@ std::string text_of(const Cell& cell);
 /// Returns whether a cell means a missing sample: empty, NaN, NA and the like.
 bool is_missing(const Cell& cell);
 
-/// Parses the whole of a cell as a double, with a decimal point or, if commas are no separators, a decimal comma;
-/// nothing if it is no number. Too small for a double is zero, too large is infinite.
+/// Parses the whole of a cell as a double, with a decimal point or, if it is quoted or commas are no separators, a
+/// decimal comma; nothing if it is no number. Too small for a double is zero, too large is infinite.
 std::optional<double> number_of(const Cell& cell, char separator);
 
 /// A decimal number, with or without a sign, a point and an exponent, with so few digits that one exact multiplication
@@ -84,39 +84,40 @@ PlainNumber plain_number(std::string_view text);
 /// Returns whether a numeric cell has a decimal comma.
 inline bool has_comma(const Cell& cell) { return cell.text.find(',') != std::string_view::npos; }
 
-/// Returns whether a column's name denotes time: t, time, seconds, timestamp, in any case, with or without a unit after
-/// it (`t_ms`, `Time (s)`).
+/// Returns whether a column's name denotes time: t, time, seconds, timestamp, elapsed, zeit, date or datetime, in any
+/// case, with or without a unit after it (`t_ms`, `Time (s)`).
 bool names_time(std::string_view name);
 
-/// Returns the unit in such a name; empty if it has none.
+/// Returns the unit in the name of a time column, s for `seconds`; empty if it has none.
 std::string unit_in_time_name(std::string_view name);
 
 /// Returns the seconds per unit (s, ms, us, min, h and their words); nothing for an unknown one.
 std::optional<double> seconds_of(std::string_view unit);
 
-/// Returns the seconds since 1970 of a date with a time of day, such as 2024-01-31 13:05:00.25, 2024/01/31T13:05Z or
-/// 31.01.2024 13:05:00, or since midnight of a time of day alone; nothing for other text.
+/// Returns the seconds since 1970 of a date with or without a time of day, such as 2024-01-31 13:05:00.25,
+/// 2024/01/31T13:05Z or 31.01.2024, or since midnight of a time of day alone; nothing for other text.
 std::optional<double> seconds_of_date(std::string_view text);
 
-/// Resamples rows at `times` to even steps, the mean of those near the median: by linear interpolation, or by the last
-/// sample where a channel moves in steps. rate_note reports the unevenness of the clock and the interpolation error.
-/// Gaps of more than 1.5 steps are missing samples. Errors: time does not increase; most steps are far from the median.
+/// Resamples rows at `times`, in seconds, to even steps: the mean of those near the median, rounded within 1 %.
+/// Interpolates linearly, or repeats the last sample of a channel that moves in steps. rate_note reports the unevenness
+/// of the clock and the interpolation error. Gaps of more than 1.5 steps are missing samples. Errors: time does not
+/// increase; most steps are far from the median.
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Step of time, in the column's unit.
 struct TimeStep {
   double step = 0;       ///< between rows
-  double tolerance = 0;  ///< largest deviation of an even step: 1 %, or the digits' rounding error up to half a step
+  double tolerance = 0;  ///< largest deviation of an even step: 1 % or, up to half a step, the digits' rounding error
 };
 
-/// Determines the step from the first rows, as far as they are even: of the steps that agree with the written digits,
-/// the one with the fewest digits, as a step or as rows per second: 0.033, 0.067, 0.100 give 30 rows per second.
+/// Determines the time step from the first rows, up to the first uneven step: of the steps that agree with the written
+/// digits, the one with the fewest digits as a step or as rows per second. 0.033, 0.067, 0.100 give 30 rows per second.
 /// Nothing if the second time is not later. `resolution`: value of the last written digit; `seconds`: per unit of time.
 ///
 /// Precondition: two times or more.
 std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);
 
-/// Returns the value of the last written digit of a number; 0 with an exponent.
+/// Returns the value of the last written digit of a number; 0 if it has an exponent.
 double resolution_of(std::string_view number);
 
 }  // namespace wisp::csv

@@ -36,7 +36,7 @@ bool fits(const Shape& names, const Shape& row) {
   return names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled;
 }
 
-// Detects the cell separator: a tab, a semicolon, a comma or blanks. `lines`: the first ones that are no comments.
+// Detects the cell separator: a tab, a semicolon, a comma or blanks. `lines`: the first lines, without comments.
 char separator_of(const std::vector<std::string>& lines) {
   const std::string_view names = lines.front(), row = lines.back();
   for (char candidate : {'\t', ';', ',', kBlanks}) {
@@ -71,7 +71,7 @@ bool is_row_of_units(std::string_view line, std::string_view next, char separato
   return text && !number && has_number(next, separator);
 }
 
-// Returns its units, without brackets.
+// Returns the units in such a line, without brackets; "-" becomes "1".
 std::vector<std::string> units_in(std::string_view line, char separator) {
   std::vector<std::string> units;
   for_each_cell(line, separator, [&](const Cell& cell) {
@@ -233,7 +233,7 @@ Result<void> CsvReader::State::read_attributes() {
   }
 }
 
-// Returns the names of all columns, from the options or from lines.text(), which is then consumed.
+// Returns the names of all columns, from the options or from lines.text(). That line is consumed unless it has numbers.
 Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& options) {
   const auto ahead = lines.look_ahead(kLookedAt - 1);
   if (!ahead) return ahead.error();
@@ -287,7 +287,7 @@ Result<void> CsvReader::State::add_column(const std::string& text, const CsvOpti
   return {};
 }
 
-// Two columns of one name are an error if one of them is wanted.
+// Errors: two columns of one name, one of which is wanted; a wanted column that is missing; no channel.
 Result<void> CsvReader::State::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
   std::set<std::string> seen;
   std::vector<std::string> available;

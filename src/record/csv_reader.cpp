@@ -23,7 +23,7 @@ bool is_control(char c) {
   return (byte < 0x20 && c != '\t' && c != '\r' && c != '\n') || byte == 0x7f;
 }
 
-// Returns whether all lines end in LF. Branchless, so that it is vectorised; one byte after the last is read.
+// Returns whether all bytes are text, and every CR precedes an LF. Branchless for vectorisation; reads one byte more.
 bool is_plain(const char* first, std::size_t size) {
   unsigned char odd = 0;
   for (std::size_t k = 0; k < size; ++k) {
@@ -319,7 +319,7 @@ Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
                       (comma ? "point" : "comma") + "; write all numbers in one way, without separators of thousands");
 }
 
-// A column with 987 and 1,012 has separators of thousands, unless a comma elsewhere can only be a decimal one.
+// A column with 987 and 1,012 is ambiguous and an error, unless a comma elsewhere can only be a decimal one.
 Result<void> CsvReader::State::check_thousands() const {
   for (std::size_t k = 0; k < marks.size() && !decimals; ++k) {
     if (marks[k].thousand == 0 || marks[k].hundred == 0) continue;

@@ -39,7 +39,7 @@ class Lines {
   /// Makes next() return this line again.
   void back() { at_ = begin_, --row_; }
 
-  /// From here on lines that begin with "# " or % are skipped too.
+  /// From here on comment lines (#, "# …" or %…) are skipped too.
   void pass_comments() { pass_comments_ = true; }
 
   Error at_row(const std::string& what, std::size_t row = 0) const {
@@ -85,7 +85,7 @@ struct CsvReader::State {
     bool dated = false;              // calendar dates
   };
 
-  // Possible meanings of a column's commas.
+  // Evidence on the meaning of a column's commas.
   struct Marks {
     std::size_t thousand = 0;  // row of the first number such as 1,012; 0: none
     std::size_t hundred = 0;   // row of the first number such as 987; 0: none
@@ -102,7 +102,7 @@ struct CsvReader::State {
   bool plain_columns = false;  // channels and skipped columns only, between separators other than blanks
   bool commas = false;         // numbers so far had decimal commas, or points
   bool points = false;
-  bool decimals = false;       // a comma so far cannot separate thousands
+  bool decimals = false;       // some comma so far can only be a decimal one
   std::vector<Marks> marks{};  // one per column
   std::vector<double> row{};
 

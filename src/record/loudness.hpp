@@ -1,5 +1,5 @@
 #pragma once
-// Sound level at which an acoustic input is 1. It brings one microphone's recordings to a common scale.
+// Sound level at which an acoustic input has the value 1: by it, recordings of one microphone get a common scale.
 //
 // A tracker's 1 is the strong wind of its own recording (wisp/sound/wind_track.hpp), so that a phone and a laptop give
 // similar inputs. In recordings of one microphone, equal winds then have different values if the strong winds differ.
@@ -12,8 +12,8 @@
 
 namespace wisp {
 
-/// Returns the RMS of the sound, full scale 1, at which an input proportional to its root is 1, as wind speeds are;
-/// nothing if the recording does not state it (attribute INPUT.one_rms).
+/// Returns the RMS of the sound, full scale 1, at which an input is 1; nothing if the recording does not state it
+/// (attribute INPUT.one_rms). The input is taken as proportional to the square root of the RMS, as wind speed is.
 /// Errors: the attribute is not one number above 0.
 Result<std::optional<double>> one_rms(const Recording& recording, const std::string& input);
 
@@ -22,7 +22,7 @@ Result<std::optional<double>> one_rms(const Recording& recording, const std::str
 /// Precondition: rms > 0.
 void set_one_rms(Recording& recording, const std::string& input, double rms);
 
-/// Returns the factor that rescales an input to 1 at sound level `rms`; 1 if the recording does not state its level.
+/// Returns the factor after which an input is 1 at sound level `rms`; 1 if the recording does not state its level.
 /// Errors: those of one_rms().
 ///
 /// Precondition: rms > 0.

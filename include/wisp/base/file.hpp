@@ -14,15 +14,15 @@ namespace wisp {
 
 /// Reads a whole file. Returns its bytes.
 /// Errors: the file cannot be opened (missing, a folder, no permission), cannot be read to its end, or is larger than
-/// `max_bytes`, or than memory can hold.
+/// `max_bytes` or half the address space.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                          std::uint64_t max_bytes = std::uint64_t{1} << 32);
 
-/// Writes a whole file: first to a temporary file beside it (`.NAME.part-PID`), then renamed over it, so that a reader
-/// sees the old file or the new one and never a part of it, even after a power failure. A replaced file keeps its
-/// permissions; of a symbolic link, the target is replaced, not the link.
-/// Errors: the folder is missing or not writable, the name is a device's or a pipe's, the disk is full; in each case no
-/// temporary file remains.
+/// Writes a whole file: first to a temporary file beside it (`.STEM.part-PID-N.EXT`), then renamed over it, so that a
+/// reader sees the old file or the new one and never a part of it, even after a power failure. A replaced file keeps
+/// its permissions; of a symbolic link, the target is replaced, not the link.
+/// Errors: the folder is missing or not writable; the name is that of a folder, a device or a pipe; the file is
+/// read-only; the disk is full. In each case no temporary file remains.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
@@ -30,7 +30,7 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view text
 /// without commit(), it leaves no file behind.
 class PendingFile {
  public:
-  /// `path` is the final name. Errors: the folder is missing, or `path` is a folder, a device or a pipe.
+  /// `path` is the final name. Errors: those of write_file() except for a full disk.
   static Result<PendingFile> create(const std::filesystem::path& path);
 
   PendingFile(PendingFile&& other) noexcept;
@@ -43,7 +43,7 @@ class PendingFile {
   const std::filesystem::path& path() const { return pending_; }
 
   /// Flushes the pending file to the disk and renames it to its final name.
-  /// Errors: nothing was written, the disk failed, or the rename failed.
+  /// Errors: the pending file does not exist, the disk failed, or the rename failed.
   Result<void> commit();
 
  private:
@@ -55,8 +55,8 @@ class PendingFile {
   int listed_ = -1;  // index in the list of files to remove on interruption
 };
 
-/// Installs handlers by which SIGINT, SIGTERM and SIGHUP remove all pending files and then end the process with the
-/// signal's own status; files under the final names stay. For main() of a program; a handler installed later wins.
+/// Makes SIGINT, SIGTERM and, on POSIX, SIGHUP, SIGQUIT, SIGPIPE and the like remove all pending files (32 at most)
+/// before they end the process. Ignored signals stay ignored. For main() of a program; a handler installed later wins.
 void remove_pending_files_when_interrupted();
 
 }  // namespace wisp

@@ -13,13 +13,13 @@
 namespace wisp {
 
 /// Captures the outline in a video file or a folder of numbered images, and the wind in the video's sound.
-/// Errors, naming the file: missing or not a clip, `points` or `frames` out of range, fewer than 10 frames with an
-/// outline, sound that cannot be decoded.
+/// Errors, naming the file: missing or not a clip, `points`, `frames` or `region` out of range, fewer than 10 frames
+/// with an outline, sound that cannot be decoded, kStopped.
 Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress = {});
 
 /// Captures a flame's body, and its outline from beside each blow, from films of several level cameras at `azimuths`
 /// (degrees anticlockwise, seen from above), aligned in time by sound or flame height. Errors: those of capture() for
-/// each film; fewer than two films, not one azimuth per film, equal films, unequal rates, no time in common.
+/// each film; fewer than two films, not one azimuth per film, equal films, unequal rates, `frames`, no time in common.
 Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
                                ClipCapture options, const Progress& progress = {});
 
@@ -37,14 +37,14 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
 
 /// Estimates the wind from the sound of a clip whose picture has `frames` frames at `rate_hz` per second, or of a sound
 /// file, for its whole length. Returns no frames if the sound track is missing or silent; `note` says which. Errors:
-/// the file cannot be read, or its sound cannot be decoded.
+/// the file cannot be read, its sound cannot be decoded, is shorter than a frame or, without `frames`, is truncated.
 ///
 /// Precondition: rate_hz > 0.
 Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz,
                            std::optional<std::size_t> frames = std::nullopt);
 
 /// Captures the wind from a sound file, or a film's sound, at `rate_hz` rows per second: one input, named by `measure`.
-/// Errors: those of hear_wind(), and sound without audible wind.
+/// Errors: those of hear_wind(), and a sound track that is missing or silent.
 ///
 /// Precondition: rate_hz > 0.
 Result<Recording> capture_wind(const std::filesystem::path& path, double rate_hz,

@@ -9,8 +9,8 @@
 
 namespace wisp {
 
-/// Returns the verdict, then warnings, then each section: labelled figures, one per line, with unit, interval, meaning,
-/// and tables with aligned columns, without unlabelled entries. Ends with a new line unless the report is empty.
+/// Returns verdict, warnings and each section: figures, one per line, with unit, interval, meaning; tables with aligned
+/// columns. Unlabelled entries are omitted, percentages below −1000 are "diverges". Ends with a new line unless empty.
 std::string to_text(const Report& report);
 
 /// Writes to_text(report).
@@ -24,8 +24,8 @@ std::string to_html(const Report& report);
 /// Returns text escaped for an HTML element or a quoted attribute.
 std::string html_escaped(std::string_view text);
 
-/// Formats a value: numbers with `digits` significant digits, "none" for missing values and numbers that are not
-/// finite, lists separated by commas.
+/// Formats a value: numbers with `digits` significant digits, integers in full, "yes" or "no", "none" for missing
+/// values and numbers that are not finite, lists separated by commas.
 std::string shown(const ReportValue& value, int digits = 4);
 
 }  // namespace wisp

@@ -32,23 +32,23 @@ Result<Image> draw_film_strip(const FilmStrip& strip);
 /// Frames of equal size, with their rate.
 struct Flipbook {
   std::vector<Image> frames{};
-  double rate_hz = 30;
-  bool loop = false;  ///< the first frame follows the last one
-  int columns = 0;    ///< columns of an atlas; 0: as close to square as whole frames allow
-  Point pivot{};      ///< fixed point of the motion, pixels of a frame: a flame's base
+  double rate_hz = 30;  ///< 0.1 … 1000
+  bool loop = false;    ///< the first frame follows the last one
+  int columns = 0;      ///< columns of an atlas; 0: as close to square as whole frames allow
+  Point pivot{};        ///< fixed point of the motion, pixels of a frame: a flame's base
 };
 
 /// Converts a picture of light on black to light on transparency: its opacity is its brightest channel, so that over
 /// black it looks unchanged.
 void make_light(Image& image);
 
-/// Writes all frames side by side in one PNG of premultiplied RGBA, and their positions in NAME.atlas.json beside it
-/// (the list form of sprite packers, with rate, loop and pivot).
-/// Errors: no frames, frames of several sizes, an atlas larger than 16384 pixels, or the disk.
+/// Writes all frames as a grid in one PNG of premultiplied RGBA, and their positions in NAME.atlas.json beside it (the
+/// list form of sprite packers, with rate, loop and pivot).
+/// Errors: no frames, frames of several sizes, a rate out of range, a side above 16384 pixels, or the disk.
 Result<void> write_atlas(const std::filesystem::path& path, const Flipbook& book);
 
 /// Writes an animated picture with straight opacity: APNG (.apng) or WebM with VP9 (.webm), by the extension.
-/// Errors: those of write_atlas(); another extension; an encoder that this FFmpeg lacks.
+/// Errors: no frames, frames of several sizes, another extension, and those of VideoWriter.
 Result<void> write_animation(const std::filesystem::path& path, const Flipbook& book);
 
 }  // namespace wisp

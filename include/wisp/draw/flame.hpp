@@ -58,7 +58,7 @@ void show_state(const LitState& state, FlameScene& scene);
 /// Mean wind since a flame was extinguished, which advects its smoke.
 class SmokeDrift {
  public:
-  /// Adds the wind of one step of the bank, in the model's units, and sets the scene's wind.
+  /// Adds the wind of a step, in the model's units, and sets the scene's wind to 1.5 times the mean since extinction.
   void blow(float wind, const LitState& state, std::chrono::nanoseconds step_time, FlameScene& scene);
 
  private:

@@ -65,11 +65,11 @@ void share_axes(Plot& a, Plot& b);
 
 /// Plots side by side.
 struct PlotSheet {
-  std::string title{};        ///< title above all plots; empty: none
-  std::vector<Plot> plots{};  ///< row by row
-  int columns = 0;            ///< 0: all in one row
-  double plot_width = 420;    ///< width of one plot with its labels, points; 80 … 4000
-  double plot_height = 300;
+  std::string title{};          ///< title above all plots; empty: none
+  std::vector<Plot> plots{};    ///< row by row
+  int columns = 0;              ///< 0: all in one row
+  double plot_width = 420;      ///< width of one plot with its labels, points; 80 … 4000
+  double plot_height = 300;     ///< points; 80 … 4000
   double pixels_per_point = 2;  ///< resolution of the PNG; 0.25 … 8
 };
 

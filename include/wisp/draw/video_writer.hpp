@@ -1,6 +1,6 @@
 #pragma once
-// Writes pictures and sound to an MP4 file (H.264 video, AAC sound), or pictures with opacity to WebM (VP9) or APNG, by
-// the file's extension.
+// Writes pictures and sound to an MP4 file (H.264 video, AAC sound), or pictures with opacity to WebM (VP9) or APNG: by
+// the extension .webm or .apng, else MP4.
 
 #include <filesystem>
 #include <memory>
@@ -13,11 +13,11 @@ namespace wisp {
 
 /// Options of encoding a clip.
 struct VideoWriterOptions {
-  int width = 0;  ///< pixels, 2 … 16384; odd sizes are padded by one repeated column or row
+  int width = 0;  ///< pixels, 2 … 16384; MP4 pads odd sizes by one repeated column or row
   int height = 0;
   double rate_hz = 0;     ///< frames per second, 0.1 … 1000; rational rates such as 30000/1001 are kept exactly
-  int crf = 15;           ///< x264's constant rate factor, 0 (lossless) … 51; at 15 soft glows keep their dither
-  int sound_rate_hz = 0;  ///< sample rate of a mono sound track, such as 44100; 0: no sound track
+  int crf = 15;           ///< constant rate factor of x264 or VP9, 0 … 51; at 15 x264 keeps the dither of soft glows
+  int sound_rate_hz = 0;  ///< sample rate of a mono sound track, 7350 … 96000; 0: no sound track
   int threads = 0;        ///< threads of the video encoder; 0: one per core. The bytes depend on it
   bool loop = false;      ///< an .apng repeats for ever
 };
@@ -25,8 +25,8 @@ struct VideoWriterOptions {
 /// Writes a film under a temporary name; finish() renames it. Destroyed before finish(), it leaves no file.
 class VideoWriter {
  public:
-  /// Opens the file. Errors: options out of range, the folder is missing or not writable, no H.264 or AAC encoder in
-  /// this FFmpeg.
+  /// Opens the file. Errors: options out of range, the folder is missing or not writable, this FFmpeg lacks an encoder
+  /// of the format.
   static Result<VideoWriter> create(const std::filesystem::path& path, const VideoWriterOptions& options);
 
   VideoWriter(VideoWriter&&) noexcept;

@@ -23,7 +23,7 @@ struct TakeOptions {
   bool noise = true;             ///< add the residual noise; a loop without it is constant
   std::vector<double> inputs{};  ///< constant inputs of the model, in their units; missing ones are 0
   bool round = false;  ///< play a flame as a body where possible, for glTF and vertex shaders: its wind is to the right
-  /// Rows of all inputs, one per frame, replacing `inputs`; the last row is held. A flame may go out. Not for loops.
+  /// Rows of all inputs, one per frame, after settling under `inputs`; the last stays set. Not for loops.
   std::vector<float> schedule{};
 };
 
@@ -47,8 +47,8 @@ struct Take {
 };
 
 /// Plays a model. A loop of an ARX model is its periodic orbit under periodic shocks; a loop of a chain is a walk that
-/// returns to its position in a segment; its remaining heading change is distributed evenly over the loop.
-/// Errors: an option out of range; more than 5e8 numbers; a flame extinguished by that input; no loop of that length
+/// returns to the same row of a segment, whose remaining rotation and velocity change are distributed evenly over the
+/// loop. Errors: an option out of range; more than 5e8 numbers; a flame extinguished without a schedule; no such loop
 /// found.
 Result<Take> take(const Model& model, const TakeOptions& options);
 
@@ -61,8 +61,8 @@ Result<Take> take(const Model& model, const TakeOptions& options);
 /// Errors: the model's outputs are neither an outline nor a body; the take is not of this model.
 Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
 
-/// Exports the outline of a take's first instance as a Lottie animation, `height` pixels high: one closed path of cubic
-/// Bézier curves, exactly equal to the spline, with one key per frame.
+/// Exports the outline of a take's first instance as a Lottie animation, `height` pixels high: the spline as cubic
+/// Bézier curves (to 0.001 pixels), closed below its base, one key per frame, filled as a body with a bright core.
 /// Errors: the model's outputs are no outline; the height is not 16 to 8192; the take is not of this model.
 Result<std::string> lottie_text(const Model& model, const Take& take, int height = 512);
 
@@ -83,14 +83,15 @@ Result<VertexAnimation> vertex_animation(const Model& model, const Take& take);
 struct FirmwareSource {
   std::string header;         ///< NAME.h
   std::string source;         ///< NAME.c, which includes it
-  std::size_t state_bytes{};  ///< memory of one candle's state, bytes
+  std::size_t state_bytes{};  ///< memory of one candle's state without padding, bytes
 };
 
 /// Exports a model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library,
 /// and only operations defined by the standard, so that every processor plays the same numbers from the same seed.
 /// Shocks are drawn from 17 quantiles of the residuals if the model has them, else normal. `name` prefixes all names.
 /// Errors: not exactly one output; an input; a chain; more than 16 modes or 32 lags; a coefficient of 8 or more, or a
-/// mode's coefficients of 24 or more together; a name that is no C identifier.
+/// mode's coefficients of 24 or more together; a mean beyond ±3.9, or a range that reaches more than 4 or less than
+/// 0.002 from it; a name that is no C identifier.
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
 
 /// Languages in which plant_text() exports a plant.
@@ -103,10 +104,10 @@ struct PlantText {
 };
 
 /// Exports an ARX model with inputs as a linear system for another tool, on deviations from its operating point,
-/// without noise. Octave and MATLAB, and Python with SciPy: state space, transfer functions of one output, both
-/// discrete, and continuous ones under a zero-order hold where they exist. JSON: polynomials and state space. C99: the
-/// difference equation in double precision; `name` prefixes all names.
-/// Errors: another model; an input that does not enter linearly; a name that is no C identifier.
+/// without noise. Octave and MATLAB, and Python with SciPy: discrete state space and, of one output, transfer
+/// functions, and continuous ones under a zero-order hold where they exist. JSON: polynomials and state space. C99: the
+/// difference equation in double precision; `name` prefixes all names. Errors: no ARX model, or one of an outline; no
+/// input, or one that is not linear; for C a name that is no identifier.
 Result<PlantText> plant_text(const Model& model, PlantLanguage language, std::string_view name);
 
 /// Returns one instance's outline in one frame as a polyline: `points` × (x, y), at equal spline parameter steps.

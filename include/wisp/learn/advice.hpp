@@ -17,8 +17,8 @@ enum class RemarkKind {
   kOutliers,    ///< single samples far from their neighbours
   kConstant,    ///< a channel that never changes
   kRedundant,   ///< a channel that is a linear function of another one
-  kMissing,     ///< a tenth of the samples or more are missing
-  kShort,       ///< few rows
+  kMissing,     ///< more than a tenth of the samples are missing
+  kShort,       ///< fewer than 50 rows
   kExcitation,  ///< an input with little variation
   kFeedback,    ///< an input that depends on the output (feedback)
   kDelay,       ///< an input that acts with a delay

@@ -41,8 +41,8 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "dia
 /// Objective of the estimation.
 enum class ArxFocus {
   kPrediction,  ///< one-step prediction: least squares
-  kSimulation,  ///< free simulation: least squares or 15 or 30 lags under a kernel, what simulates held-out rows best
-  kAuto,        ///< least squares, or such lags under a kernel if they simulate held-out rows significantly better
+  kSimulation,  ///< free simulation: of least squares and 15 or 30 lags under a kernel, the best on held-out rows
+  kAuto,        ///< least squares, unless such lags under a kernel simulate held-out rows significantly better
 };
 
 template <>
@@ -118,7 +118,7 @@ struct ArxRecipe {
   double radius = 0.999;
   bool keep_unstable = false;
   std::optional<ArxSearch> search{};
-  ArxFocus focus = ArxFocus::kPrediction;  ///< learning by parts always uses this
+  ArxFocus focus = ArxFocus::kPrediction;  ///< ArxPart always uses kPrediction
   bool responses = false;
 };
 

@@ -125,7 +125,7 @@ inline constexpr std::array<const char*, 3> kTimeColumns = {"t", "t_s", "time"};
 
 /// Checks that a recording describes motion. Errors: no position, no sufficiently long stretch, no orientation where
 /// one is expected, a position that is not in metres or more than 1000 km away; for one with the attribute `pair`, a
-/// missing wind sample or an attribute `clones` that is no whole number.
+/// missing wind sample or an attribute `clones` that is not a whole number from 1 to 10000.
 Result<void> check_motion(const Recording& recording);
 
 }  // namespace wisp

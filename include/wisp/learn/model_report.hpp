@@ -7,7 +7,7 @@
 
 namespace wisp {
 
-/// Returns name, rate_hz, inputs [{name, unit, range, shape, curve}], outputs [{name, unit, range}]; dynamics {kind,
+/// Returns name, rate_hz, inputs [{name, unit, range, shape}], outputs [{name, unit, range}]; dynamics {kind,
 /// …}, for an ARX model with coefficients, poles, zeros and static gains, for a switched one with its modes and their
 /// switching, for a chain with its transitions; view {kind, …}, cost, made {program, sources, options, figures},
 /// extinction {input, level, seconds, haste, recovery, modes [{name, moves, source, seconds, events, seconds_ci95,

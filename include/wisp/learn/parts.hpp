@@ -26,7 +26,7 @@
 
 namespace wisp {
 
-/// Selection of a table's rows: of its rows [first, first + rows) the share `index` (0-based) of `count` equal ones.
+/// Selection of a table's rows: rows [first, first + rows) in `count` equal shares, of these number `index` (0-based).
 struct TableShare {
   std::size_t first = 0;
   std::size_t rows = std::numeric_limits<std::size_t>::max();  ///< number of rows; the default: all

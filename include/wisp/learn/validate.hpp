@@ -31,8 +31,8 @@ struct ValidationOptions {
   std::uint64_t seed = 1;        ///< seed of simulations with noise
 };
 
-/// Validates a model on a recording; a plain ARX model also on several, in one table that names the badly fitted ones;
-/// a chain also on several, or on a windy recording and its calm twin.
+/// Validates a model on a recording; a plain ARX model also on several, in one table, with warnings that name the badly
+/// fitted ones; a chain also on several, or on a windy recording and its calm twin.
 /// The report has the fields of `wisp validate --json` for that kind of model, and the series of its plots.
 /// Errors, naming the recording: missing channels, a rate or number of control points that differs from the model's,
 /// too few rows, options out of range; kStopped.
@@ -46,7 +46,7 @@ Result<Report> validate(const Model& model, const Recording& recording, const Va
 /// Horizon and initial state of predictions.
 struct PredictionOptions {
   int steps = 1;                                   ///< steps ahead, 1 to 100000, or kFreeRun: from the inputs alone
-  InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX free run; others: measured samples
+  InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX free run; else kMeasured only
 };
 
 /// Predicts a recording row by row. Returns a recording with its inputs, and for every output the measured channel
@@ -58,11 +58,11 @@ struct PredictionOptions {
 Result<Recording> predict(const Model& model, const Recording& recording, const PredictionOptions& options = {});
 
 /// Returns a recording whose channels `names`, one per input of the model, are converted to the units of those inputs,
-/// as in validate() and predict(): to the sensitivity of the training's microphone, if both recordings state the sound
-/// level of 1, then divided by the training's scale. `own_gain`: for a model of an outline, divided instead by the
-/// recording's own 95th percentile while it blows, for another microphone. Channels already in an input's unit stay
-/// unchanged: a model played them. Errors, naming the recording: a missing channel; a stated sound level that is not a
-/// positive number.
+/// as in validate() and predict(): to the sensitivity of the training's microphone, if training and recording state the
+/// sound level at value 1, then divided by the training's scale. `own_gain`: for a model of an outline, divided instead
+/// by the recording's own 95th percentile while it blows, for another microphone. Channels already in an input's unit,
+/// as played by a model, stay unchanged. Errors, naming the recording: a missing channel; a stated sound level that is
+/// not a positive number.
 ///
 /// Precondition: as many names as inputs.
 Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
@@ -77,7 +77,7 @@ struct NamedModel {
 /// Compares several ARX or switched models on one recording: the table `compared` has the fit of every output by every
 /// model, over the rows that all models predict; series are the measured outputs and each model's prediction at the
 /// last of `options.steps`. Of the options, steps and initial are used. Errors: those of predict(), naming the model; a
-/// model of an outline; kStopped.
+/// model of an outline; models learned with different preparation; no model or no steps; kStopped.
 Result<Report> compare(std::span<const NamedModel> models, const Recording& recording,
                        const ValidationOptions& options = {}, const Progress& progress = {});
 
@@ -89,7 +89,7 @@ Result<Report> compare(std::span<const NamedModel> models, std::span<const Recor
 /// clip's pixels, whose centres are at whole numbers. Empty where a row has no outline.
 using OutlineRows = std::vector<std::vector<std::array<double, 2>>>;
 
-/// Errors: not a recording of an outline.
+/// Returns the outlines of a recording. Errors: it is not a recording of an outline.
 Result<OutlineRows> outline_rows(const Recording& recording);
 
 /// The report, and the outlines for its pictures.

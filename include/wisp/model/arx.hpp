@@ -60,25 +60,25 @@ struct ArxOrders {
 /// preserves their cross-correlation, autocorrelation and tails. An instance replays consecutive rows while its input
 /// history resembles the recorded one, and otherwise jumps to a row with a nearer history. The distance of two
 /// histories is the mean absolute difference over a few lags. A jump does not move the outputs discontinuously, since
-/// the dynamics filter residuals. Without a driving input, rows are replayed for 0.4 to 1.2 s, then from a row with
-/// similar outputs, preferring little-used ones (run/arx/lookup_lanes.hpp).
+/// the dynamics filter residuals. Without a driving input, an instance jumps every 0.4 to 1.2 s to a row with similar
+/// outputs, preferring little-used rows (run/arx/lookup_lanes.hpp).
 struct ResampledResiduals {
   std::vector<double> scale;        ///< per output: value of a stored 1, in the output's unit, >= 0
   std::vector<std::int8_t> rows;    ///< rows × outputs, row-major
   std::vector<std::uint32_t> ends;  ///< one past each stretch's last row, ascending; the last is the row count
   double wind_scale = 0;            ///< value of a stored 1 in `winds`, in the regressor's unit
-  std::vector<std::int16_t> winds;  ///< input samples: for every stretch the largest lag's number of samples before it,
+  std::vector<std::int16_t> winds;  ///< input samples: per stretch, first as many as the largest lag from before it,
                                     ///< then one per row
   int toward = -1;                  ///< index of the regressor that holds the input; -1: none
   std::vector<int> lags;    ///< 1 to kMaxResampledLags lags, steps, ascending from 0; empty without a driving input
   double tolerance = 0;     ///< excess over the nearest row's distance that causes a jump, in the regressor's unit
   double margin = 0;        ///< distance below which histories count as equal, in the regressor's unit
   int longest = 1;          ///< with a driving input, longest run of rows between jumps, 1 to 1 000 000 steps
-  std::vector<int> mirror;  ///< per output ±(1 + the output whose residual replaces its own if the input has the
-                            ///< opposite sign); empty: no mirror symmetry
+  std::vector<int> mirror;  ///< per output ±(1 + index of the output whose residual, with this sign, replaces its
+                            ///< own if the input has the opposite sign); empty: no mirror symmetry
   int across = 0;  ///< for 3-D bodies: the last `across` outputs are the z components of horizontal vectors, the
                    ///< `across` before them the x components. A row stores one number per vector, its component along
-                   ///< the wind; the one across is taken from a second row. Regressor `toward + 3` is then the wind's z
+                   ///< the wind; the component across comes from a second row. Regressor `toward + 3` is the wind's z
 
   bool empty() const { return rows.empty(); }
   std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }
@@ -87,7 +87,7 @@ struct ResampledResiduals {
 /// Largest number of input lags that resampled residuals compare.
 inline constexpr std::size_t kMaxResampledLags = 16;
 
-/// Largest number of rows that residuals are drawn from.
+/// Largest number of rows of resampled residuals.
 inline constexpr std::size_t kMaxResampledRows = std::size_t{1} << 22;
 
 /// Residual noise e(t) = diag(sd) w(t), w independent standard normal.
@@ -108,9 +108,9 @@ struct ArxModel {
   std::vector<double> input_mean;              ///< per regressor input
   ResidualNoise noise;
 
-  /// Returns lags 1 … na(i,j) of output j in row i.
+  /// Returns the coefficients of lags 1 … na(i,j) of output j in row i.
   std::span<const double> a(int i, int j) const;
-  /// Returns lags nk … nk+nb−1 of input k in row i.
+  /// Returns the coefficients of lags nk … nk+nb−1 of input k in row i.
   std::span<const double> b(int i, int k) const;
 };
 

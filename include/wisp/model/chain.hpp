@@ -38,15 +38,15 @@ inline constexpr std::size_t kMaxSegmentSteps = 65535;
 struct ChainSegments {
   std::vector<std::uint16_t> mode;    ///< mode per segment
   std::vector<std::uint16_t> steps;   ///< per segment, steps of the model's clock from its event to the next; ≥ 1
-  std::vector<std::int16_t> rows;     ///< per segment (steps + 1) rows of all channels; the next joins at the last
+  std::vector<std::int16_t> rows;     ///< per segment (steps + 1) rows of all channels; at its last the next joins
   std::vector<double> row_scale;      ///< scale of positions and, for poses, of quaternions: value = scale · row; > 0
   std::vector<std::int16_t> rates;    ///< per segment the rates at its start, then at its end, per second
   std::vector<double> rate_scale;     ///< scale of velocities and, for poses, of angular velocities; > 0
   std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the best-joining successors of that mode, best
                                       ///< first; empty where breadth is 0
   int breadth = 0;                    ///< number of successors per mode; 0: any segment of the mode
-  std::vector<std::int16_t> height;   ///< initial z per segment, for motion between a floor and a ceiling, to which
-                                      ///< joins return. Empty: z continues from its current value
+  std::vector<std::int16_t> height;   ///< initial z per segment, for motion between a floor and a ceiling: joins lead z
+                                      ///< back to it. Empty: z continues from its current value
   double height_scale = 0;            ///< metres = scale · height; > 0 if there are heights
 
   std::size_t size() const { return mode.size(); }
@@ -87,8 +87,8 @@ struct ChainModel {
   ChainSegments segments;
   std::vector<double> initial;        ///< probability per mode of a recording's first one; sums to 1
   int history = 1;                    ///< number of past modes that determine the next one, 1 or 2
-  std::vector<double> probabilities;  ///< transition probabilities, rows of one number per mode that sum to 1: after
-                                      ///< mode b row b and, for history 2, after a and then b row modes · (1 + a) + b
+  std::vector<double> probabilities;  ///< transition probabilities, rows of `modes` numbers that sum to 1: row b after
+                                      ///< mode b; for history 2, row modes · (1 + a) + b after modes a and then b
   int blend_steps = 30;  ///< largest number of steps to blend on either side of a join: neighbours meet half-way in
                          ///< attitude and rates; 0 … 4096, 0: no blending
   std::optional<GustResponse> gust;  ///< if set, the model's inputs are the wind's x, y and z, metres per second
@@ -97,7 +97,7 @@ struct ChainModel {
   std::vector<double> transitions() const;
 };
 
-/// Returns the row index at which each segment begins, and one past the last: rows, not numbers.
+/// Returns the row at which each segment begins, and one past the last row; a row has channel_count() numbers.
 std::vector<std::uint32_t> segment_rows(const ChainSegments& segments);
 
 /// Checks shapes, ranges of indices, order of the modes, sums of probabilities, scales and finiteness. Errors name the

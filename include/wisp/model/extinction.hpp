@@ -18,8 +18,8 @@
 
 namespace wisp {
 
-/// Recorded events, step by step: the apparent size of the flame and, for re-ignition, its shape. The outline seen was
-/// that of the shape, times the size.
+/// Recorded events, step by step: the apparent size of the flame and, for re-ignition, its shape. The recorded outline
+/// is that of the shape, multiplied by the size.
 struct FlameEvents {
   static constexpr std::size_t kMaxEvents = 64;    ///< largest number of events
   static constexpr std::size_t kMaxSizes = 65536;  ///< largest number of sizes in all events
@@ -57,9 +57,9 @@ struct Extinction {
 FlameEvents dying_of(const Extinction& rule, double rate_hz);
 FlameEvents catching_of(const Extinction& rule, double rate_hz);
 
-/// Checks that every number is finite and in its range, that the rule's input is one of `inputs`, and that recorded
-/// shapes, which decay has none of, have one number for each of the `components` of the outline's shape in the plane.
-/// Errors say which, what was found and what was expected.
+/// Checks that every number is finite and in its range, that the rule's input is below `inputs`, that recorded shapes
+/// have one number for each of the `components` of the outline's shape in the plane, and that decay has no shapes.
+/// Errors name the number, what was found and what was expected.
 Result<void> check(const Extinction& rule, std::size_t inputs, std::size_t components);
 
 }  // namespace wisp

@@ -25,14 +25,14 @@ enum class InputShape {
   kEvenOdd,     ///< six: |u|, its square root and its square, then these multiplied by the sign of u
   kWindAlong,   ///< x component of a horizontal wind vector: six, the vector's length, its square root and its square,
                 ///< then these multiplied by the x component of its direction
-  kWindAcross,  ///< z component, the input after kWindAlong: three, the powers times the z of its direction
+  kWindAcross,  ///< z component, the input after kWindAlong: three, the powers times the direction's z component
 };
 
 /// One external input.
 struct Input {
   std::string name;
   std::string unit;   ///< the input's unit; empty: dimensionless
-  double lowest = 0;  ///< lowest value in training; input outside the range and a margin is clamped
+  double lowest = 0;  ///< lowest value in training; input is clamped to the range extended by half its width
   double highest = 0;
   InputShape shape = InputShape::kLinear;
 };
@@ -86,8 +86,8 @@ struct Model {
 
 /// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
 /// become vectors of the horizontal plane, and so does the wind, in two inputs. Wind along x reproduces the numbers of
-/// `plane`, in its camera's view, to the bit. A model of a body is returned unchanged. Errors: not an outline of
-/// symmetric and antisymmetric components with residuals of its own, or an input without a direction.
+/// `plane`, in its camera's view, to the bit. A body's model is returned unchanged. Errors: those of check(); no ARX
+/// outline of uncoupled symmetric and antisymmetric components with resampled residuals; inputs other than one wind.
 Result<Model> in_the_round(const Model& plane);
 
 /// Returns whether a model is a body: its outputs are its outline in the view from one side.

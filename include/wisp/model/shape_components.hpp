@@ -38,8 +38,7 @@ struct ShapeComponents {
   std::vector<double> basis;            ///< N × symmetric, then N × antisymmetric, row-major
   std::vector<ValueRange> coordinates;  ///< one range per coordinate
   std::vector<ValueRange> components;   ///< one range per component, which is clamped to it extended by half its width
-  std::size_t across = 0;               ///< for a body equal to `antisymmetric`, the z components of its vectors; else
-                                        ///< 0
+  std::size_t across = 0;               ///< number of z components: for a body as `antisymmetric`, else 0
 
   bool empty() const { return rest.empty(); }
   std::size_t count() const { return symmetric + antisymmetric + across; }

@@ -5,7 +5,7 @@
 //   yᵢ(t) = −Σ A_l(i,j) yⱼ(t−l) + Σ B_l(i,k) uₖ(t−nk−l) + cᵢ + eᵢ(t)     with A, B, c and the covariance of e those of
 //   mode s(t)
 //
-// on deviations from the operating point. The chain takes one step with every sample, independently of the samples.
+// on deviations from the operating point. The chain takes one step per sample, independently of inputs and outputs.
 
 #include <cstddef>
 #include <vector>

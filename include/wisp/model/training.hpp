@@ -1,7 +1,7 @@
 #pragma once
 // Record of a model's making: source recordings, recipe, scales, and quality.
 //
-// Behaviour may depend on the typed fields. `recipe` and `figures` are for people and never parsed.
+// Behaviour may depend on the typed fields. `recipe` and `figures` are for people; only kCandleFigures are read.
 
 #include <array>
 #include <cstdint>
@@ -100,7 +100,7 @@ struct Training {
   bool own_levels = false;                       ///< every recording was centred on its own means
   std::optional<MotionTraining> motion;          ///< chains: cutting of motion
   std::optional<ExtinctionTraining> extinction;  ///< present if there is a rule
-  std::int64_t multiply_adds_per_frame = 0;      ///< by the paper's count; 0: not counted
+  std::int64_t multiply_adds_per_frame = 0;      ///< number of nonzero coefficients; 0: not counted
   std::int64_t operations_per_frame = 0;         ///< all arithmetic; 0: not counted
 
   bool operator==(const Training&) const = default;

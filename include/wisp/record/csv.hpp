@@ -15,7 +15,7 @@
 namespace wisp {
 
 /// Interpretation of a table that does not describe itself. The file's own statements take precedence, except over
-/// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
+/// `columns`, `inputs` and `outputs`. The latter two, if given, choose the channels other than motion, and their roles.
 struct CsvOptions {
   double rate_hz = 0;                        ///< samples per second; 0: the file must state it, or have a time column
   double usual_rate_hz = 0;                  ///< rate assumed if the file has neither; 0: an error then
@@ -37,10 +37,10 @@ class CsvReader {
   /// Reads the comment lines and the header. `name` stands for the file in messages.
   /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
   /// states the separator for Excel, a line of units, and comment lines that begin with # or %, also between rows. If
-  /// nothing else states the rate, a time column does (t, time, seconds, timestamp, in s unless its name or the line of
-  /// units says ms, us, min or h), and its steps must then be equal; a column that counts rows, without a unit, is no
+  /// nothing else states the rate, a time column does (t, time, date and the like; in s unless its name or the line of
+  /// units says ms, us, min or h, or its whole steps suggest ms), if its steps are equal; a count of rows is no
   /// time column. Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no
-  /// names, no rate, an unknown version, an unknown or repeated column.
+  /// names, no rate, an unknown version, an unknown or repeated column, time that does not increase.
   ///
   /// Precondition: `stream` outlives the reader.
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
@@ -52,7 +52,7 @@ class CsvReader {
   /// Returns their number; 0 at the end.
   /// An empty cell, NaN or NA is a missing sample.
   /// Errors: uneven time steps, a wrong number of columns, text or infinity in place of a number, decimal points and
-  /// commas in one table, commas that may separate thousands, a line longer than 16 MiB.
+  /// commas in one table, commas that may separate thousands, a line longer than 16 MiB. Part of a row may then remain.
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
   /// Skips up to `max_rows` rows without parsing their numbers.
@@ -69,19 +69,19 @@ class CsvReader {
 
 /// Reads a recording from a CSV file.
 /// Returns it with missing samples as NaN; numbers are the nearest doubles to the text. A time column with uneven
-/// steps, as written by a PC's logger, is resampled to its median step by linear interpolation; `rate_note` reports
-/// that, with the error. Longer gaps are missing samples. Errors: those of CsvReader, except for uneven time; no rows,
-/// time that decreases or has no typical step, and a file that cannot be opened.
+/// steps, as written by a PC's logger, is resampled to its typical step by linear interpolation; `rate_note` reports
+/// that, with the error. Gaps above 1.5 steps are missing samples. Errors: those of CsvReader, except for uneven time;
+/// no rows, time that decreases or has no typical step, and a file that cannot be opened.
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
 /// Reads a recording from a stream; `name` stands for the file in messages. Uneven time needs a seekable stream.
 Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options = {});
 
 /// Writes a recording as CSV, completely or not at all. Reading it restores every number bit for bit.
-/// Errors: those of check(), and a file that cannot be written.
+/// Errors: those of check(), text with characters that CSV cannot hold, and a file that cannot be written.
 Result<void> write_csv(const std::filesystem::path& path, const Recording& recording);
 
-/// Returns the text that write_csv() writes.
+/// Returns the text that write_csv() writes, without its checks.
 std::string csv_text(const Recording& recording);
 
 }  // namespace wisp

@@ -13,7 +13,7 @@ namespace wisp {
 /// Selection of the variables that make a recording. A variable is named as in MATLAB: `u`, a field of a structure as
 /// `data.u`, one column of a matrix as `u(:,2)`. A matrix of several columns yields one channel per column: u1, u2, …
 struct MatOptions {
-  double rate_hz = 0;         ///< samples per second; 0: from a scalar `Ts` (seconds) or `fs` (per second) in the file
+  double rate_hz = 0;         ///< samples per second; 0: by a scalar `fs` or `Ts` (seconds), or a vector `t` or `time`
   std::size_t max_bytes = 0;  ///< bytes of unpacked numbers; 0: 64 times the file's, at least 64 MB, at most 1 GB
   std::vector<std::string> inputs;   ///< variables that are inputs
   std::vector<std::string> outputs;  ///< variables that are outputs
@@ -24,10 +24,10 @@ struct MatOptions {
 /// Returns inputs, then outputs, as one episode.
 /// Errors, each with file and variable: not such a file, a missing variable (the existing ones are listed), one that is
 /// not a real, full, numeric vector or matrix, more than `max_bytes`, infinite numbers, variables of different lengths,
-/// no rate.
+/// no rate, uneven time, no variable named.
 Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& options);
 
-/// Returns the names and sizes of all numeric variables and structure fields that read_mat() reads: "u (1000 × 2)".
+/// Returns names and sizes of the numeric variables and structure fields, ten thousand at most: "u (1000 × 2)".
 /// Errors: not a MATLAB file of level 5.
 Result<std::vector<std::string>> list_mat(const std::filesystem::path& path);
 

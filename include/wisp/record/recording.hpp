@@ -34,8 +34,8 @@ struct RowFlag {
   std::vector<std::uint8_t> rows;
 };
 
-/// A named fact about the whole recording (a CSV comment line `# NAME VALUE…`). kNotNumbers names a column that was
-/// omitted because it holds no numbers.
+/// A named fact about the whole recording (a CSV comment line `# NAME VALUE…`). The value of an attribute named
+/// kNotNumbers is the name of a column that was omitted because it holds no numbers.
 struct Attribute {
   std::string name;
   std::string value;

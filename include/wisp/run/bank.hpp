@@ -1,9 +1,9 @@
 #pragma once
 // Instances of one model, stepped together. A single flame is a bank of one.
 //
-// The frame path (everything here but create() and the destructor) allocates nothing, takes no lock and makes no system
-// call. Outputs depend only on the model, the seed, each instance's stream number and its inputs: the same bits with
-// any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
+// The frame path (everything here but create(), the destructor and an error of restore()) allocates nothing, takes no
+// lock and makes no system call. Outputs depend only on the model, the seed, each instance's stream and its inputs: the
+// same bits with any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
 //
 // Bulk buffers have one row per slot, in slot order: row `id.slot` belongs to instance `id`. Rows of empty slots, and
 // the part of a buffer beyond slots(), are ignored in inputs and zero in outputs: a buffer of capacity() rows is always
@@ -45,7 +45,7 @@ struct BankOptions {
   int capacity = 1;          ///< largest number of instances alive at once; 1 to 1 048 576
   std::uint64_t seed = 1;    ///< seed of all random streams of the bank
   int polyline_points = 32;  ///< points of an outline's polyline; 2 to 4096. 32 is smooth at a height of 500 pixels
-  std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< longest pause that advance() plays, > 0
+  std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< longest pause that advance() plays, > 0, ≤ 10 s
   std::span<std::byte> memory = {};  ///< memory for the bank, at least bank_bytes(); empty: it allocates once
 };
 
@@ -86,7 +86,7 @@ class Bank {
   /// Creates an empty bank. The needed parts of the model are copied, and it may be destroyed afterwards; memory given
   /// by the caller must outlive the bank.
   /// Errors: the model is not valid (check()) or holds numbers outside single precision, an option is out of its range,
-  /// the memory is too small.
+  /// the memory is too small or cannot be allocated.
   static Result<Bank> create(const Model& model, const BankOptions& options = {});
 
   Bank(Bank&& other) noexcept;
@@ -128,9 +128,9 @@ class Bank {
   bool set_inputs(InstanceId id, std::span<const float> values);
 
   /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper.
-  /// A segment chain has no residual noise, only random choices: at 0 it always takes the likeliest mode, and the
-  /// segment of it that joins best. Instances then differ by their initial heading alone, and their motion eventually
-  /// becomes periodic. Any other scale leaves a chain unchanged.
+  /// A segment chain has no residual noise, only random choices: at 0 it always takes the likeliest mode, and of its
+  /// segments the best-joining or, without a list of successors, the first. Instances then differ by their initial
+  /// heading alone, and their motion eventually becomes periodic. Any other scale leaves a chain unchanged.
   void set_noise(float scale);
   float noise() const;
 
@@ -153,8 +153,8 @@ class Bank {
   int advance(double seconds);
 
   /// Distributes step() and advance() over a crew from now on: each part steps some of the instances, with the same
-  /// bits. Worthwhile from some thousand instances on. A chain with a steered instance is stepped by the calling
-  /// thread.
+  /// bits. Worthwhile from some thousand instances on. Once an instance of a chain has been steered, the calling thread
+  /// makes all steps.
   void set_crew(const Crew& crew);
 
   /// Reads all outputs: slots() × output_count(), in the outputs' units. They are clamped to the trained range extended
@@ -188,14 +188,14 @@ class Bank {
   BodyFacet* body();  ///< for a model of a body (wisp/run/body_facet.hpp)
   const BodyFacet* body() const;
 
-  /// Resets one instance, or all instances and the bank's time, to the state at spawning, lit; streams and inputs stay.
-  /// Returns false when `id` is not valid.
+  /// Resets one instance, or all instances and the time passed since the last step, to the state at spawning, lit;
+  /// streams and inputs stay. Returns false when `id` is not valid.
   bool reset(InstanceId id);
   void reset();
 
-  /// Number of instance-steps since the bank was created or restored, and of those in which at least one output of a
-  /// burning instance was clamped to its range. More than 1 in 1000 on ordinary input means that the model is not
-  /// usable. A chain's positions have no range: they are clamped at 1000 km from the origin.
+  /// Number of instance-steps since the bank was created (or as restored), and of those in which at least one
+  /// output of a burning instance was clamped to its range. More than 1 in 1000 on ordinary input means that the model
+  /// is not usable. A chain's positions have no range: they count as clamped beyond 1000 km from the origin.
   struct Clamped {
     std::uint64_t clamped = 0;
     std::uint64_t steps = 0;

@@ -28,7 +28,8 @@ bool ring_mesh(std::span<const float> rings, int segments, std::span<float> numb
 /// Returns the number of triangles, three indices each, anticlockwise from outside, including the caps at base and tip.
 constexpr int ring_triangle_count(int rings, int segments) { return 2 * rings * segments - 4; }
 
-/// Returns false for an argument out of range, or if there are not exactly 3 × ring_triangle_count() indices.
+/// Writes the vertex indices of the triangles. Returns false, and writes nothing, for an argument out of range or
+/// unless there is room for exactly 3 × ring_triangle_count() indices.
 bool ring_triangles(int rings, int segments, std::span<std::uint32_t> indices);
 
 /// The bodies of a bank. It lives as long as the bank, and moves with it. No function allocates.
@@ -39,7 +40,7 @@ class BodyFacet {
   /// anticlockwise from above. save() does not write it.
   void look(float right_x, float right_z);
 
-  /// Returns the number of rings of a body, from base to tip: half of the polyline's points.
+  /// Returns the number of rings of a body, from base to tip: half of the polyline's points, rounded up.
   int rings() const;
 
   /// Reads all rings: slots() × rings() × kRingNumbers.

@@ -18,13 +18,13 @@ struct ChainPlace {
   std::array<float, 3> velocity{};  ///< mean over the last step, metres per second
   std::array<float, 3> spin{};      ///< mean angular velocity over the last step, radians per second, world axes
   bool lies = false;                ///< at rest on the ground
-  bool landed = false;              ///< touched ground in the last call of step() or advance() (its last 0.35 s)
+  bool landed = false;              ///< touched ground in the last 0.35 s of the last call of step() or advance()
 };
 
 /// A body at one moment, in the world: metres, seconds, radians, z up.
 struct BodyMoment {
   std::array<float, 3> position{};
-  std::array<float, 4> orientation{1, 0, 0, 0};  ///< body to world, w first; its norm does not matter
+  std::array<float, 4> orientation{1, 0, 0, 0};  ///< body to world, w first, of norm 0.001 to 1e15
   std::array<float, 3> velocity{};
   std::array<float, 3> spin{};  ///< angular velocity, world axes
 };
@@ -45,7 +45,7 @@ class ChainFacet {
   /// Sets the state of an instance, as after a collision or a kick: it continues with the segment whose initial motion
   /// is nearest to the body's; the difference decays as at any join. If the chain is not heading-free, or has no
   /// orientation, that part of the state is ignored. Searches every segment once: too expensive for every frame.
-  /// Returns false, and does nothing, when `id` is not valid or a number is not finite.
+  /// Returns false, and does nothing, when `id` is not valid, a number is not within ±10⁶, or the norm out of range.
   bool place(InstanceId id, const BodyMoment& body);
 
   /// Returns whether the chain knows the displacement of its segments: models learned before steering existed do not.
@@ -62,8 +62,8 @@ class ChainFacet {
   bool release(InstanceId id);
 
   /// Sets the height of level ground, on which instances come to rest until they are placed or reset; nothing (the
-  /// default): they fall for ever. A body whose size the view knows touches with its lowest corner, and no corner sinks
-  /// in while it settles.
+  /// default) or a height not within ±10⁶ m: they fall for ever. A body whose size the view knows touches with its
+  /// lowest corner, and no corner sinks in while it settles.
   void set_ground(std::optional<float> height);
   std::optional<float> ground() const;
 

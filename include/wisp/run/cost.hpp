@@ -10,7 +10,7 @@ namespace wisp {
 
 /// Operations of one instance in one frame (one step, one reading of the view).
 struct Cost {
-  std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: number of nonzero coefficients of A and B
+  std::int64_t multiply_adds_per_frame = 0;  ///< number of nonzero coefficients of A and B, the paper's count
   std::int64_t operations_per_frame = 0;     ///< all arithmetic: sum of dynamics, noise, random, view and extinction
   std::int64_t dynamics_operations = 0;  ///< inputs, filters, and the record of clamping: + − × ÷ √ on numbers, logic
   std::int64_t noise_operations = 0;   ///< from random words to noise added to the outputs, on numbers

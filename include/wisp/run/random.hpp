@@ -13,7 +13,7 @@ namespace wisp {
 struct RandomKey {
   std::uint64_t seed = 1;    ///< seed of the bank
   std::uint64_t stream = 0;  ///< stream number of the instance
-  std::uint64_t step = 0;    ///< steps since the instance was spawned; below 2^48
+  std::uint64_t step = 0;    ///< steps since the instance was spawned or reset; below 2^48
   std::uint32_t group = 0;   ///< index of the group of four words; below 2^16
 };
 

@@ -23,10 +23,10 @@ struct CandleRigOptions {
 
   // The candle.
   double position = 0.35;      ///< candle axis as a share of the width, 0.1 … 0.9: the lee side needs room
-  double wick_damping = 80;    ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
-  double wick_cold = 500;      ///< K, calibrated: temperature around the wick at which it emits no fuel
-  double wick_warm = 900;      ///< K, calibrated: temperature at which it emits fuel_rate
-  double fuel_rate = 1.35e-4;  ///< m²/s, calibrated: volume of cold vapour per second and depth of a warm wick
+  double wick_damping = 80;    ///< 1/s, 0 … 10000, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
+  double wick_cold = 500;      ///< K, 300 … 2000, calibrated: temperature around the wick at which it emits no fuel
+  double wick_warm = 900;      ///< K, wick_cold + 1 … 3000, calibrated: temperature at which it emits fuel_rate
+  double fuel_rate = 1.35e-4;  ///< m²/s, 0 … 0.01, calibrated: volume of cold vapour per second and depth
 };
 
 /// Options of the virtual camera. Colours resemble a photograph of a candle; they are not colorimetry.
@@ -45,7 +45,7 @@ struct VirtualMicrophoneOptions {
   double exponent = 2;     ///< amplitude ∝ wind^exponent, 0.5 … 4: 2 is stagnation pressure; an outdoor measurement
                            ///< gave about 1.5
   double level = 0.12;     ///< root mean square of the sound at 1 m/s, full scale 1, 1e-6 … 1; gusts exceed 1 m/s
-  double corner_hz = 300;  ///< corner of the spectrum, flat below and falling by 12 dB per octave above, 20 … 5000
+  double corner_hz = 300;  ///< corner of the spectrum, flat below, −12 dB per octave above, 20 … 5000, ≤ 0.4 rate_hz
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
   double other_sounds = 0.05;  ///< mean number of sounds other than wind per second, 0 … 10: half voice, half knocks
   std::uint64_t seed = 1;
@@ -63,7 +63,7 @@ enum class WindKind {
 struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
   double most = 1.0;         ///< clamp of gusts and noise together, 0 … 10; a candle survives 1 m/s
-  double noise = 0.35;       ///< standard deviation of the wideband part while it blows, 0 … 10
+  double noise = 0.35;       ///< typical standard deviation of the wideband part while it blows, 0 … 10
   double bandwidth_hz = 6;   ///< bandwidth of that noise, two poles, 0.1 … 50; slow wind excites no resonance
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10
   double rest_share = 0.25;  ///< share of calm time, 0 … 0.9
@@ -71,7 +71,7 @@ struct WindSignalOptions {
   double blow_out_at = -1;   ///< time of a puff of 3 m/s for 0.3 s that extinguishes the flame, seconds; negative: none
   double puff_every = 0;     ///< seconds between puffs of 1.2 to 4 m/s and 0.05 to 0.6 s, some of which extinguish the
                              ///< flame: data for learning extinction; 0: none, else 2 … 86400
-  double relight_after = 2;  ///< seconds from a blow-out or a puff until the candle is relit; negative: never
+  double relight_after = 2;  ///< seconds from the start of a blow-out or a puff until it is relit; negative: never
   std::uint64_t seed = 1;
 };
 
@@ -81,8 +81,8 @@ struct CandleClipOptions {
   VirtualCameraOptions camera{};
   VirtualMicrophoneOptions microphone{};
   WindSignalOptions wind{};
-  std::optional<Recording> wind_recording{};  ///< if set, its only input is the wind, and `wind` is ignored
-  double seconds = 60;                        ///< length, more than 0, at most 86400
+  std::optional<Recording> wind_recording{};  ///< if set, its only input, m/s, replaces `wind`; constant after its end
+  double seconds = 60;                        ///< length, 0.001 … 86400
   double settle_seconds = 1.5;  ///< time simulated in still air before the first frame, 0 … 60, for a steady flame
 };
 

@@ -17,7 +17,7 @@ struct LeafAir {
   double rotational_lift = 0.33;     ///< C_R, 0 … 10
   double translational_lift = 2.66;  ///< C_T, 0 … 10
   double drag_broadside = 3.09;      ///< C_D90, 0 … 20
-  double drag_edgewise = 0.20;       ///< C_D0, 0 … 20
+  double drag_edgewise = 0.20;       ///< C_D0, 0 … drag_broadside
   double damping_by_speed = 0.57;    ///< μ, of rotation in a stream, 0 … 20
   double damping_by_spin = 5.7;      ///< C_r, of rotation in still air, 0 … 100
   double spin_drag = 0.05;           ///< C_3, of rotation in the leaf's own plane, 0 … 20
@@ -33,9 +33,9 @@ struct Leaf {
   LeafAir air{};
 };
 
-/// A measured wind: uniform in space, interpolated smoothly between its rows, constant before and after them.
+/// A measured wind: uniform in space, interpolated by cubics between its rows, constant before and after them.
 struct MeasuredWind {
-  std::vector<std::array<double, 3>> rows;  ///< m/s, world axes; empty: no measured wind
+  std::vector<std::array<double, 3>> rows;  ///< m/s, world axes, −30 … 30 each; empty: no measured wind
   double rate_hz = 60;                      ///< > 0
   double begins = 0;                        ///< time of the first row, seconds
 };

@@ -37,7 +37,7 @@ struct WindOptions {
 
   /// Largest growth rate of the background estimate, dB per second, 0 to 60. At 1 a fan that is switched on counts as
   /// wind for ten to thirty seconds, and wind without pauses of that length counts as a fan. During sounds other than
-  /// blowing it grows nine times as fast. 0: the background stays as first heard.
+  /// blowing it grows nine times as fast. 0: the background never rises.
   double floor_rise_db_per_second = 1;
 
   /// Initial RMS of the band at wind 1, full scale 1, 1e-6 to 8. It is updated after each gust, by whether that was
@@ -68,7 +68,7 @@ enum class WindAsk {
   kBlowHard,       ///< wind that extinguishes it
 };
 
-/// Estimated properties of a microphone in a room; stored, they replace the estimation at the next start.
+/// Estimated properties of a microphone in a room, to be stored and passed to set_calibration() at the next start.
 struct WindCalibration {
   float background_rms = 0;    ///< plain RMS without wind
   float background_level = 0;  ///< RMS of the level's band without wind
@@ -109,15 +109,15 @@ class WindLevel {
   /// Returns the latest frame; all zero before the first.
   const WindFrame& latest() const;
 
-  /// Uses the next `seconds` of sound (0.5 to 30) for the requested calibration. A soft breath at one microphone is as
-  /// loud as a hard one at another: request breath and blowing in turn where that matters. The room needs no
-  /// calibration.
+  /// Uses the next `seconds` of sound, clamped to 0.5 to 30, for the requested calibration. A soft breath at one
+  /// microphone is as loud as a hard one at another: request breath and blowing in turn where that matters. The room
+  /// needs no calibration.
   void calibrate(WindAsk ask, double seconds = 3);
 
   /// Returns whether calibrate()'s time is still running.
   bool calibrating() const;
 
-  /// Returns whether the last calibration has ended and heard its request: for blowing, at least 0.1 s of it.
+  /// Returns whether the last calibration has ended and heard its request: at least 0.1 s of certain blowing.
   bool calibrated() const;
 
   /// Returns the rise of the room's level since its first seconds or its lowest since, dB, at least 0: sound without
@@ -135,7 +135,7 @@ class WindLevel {
   /// Forgets everything but the options.
   void reset();
 
-  /// Returns the delay of a frame against the wind, seconds, beyond the frame itself: that of filters and smoothing.
+  /// Returns the delay by filters and smoothing, seconds, in addition to the duration of a frame.
   double latency_seconds() const;
 
  private:

@@ -33,9 +33,9 @@ class WindTracker {
   /// For video at a fixed frame rate (options.frame_rate_hz). Errors: those of WindLevel::create().
   static Result<WindTracker> create(const SoundFormat& format, const WindOptions& options = {});
 
-  /// For video whose frames come at uneven times: frame k covers the sound from frame_seconds[k] to frame_seconds[k +
-  /// 1], so there is one frame fewer than times.
-  /// Errors: those of WindLevel::create(); times not finite, negative or not ascending (named by index).
+  /// For video whose frames come at uneven times: frame k covers the sound from frame_seconds[k] to
+  /// frame_seconds[k + 1], so there is one frame fewer than times.
+  /// Errors: those of WindLevel::create(); fewer than 2 times; one not finite, negative or not ascending (by index).
   static Result<WindTracker> create(const SoundFormat& format, std::span<const double> frame_seconds,
                                     const WindOptions& options = {});
 

@@ -208,7 +208,7 @@ class Crew {
   std::vector<float> wind_block_, sound_;
 };
 
-// One thread simulates while this one draws and writes.
+// A second thread simulates while the calling one draws and writes.
 Result<void> shoot(Scene& scene, Crew& crew, std::uint64_t frames) {
   ShotQueue queue;
   std::thread simulation([&] {

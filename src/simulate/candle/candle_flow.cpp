@@ -18,7 +18,7 @@ constexpr float kDiffusivity = 2.0e-5F;     // m²/s at 300 K; grows as T^1.75
 constexpr float kViscosity = 1.5e-5F;       // m²/s at 300 K
 constexpr float kUpdraught = 0.25F;         // m/s, calibrated: speed of the rising air around a candle
 constexpr float kMaxExpansion = 1500.0F;    // 1/s: bound of ∇·u
-constexpr float kWindShare = 0.4F;          // calibrated: share of the wind at the flame, most of it flows around
+constexpr float kWindShare = 0.4F;          // calibrated: share of the wind at the flame; the rest flows around it
 constexpr float kWindRate = 20.0F;          // 1/s, calibrated: rate at which the air at the flame adopts the wind
 constexpr float kPressureTolerance = 0.5F;  // 1/s, root mean square of the remaining divergence error
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot does not diffuse
@@ -30,8 +30,8 @@ struct Box {
   double left, right, bottom, top;
 };
 
-// A smooth hump over the box's inscribed ellipse, reaching a little beyond it, averaged over cell (i, j): 0 outside, 1
-// in the middle. The corners of a plain box would be visible in the flame's base in wind.
+// A smooth hump over an ellipse of kReach times the box's size, averaged over cell (i, j): 0 outside, 1 in the middle.
+// The corners of a plain box would be visible in the flame's base in wind.
 double hump(int i, int j, const Box& box) {
   constexpr int kSamples = 4;
   const double across = kReach * (box.right - box.left) / 2;
@@ -226,7 +226,7 @@ void CandleFlow::set_scalar_fluxes() {
   }
 }
 
-// scale = strength · T/T0 between the cells `offset` apart, where open.
+// Sets scale = material · step / h² · T/T0, with T the mean of two cells `offset` apart; 0 on closed faces.
 void CandleFlow::set_scale(float material, int offset, const Plane* open) {
   const float strength = material * step_ / (grid_.h * grid_.h) * (0.5F / kAmbientTemperature);
   for (int j = 0; j <= grid_.ny; ++j) {
@@ -259,8 +259,8 @@ void CandleFlow::mix() {
   diffuse(grid_, {nx, ny + 1, corner_.data(), conductance_.data() - grid_.stride()}, scale_, stages, v_, v_scratch_);
 }
 
-// Fuel vapour displaces hot gas, so its volume source has the factor T/T0. Without it a cooled wick would emit three
-// times too much.
+// Fuel vapour displaces hot gas, so its volume source has the factor T/T0. Without this factor a cooled wick would emit
+// three times too much fuel.
 void CandleFlow::release_fuel() {
   const Float4 vapour = {1.0F, 1.0F, kFuelTemperature, 0.0F};
   for (const int k : body_.fuel_cells) {

@@ -14,8 +14,8 @@
 
 namespace wisp::flow {
 
-// Millimetres. "Calibrated" values, here and in other constants of the rig, were chosen so that the flame looks and
-// leans like a real one; the others are material properties.
+// Millimetres. "Calibrated" constants, here and elsewhere in the rig, make the flame look and lean like a real one; the
+// others are material properties.
 inline constexpr double kCandleWidthMm = 12;  ///< width of the solid wax
 inline constexpr double kCandleHeightMm = 10;
 inline constexpr double kWickGapMm = 4;     ///< from the wax to the box that emits fuel
@@ -105,7 +105,7 @@ class CandleFlow {
 
 namespace wisp {
 
-/// Light of the flame during the exposure, cell by cell from the lower left, and the candle's position.
+/// Mean light of the flame during the exposure, cell by cell from the lower left, and the candle's position.
 struct RigLight {
   int columns = 0;
   int rows = 0;
@@ -119,9 +119,9 @@ struct RigLight {
 /// State of the rig after the last frame.
 struct CandleState {
   double seconds = 0;              ///< time since the rig was created
-  bool lit = false;                ///< burns at least a tenth of a calm flame's fuel
+  bool lit = false;                ///< burns at least a tenth of fuel_rate, which a calm flame burns
   double fuel = 0;                 ///< emitted by the wick, as a share of fuel_rate
-  double burning = 0;              ///< fuel burnt, as a share of a calm flame's
+  double burning = 0;              ///< fuel burnt, as a share of fuel_rate
   double wick_temperature = 0;     ///< K, mean within 2 mm of the wick's box
   double hottest = 0;              ///< maximum temperature, K
   double fastest = 0;              ///< maximum speed, m/s

@@ -53,8 +53,8 @@ struct Lattice {
 void link_square(const Lattice& lattice, int i, int j, std::vector<int>& next) {
   const std::array<bool, 4> inside = {lattice.at(i, j) > lattice.level, lattice.at(i + 1, j) > lattice.level,
                                       lattice.at(i + 1, j + 1) > lattice.level, lattice.at(i, j + 1) > lattice.level};
-  // Counter-clockwise around the corners, the contour enters by a side where inside changes to outside (the inside is
-  // then behind, and so on its right) and leaves by one where outside changes to inside.
+  // Counter-clockwise around the corners, the contour enters by a side where outside changes to inside, so that the
+  // inside is on its right, and leaves by one where inside changes to outside.
   std::array<int, 2> enters{};
   std::array<int, 2> leaves{};
   int count = 0;
@@ -176,7 +176,7 @@ std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   return largest;
 }
 
-// The part above a height of a closed, clockwise contour that contains its highest point, ends included.
+// The part of a closed, clockwise contour above a height, from one crossing over the highest point to the other.
 std::vector<PointMm> cut_open(const std::vector<PointMm>& closed, double height) {
   const auto n = static_cast<int>(closed.size());
   const auto higher = [](PointMm a, PointMm b) { return a.y < b.y; };
@@ -264,8 +264,8 @@ std::vector<PointMm> fit_at(const std::vector<PointMm>& line, const std::vector<
   return right;
 }
 
-// Least squares over arc length, then a few rounds in which every sample's parameter moves to the nearest point of the
-// spline (Hoschek's intrinsic parametrisation): a pointed tip needs parameters that advance faster there.
+// Least squares over arc length, then a few rounds in which every sample's parameter moves towards the nearest point of
+// the spline (Hoschek's intrinsic parametrisation): at a pointed tip parameters must advance faster.
 std::vector<PointMm> fit_spline(const std::vector<PointMm>& line, int points) {
   const std::vector<double> knots = uniform_knots(points);
   std::vector<double> s(line.size());

@@ -19,7 +19,7 @@ struct PointMm {
   double y = 0;
 };
 
-/// The outline of one frame. All fields are empty or zero without a flame.
+/// The outline of one frame. Without a flame, all fields but `area` and `brightness` are empty or zero.
 struct FlameOutline {
   bool found = false;
   std::vector<PointMm> contour;  ///< the largest closed contour, cut at the base: from the base's left over the tip to

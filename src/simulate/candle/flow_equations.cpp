@@ -15,7 +15,7 @@ struct Place {
   float up;
 };
 
-// Clamps x and y to [lowest, highest]; NaN becomes the lower limit, so that every index is in the grid.
+// Returns the position of x, y, clamped to [lowest, highest]. NaN becomes `lowest`, so that every index is in the grid.
 Place place(const FlowGrid& grid, float x, float y, float lowest, float highest_x, float highest_y) {
   x = x > lowest ? std::min(x, highest_x) : lowest;
   y = y > lowest ? std::min(y, highest_y) : lowest;
@@ -85,7 +85,7 @@ template <class T>
 void step(const FlowGrid& grid, const Diffusion& d, const Plane& scale, int stages, T lanes, std::vector<T>& values,
           std::vector<T>& scratch) {
   const float width = 2.0F / static_cast<float>(stages * stages + stages);
-  // The first stage reads the initial values as both of its predecessors.
+  // From the second stage on, `to` holds the stage before the previous one and is overwritten.
   stage(grid, d, scale, 1.0F, 0.0F, width * lanes, values.data(), scratch.data());
   for (int j = 2; j <= stages; ++j) {
     const auto order = static_cast<float>(j);
@@ -147,7 +147,7 @@ void sweep(const PressureLevel& level, float weight, const Plane& from, Plane& t
   }
 }
 
-// Eight running sums, each over its own columns: a fixed order that can be vectorised.
+// Dot product by eight running sums, each over its own columns: a fixed order that can be vectorised.
 double dot(const FlowGrid& grid, const Plane& a, const Plane& b) {
   double total = 0;
   for (int j = 0; j < grid.ny; ++j) {

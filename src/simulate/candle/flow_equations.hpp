@@ -25,7 +25,7 @@ inline constexpr Float4 kAmbient = {0.0F, 0.0F, kAmbientTemperature, 0.0F};
 
 /// Sizes and layout. Cell (i, j) spans [i h, (i+1) h] × [j h, (j+1) h], y up. Face u(i, j) is the cell's left one and
 /// v(i, j) its lower one, so u has one more column and v one more row. All arrays have a border of one cell on the left
-/// and below and of at least two on the right and above, so that one index serves all and no stencil needs a test.
+/// and below and of at least two on the right and above, so that they share one index and stencils need no bounds test.
 struct FlowGrid {
   int nx = 0;
   int ny = 0;
@@ -39,16 +39,16 @@ struct FlowGrid {
 using Plane = std::vector<float>;
 using ScalarPlane = std::vector<Float4>;
 
-/// Computes the displacement, in cells, during the step, of the parcel that ends at each cell's centre. The border
-/// holds copies of the rim. `u`, `v` in metres per second, `step` in seconds; displacements are clamped to a quarter of
-/// the grid.
+/// Computes, for each cell, the displacement in cells of the parcel that ends the step at its centre. The border holds
+/// copies of the rim. `u`, `v` in metres per second, `step` in seconds; displacements are clamped to a quarter of the
+/// grid's shorter side.
 void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Plane& way_x, Plane& way_y,
            Plane& scratch_x, Plane& scratch_y);
 
 /// Advects the cells' scalars. The border of `from` is the inflow.
 void advect(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const ScalarPlane& from, ScalarPlane& to);
 
-/// Advects the velocities. The inflow equals the rim.
+/// Advects the velocities. Inflow has the velocity of the rim.
 void advect_u(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to);
 void advect_v(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to);
 
@@ -105,10 +105,10 @@ struct PressureLevel {
   Plane beta_x, beta_y, diagonal, inverse_diagonal, right_side, x, other;
 };
 
-/// The pressure equation −∇·(β∇φ) = b by conjugate gradients, preconditioned with one multigrid V-cycle. Cells are
-/// halved while both sides are even, coefficients of coarse faces are means of fine ones, residuals are summed over and
-/// corrections copied to the four children (each the other's transpose, as a preconditioner needs), smoothed by
-/// Chebyshev-weighted Jacobi sweeps, which treat all cells alike and so can be vectorised.
+/// The pressure equation −∇·(β∇φ) = b by conjugate gradients, preconditioned with one multigrid V-cycle. A coarser grid
+/// has half as many columns and rows, while both numbers are even and above 4. Coefficients of coarse faces are means
+/// of fine ones; residuals are summed over the four children and corrections copied to them (transposes of each other,
+/// as preconditioners need). The smoother is Chebyshev-weighted Jacobi sweeps, which can be vectorised.
 class PressureSolver {
  public:
   explicit PressureSolver(const FlowGrid& grid);
@@ -127,7 +127,7 @@ class PressureSolver {
   /// Updates the coarse grids from new face coefficients.
   void prepare();
 
-  /// Iterates until the residual's root mean square is at most `tolerance`, at most `most` times.
+  /// Iterates until the residual's root mean square is at most `tolerance`, but at most `most` times.
   PressureSolve solve(float tolerance, int most);
 
   /// Resets the initial guess to zero.

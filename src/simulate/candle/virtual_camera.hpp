@@ -73,7 +73,7 @@ class VirtualCamera {
   VirtualCameraOptions options_;
   CameraView view_;
   std::vector<std::int16_t> tones_, noise_;
-  std::vector<float> steep_;  // exposure by soot, to the power of the contrast
+  std::vector<float> steep_;  // table: exposure to the power of the contrast
   flow::SamplePlaces columns_, rows_;
   RigLight seen_;  // grid of the cached sample positions
   std::vector<float> soot_, scattered_, mixed_soot_, mixed_blue_;

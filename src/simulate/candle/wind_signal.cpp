@@ -12,13 +12,13 @@
 namespace wisp {
 namespace {
 
-constexpr double kRate = 240;          // samples per second: forty times the noise's band
+constexpr double kRate = 240;          // samples per second: forty times the noise's default bandwidth
 constexpr double kLongest = 86400;     // longest wind, s
 constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
 constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
 constexpr double kBlowOutSeconds = 0.3;
 constexpr double kBlowOutRamp = 0.03;  // rise and decay time of a blow-out, s
-constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that the puff alone extinguishes
+constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that only the puff extinguishes the flame
 constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame survives
 constexpr double kWeakestPuff = 1.2;   // m/s: a candle survives it
 constexpr double kStrongestPuff = 4;
@@ -102,7 +102,7 @@ std::vector<double> air(const WindSignalOptions& o, std::size_t count) {
   return {};
 }
 
-// A puff with calm around it, until some time after the candle is relit.
+// A puff. Calm surrounds it, until kQuietAfter after the candle is relit.
 struct Puff {
   double at = 0;
   double speed = kBlowOutSpeed;
@@ -160,7 +160,7 @@ class Resonance {
     const double angle = 2 * std::numbers::pi * std::min(frequency_hz, 0.45 * rate_hz) / rate_hz;
     a1_ = 2 * radius * std::cos(angle);
     a2_ = -radius * radius;
-    // An impulse response has an amplitude of about 1.
+    // With this gain the impulse response has an amplitude of about 1.
     gain_ = std::sin(angle);
   }
 

@@ -52,11 +52,11 @@ namespace wisp {
 class WindSignal {
  public:
   /// Generates a wind, `seconds` long.
-  /// Errors: an option outside its range.
+  /// Errors: an option outside its range, or more than 86400 seconds.
   static Result<WindSignal> generate(const WindSignalOptions& options, double seconds);
 
   /// Reads a recording's only input, in m/s, with missing samples interpolated linearly.
-  /// Errors: not one input, or only missing samples.
+  /// Errors: not one input, a rate that is not above 0, or only missing samples.
   static Result<WindSignal> from_recording(const Recording& recording);
 
   /// Returns the wind at a time, interpolated linearly and constant beyond the ends.

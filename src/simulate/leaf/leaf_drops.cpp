@@ -19,8 +19,8 @@ using flow::RandomNumbers;
 
 constexpr double kMaxRows = 2147483648.0;
 constexpr double kMaxGust = 30;            // m/s
-constexpr double kCloneDifference = 0.05;  // at the recording's beginning: radians, m/s, tenths of a rad/s
-constexpr double kLeadSeconds = 0.5;       // from there to the gust's onset, within a fifth
+constexpr double kCloneDifference = 0.05;  // of clones at the start: radians, m/s; 10 times as many rad/s
+constexpr double kLeadSeconds = 0.5;       // from the start to the gust's onset, ± 20 %
 
 // Purposes of random streams.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
@@ -165,7 +165,7 @@ Result<void> fall(const LeafDropsOptions& o, std::size_t drop, Recording& record
   return record(*flight, wind, o, {recording, drop, rows_of(o)});
 }
 
-// Calls `work` with 0 … count−1, on all threads. Returns the failing call's error of lowest index.
+// Calls `work` with 0 … count−1, on all threads. Returns the error of the failing call of lowest index.
 template <class Work>
 Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
@@ -191,7 +191,7 @@ Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work
   return {};
 }
 
-// Returns one gust with onset at about the lead time, with the properties of a train's gusts.
+// Returns one gust with onset after about kLeadSeconds, otherwise like the gusts of a train.
 Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   const std::uint64_t seed = flow::random_word(o.drops.seed + 1, kWindSeed, index);
   Gust gust = LeafWind::gusty(seed, 2 * LeafWind::kRestSeconds).gusts().front();

@@ -14,7 +14,7 @@ using leaf::Vec, leaf::operator+, leaf::operator*;
 
 constexpr double kSpeed = 1;           // speed of a typical gust, m/s
 constexpr double kGustSeconds = 0.3;   // duration of a typical gust; each is 0.6 to 1.8 times as long
-constexpr double kEdgeSeconds = 0.06;  // rise and decay time of a gust: a sudden onset would have no derivative
+constexpr double kEdgeSeconds = 0.06;  // rise and decay time of a gust: a jump would have no derivative
 constexpr double kTravelSpeed = 8;     // m/s: travel speed of a gust's front
 
 // Height and slope of a gust: 0 outside, 1 between the edges, smooth steps at both.
@@ -196,7 +196,7 @@ namespace {
 // Force of the relative air flow, in body axes. `v` is the leaf's velocity relative to the air.
 Vec air_force(const Constants& c, const Vec& v, double speed, const Vec& spin) {
   const double along2 = v[0] * v[0] + v[1] * v[1], normal2 = v[2] * v[2];
-  // No force at rest, where the ratios below are undefined.
+  // The small number avoids 0 / 0 at rest, where there is no force.
   const double over = 1 / (speed + 1e-12);
   const double lift = c.lift * v[2] * over;
   const double drag = c.drag * speed + c.drag_normal * normal2 * over;
@@ -326,7 +326,7 @@ void LeafFlight::step(double h) {
 }
 
 Result<void> LeafFlight::advance(double seconds) {
-  // A tolerance, since rounding would otherwise add a step.
+  // The tolerance prevents rounding from adding a step.
   const double steps = std::max(1.0, std::ceil(seconds / longest_step_ - 1e-9));
   for (int k = 0; k < static_cast<int>(steps); ++k) step(seconds / steps);
   if (!finite(state_)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds_) + " s"};

@@ -198,7 +198,7 @@ class LeafFlight {
   const LeafState& state() const { return state_; }
   double seconds() const { return seconds_; }
 
-  /// Returns the times of the stalls so far (zeros of the forward speed, linear between steps), in seconds.
+  /// Returns the times of the stalls so far (zeros of the velocity along body y, linear between steps), in seconds.
   const std::vector<double>& stalls() const { return stalls_; }
 
  private:

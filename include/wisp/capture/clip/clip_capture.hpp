@@ -1,7 +1,7 @@
 #pragma once
 // Converts frames and sound from any source (file, camera, browser) to a recording: of an outline and wind, or of a
-// light object that is dropped before a plain wall. The wall is the median of the film, and a fall is visible only
-// against it; both need the whole film, so small pictures of all frames are kept until its end.
+// light object that is dropped before a plain wall. Falls are detected against the wall, which is the median of the
+// whole film, so small pictures of all frames are kept until its end.
 
 #include <cstddef>
 #include <cstdint>
@@ -54,8 +54,8 @@ struct ClipWind {
   double background = 0;          ///< root mean square of the stretches without wind, full scale 1
   double one_rms = 0;             ///< root mean square of the wind band at speed 1, full scale 1
   double clipped_share = 0;       ///< share of samples at full scale
-  std::size_t uncovered = 0;      ///< number of picture frames outside the sound: their wind is missing (NaN)
-  std::size_t holes = 0;          ///< number of other frames before the sound or in its gaps: also missing
+  std::size_t uncovered = 0;      ///< number of picture frames after the sound's end: their wind is missing (NaN)
+  std::size_t holes = 0;          ///< number of picture frames before the sound or in its gaps: also missing
   std::string note;               ///< one clause for people: what was heard, or why nothing was
 };
 
@@ -125,7 +125,7 @@ class LiveCapture {
   OutlineCapture& picture() { return picture_; }
 
   /// Takes the next block of interleaved samples, full scale ±1, which begins `begin` seconds after the clip's first
-  /// frame (not the range's); negative: before it. The first block sets the format.
+  /// frame (not the range's); negative: before it. The first block's format holds for all.
   /// Errors: an unusable format.
   Result<void> hear(const SoundFormat& format, double begin, std::span<const float> samples);
 
@@ -151,7 +151,7 @@ struct FallOptions {
   std::optional<FrameRange> frames{};  ///< frames of a file: 1-based and inclusive; none: all
   double rate_hz = 0;                  ///< frame rate of a file: needed for a folder of images, overrides a video's
                                        ///< own: slow motion needs the rate of filming
-  std::size_t max_bytes = 384u << 20;  ///< bound of the stored small pictures, one byte per pixel: about 6900 frames of
+  std::size_t max_bytes = 384u << 20;  ///< bound of the stored small pictures, one byte per pixel: about 7000 frames of
                                        ///< a wide film
 };
 
@@ -169,7 +169,7 @@ class FallCapture {
   static Result<FallCapture> create(const ClipSource& source, const FallOptions& options = {});
 
   /// Takes the next frame; it is borrowed for the call.
-  /// Errors: a frame whose size differs from the first one's, a region outside the picture, more frames than fit.
+  /// Errors: a frame whose size differs from the first one's, a region of less than 16 × 16 pixels, too many frames.
   Result<void> feed(const Picture& picture);
 
   /// Records that the film lost `count` frames here.
@@ -182,7 +182,7 @@ class FallCapture {
   /// middle of the picture's lower border; where the object is elongated enough to have an orientation, q.w, q.x, q.y,
   /// q.z: its long axis (the body's second) and its normal (the third) lie in the picture. Flag `filled`. One episode
   /// per fall, one row per frame, none missing.
-  /// Errors: no fall, with the reason: nothing moves, everything moves, or only objects at the picture's edge do.
+  /// Errors: fewer than 16 frames; no fall, with the reason, such as: nothing moves, everything moves.
   Result<Captured> finish();
 
  private:

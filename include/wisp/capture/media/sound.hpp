@@ -14,7 +14,7 @@ namespace wisp {
 struct SoundInfo {
   double rate_hz = 0;  ///< samples per second
   int channels = 0;
-  std::size_t samples = 0;  ///< samples per channel, as decoded
+  std::size_t samples = 0;  ///< samples per channel decoded so far
   double begin = 0;         ///< start of the track, or of a block, seconds after the clip's first frame; may be < 0
   float peak = 0;           ///< largest absolute sample, full scale 1
   bool cut = false;         ///< the last block is incomplete: the file is truncated
@@ -27,7 +27,7 @@ struct SoundInfo {
 using SoundBlock = std::function<bool(const SoundInfo& info, std::span<const float> samples)>;
 
 /// Reads a sound track block by block, in bounded memory. Returns its properties, or nothing if the file has no sound
-/// track. While blocks are delivered, `info` holds rate, channels and begin.
+/// track. While blocks are delivered, `begin` is that of the block; samples and peak include it.
 /// Errors: missing, not a sound or video file, a codec that FFmpeg cannot decode.
 Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path, const SoundBlock& block);
 

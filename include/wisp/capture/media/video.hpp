@@ -49,7 +49,7 @@ struct RgbImage {
   std::vector<std::uint8_t> pixels;
 };
 
-/// Returns whether a file counts as an image of a clip folder: by its extension, and a number in its name.
+/// Returns whether a file counts as an image of a clip folder: by its extension, a number in its name, no initial dot.
 bool is_numbered_image(const std::filesystem::path& path);
 
 /// Reads a clip in bounded memory.

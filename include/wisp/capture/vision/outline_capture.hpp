@@ -48,7 +48,7 @@ struct FilmFacts {
 
 /// Features that distinguish the outline of a flame from that of another object. Shares are of rows with an outline.
 struct OutlineFacts {
-  std::size_t rows = 0;            ///< number of rows from the first outline until the flame stays extinguished
+  std::size_t rows = 0;            ///< number of rows from the first outline to the last
   std::size_t absent = 0;          ///< number of these rows without an outline, repeated frames not counted
   std::size_t blown = 0;           ///< number of absent rows in which the flame was blown out: see excuse_absence()
   std::size_t seen_from = 0;       ///< index of the first row with an outline
