@@ -185,14 +185,15 @@ def rooms_after(kind, file):
 
 def compile_all(kind, chosen, jobs):
     """Compiles the tests, and drops mutants that do not compile until the rest does."""
-    off = [f"-DWISP_BUILD_{part}=OFF" for part in KINDS[kind][2]]
+    # The other kind's build may have been in this folder: what it left out is named too.
+    parts = [f"-DWISP_BUILD_{part}={'OFF' if part in KINDS[kind][2] else 'ON'}" for part in sorted(KINDS["player"][2])]
     tests = sorted({f"wisp_tests_{test}" for one in chosen for test in rooms_after(kind, one.file)})
     if kind == "player":
         tests.append("wisp_run_frames")
     # One vector width only: another test compares the bits of all widths.
     flags = "-O1 -w -ftemplate-depth=2000"
     subprocess.run(["cmake", "-S", TREE, "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DWISP_NARROW=ON",
-                    "-DWISP_UNITY_BUILD=ON", f"-DCMAKE_CXX_FLAGS={flags}", "-DWISP_BUILD_TESTS=ON", *off], check=True, stdout=subprocess.DEVNULL)
+                    "-DWISP_UNITY_BUILD=ON", f"-DCMAKE_CXX_FLAGS={flags}", "-DWISP_BUILD_TESTS=ON", *parts], check=True, stdout=subprocess.DEVNULL)
     for _ in range(20):
         plant(chosen)
         made = subprocess.run(["ninja", "-C", WORK / "build", "-k", "0", f"-j{jobs}", *tests], capture_output=True, text=True)
@@ -205,7 +206,7 @@ def compile_all(kind, chosen, jobs):
             if (name, str(number + 1)) in wrong:
                 chosen[k] = Mutant(name, number, None, shown)
         if before == sum(1 for one in chosen if one[2]):
-            sys.exit("the tree does not compile:\n" + made.stdout[-4000:])
+            sys.exit("the tree does not compile:\n" + made.stdout[-4000:] + made.stderr[-4000:])
     sys.exit("what does not compile could not be dropped")
 
 

@@ -194,7 +194,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   // Within these limits the output range fits into 16 bits.
   if (exponent > 2 || exponent < -8 || std::abs(lamp->mean) > 3.9) {
     return Error{"the output is about " + std::to_string(lamp->mean) + " and moves by " + std::to_string(reach) +
-                 ", expected at most 3.9 and 0.004 to 4; learn it with mean 1"};
+                 ", expected at most 3.9 and 0.002 to 4; learn it with mean 1"};
   }
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
