@@ -122,7 +122,6 @@ void Bank::State::relight(int slot) {
 void Bank::State::extinguish(int slot) {
   if (!burns(slot)) return;
   harm[slot] = 1.0f;
-  lit[slot] = 0.0f;
   const int block = slot / kLanes;
   go_out(slot, std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper), steps);
 }

@@ -342,6 +342,11 @@ TEST(Extinction, ResettingOrSpawningAnewLightsIt) {
   EXPECT_TRUE(bank.extinction()->state_of(id)->lit);
   EXPECT_EQ(bank.extinction()->state_of(id)->size, 1);
   EXPECT_EQ(bank.extinction()->state_of(id)->since_out, kNever);
+  bank.extinction()->extinguish(id);
+  blow(bank, 0, 2);
+  bank.reset(id);
+  blow(bank, 0, 2);
+  EXPECT_EQ(bank.extinction()->state_of(id)->size, 1) << "nor does the event in which it was go on";
   blow(bank, 6, 30);
   bank.end(id);
   EXPECT_FALSE(bank.extinction()->state_of(id));
