@@ -134,7 +134,7 @@ std::optional<std::string> manual(const std::string& form);
 std::string first_steps();
 
 /// Help for the command or group of commands with these words, else for the program.
-std::string help(std::string words);
+std::string help(const std::string& words);
 
 /// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known,
 /// so that something else is wrong.

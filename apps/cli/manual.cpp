@@ -232,7 +232,7 @@ std::string first_steps() {
          entry("wisp help", "all commands; wisp help learn arx: one of them");
 }
 
-std::string help(std::string words) {
+std::string help(const std::string& words) {
   std::vector<const Command*> meant;
   for (const Command& command : commands()) {
     if (!words.empty() && begins_with(command, words)) meant.push_back(&command);

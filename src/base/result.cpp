@@ -1,10 +1,11 @@
 #include "wisp/base/result.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <string_view>
 
 namespace wisp {
 namespace {
@@ -37,17 +38,14 @@ void end_on_misuse(const char* sentence) {
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more) {
   if (found == expected || (or_more && found > expected)) [[likely]]
     return true;
-  char sentence[160] = "";  // the frame path allocates nothing
-  const auto add = [&](std::size_t number) {
-    char digits[24] = "";
-    std::to_chars(digits, digits + 23, number);
-    std::strcat(sentence, digits);
-  };
-  std::strncat(sentence, call, 80);
-  std::strcat(sentence, " was given ");
-  add(found);
-  std::strcat(sentence, or_more ? " numbers, expected at least " : " numbers, expected ");
-  add(expected);
+  char sentence[160];  // the frame path allocates nothing
+  char* end = sentence;
+  const auto say = [&end](std::string_view words) { end = std::copy_n(words.data(), words.size(), end); };
+  say(std::string_view(call).substr(0, 80));
+  say(" was given ");
+  end = std::to_chars(end, end + 20, found).ptr;
+  say(or_more ? " numbers, expected at least " : " numbers, expected ");
+  *std::to_chars(end, end + 20, expected).ptr = '\0';
   report_misuse(sentence);
   return false;
 }

@@ -232,8 +232,8 @@ void FilmLook::finish() {
   unlit_.resize(plate_.size());
   over_.resize(plate_.size());
   for (std::size_t pixel = 0; pixel < plate_.size(); ++pixel) {
-    const auto row = static_cast<float>(pixel / static_cast<std::size_t>(view_.width));
-    over_[pixel] = stillness(pixel, (view_.base.y - row) / view_.unit);
+    const std::size_t row = pixel / static_cast<std::size_t>(view_.width);
+    over_[pixel] = stillness(pixel, (view_.base.y - static_cast<float>(row)) / view_.unit);
     foot_[pixel] = mean(still_[pixel]);
     unlit_[pixel] =
         out_[pixel][3] > 0 ? mean(out_[pixel]) : mix(Sum{}, mix(plate_[pixel], foot_[pixel], over_[pixel]), kUnlit);

@@ -106,7 +106,7 @@ float reach_of(const LeafFilmOptions& options) {
 class Film {
  public:
   Film(const Recording& recording, const PoseColumns& columns, const LeafFilmOptions& options)
-      : columns_(columns), options_(options), rate_(recording.rate_hz) {
+      : columns_(columns), rate_(recording.rate_hz) {
     const std::vector<Episode> all = episodes(recording);
     const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_leaves));
     for (std::size_t k = 0; k < count; ++k) {
@@ -160,7 +160,6 @@ class Film {
   }
 
   const PoseColumns& columns_;
-  const LeafFilmOptions& options_;
   double rate_;
   std::vector<Fall> falls_;
   std::vector<std::vector<LeafPose>> trails_;
