@@ -197,7 +197,7 @@ class Side {
   std::string caption_;
   LeafFlock painter_;
   Image twice_;
-  Film film_;  // refers to options_ and columns_
+  Film film_;  // refers to columns_
 };
 
 // Draws a line between two panels.
