@@ -26,8 +26,8 @@ std::vector<double> operating_point(const Model& model);
 
 inline constexpr int kRings = 12, kSegments = 12;  ///< mesh size of an exported flame
 
-/// Computes the rings of a body (wisp/run/body_facet.hpp) from its outlines in front view and, for a model of a body,
-/// in side view, else an empty one: by rotational symmetry. Linear in both.
+/// Computes the circular rings of a body (wisp/run/body_facet.hpp) from its outline in front view and, for a model of a
+/// body, that in side view; for other models `side` is empty. The result is linear in both outlines.
 std::vector<float> rings_of(const std::vector<double>& knots, std::span<const float> front,
                             std::span<const float> side);
 

@@ -13,8 +13,8 @@ namespace wisp::cli {
 /// Flags --position and --orientation.
 std::vector<Flag> motion_flags();
 
-/// Columns named by --position and --orientation; empty where these are not given.
-/// Errors: not three positions, or not four orientations.
+/// Returns the columns that --position names, then those that --orientation names; none for a flag that is not given.
+/// Errors: --position does not name three columns, --orientation does not name four.
 Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 
 /// Options for reading a plain table of motion. Columns with the names that learning expects need no flags. `rate_hz`

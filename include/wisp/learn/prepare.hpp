@@ -18,11 +18,11 @@ Result<Preparation> parse_preparation(const std::vector<std::string>& words);
 /// Returns the words, separated by commas; empty for no preparation.
 std::string text_of(const Preparation& preparation);
 
-/// Returns the recording with all channels prepared in the same way, which preserves a linear system between them:
-/// detrended, then filtered, then resampled. Means stay, and so the operating point. Filters are Butterworth of order
-/// 2, applied forward and backward, without delay: −3 dB at their frequency, 24 dB per octave. Before a lower rate a
-/// low-pass at 0.4 of it is added; samples are interpolated by cubics. Episodes are processed separately. Missing
-/// samples stay missing; the filter bridges them linearly.
+/// Returns the recording with all channels detrended, then filtered, then resampled. All are treated alike, which
+/// preserves a linear system between them. Means are kept, and so is the operating point. Filters are Butterworth of
+/// order 2, applied forward and backward, without delay: −3 dB at their frequency, 24 dB per octave. If the new rate is
+/// lower, a low-pass at 0.4 of the new rate is applied, unless a lower one was asked for. Samples are interpolated by
+/// cubics. Episodes are processed separately. Missing samples stay missing; the filter bridges them linearly.
 /// Errors, naming the recording: a filter's frequency is not below half of its rate, or the high-pass is not below the
 /// low-pass; a rate more than 100 times its own, or at which an episode has fewer than two rows.
 Result<Recording> prepare(const Recording& recording, const Preparation& preparation);

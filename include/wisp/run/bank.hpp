@@ -1,9 +1,9 @@
 #pragma once
 // Instances of one model, stepped together. A single flame is a bank of one.
 //
-// The frame path (everything here but create(), the destructor and an error of restore()) allocates nothing, takes no
-// lock and makes no system call. Outputs depend only on the model, the seed, each instance's stream and its inputs: the
-// same bits with any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
+// The frame path (everything here but bank_bytes(), create(), the destructor and an error of restore()) allocates
+// nothing, takes no lock and makes no system call. Outputs depend only on the model, the seed, each instance's stream
+// and its inputs: the same bits with any compiler, at any level of optimisation, in a bank of any size, in any slot.
 //
 // Bulk buffers have one row per slot, in slot order: row `id.slot` belongs to instance `id`. Rows of empty slots, and
 // the part of a buffer beyond slots(), are ignored in inputs and zero in outputs: a buffer of capacity() rows is always

@@ -22,11 +22,11 @@ extern "C" {
 
 namespace wisp {
 
-/// Calls an FFmpeg function and returns its code. Throws std::bad_alloc where the code or errno reports a failed
+/// Calls an FFmpeg function and returns its code. Throws std::bad_alloc if the code or errno reports a failed
 /// allocation: the file is not at fault, and skipping frames would change the measurement. (FFmpeg's H.264 decoder
-/// returns success where the allocation of a picture failed; malloc reports it in errno.) Once a film or sound is open,
-/// every call that may read or decode it uses this wrapper, including the last, empty packet's. errno is per thread:
-/// failures in decoding threads are seen only where FFmpeg returns them.
+/// reports one only in errno.) Once a film or sound is open, this wrapper is used for every call that may read or
+/// decode it, also for the one that sends the final empty packet. errno is per thread: a failure in a decoding thread
+/// is seen only if FFmpeg returns it.
 template <class Call, class... Arguments>
 int with_memory(Call call, Arguments... arguments) {
   errno = 0;  // earlier calls leave errors there that they recovered from

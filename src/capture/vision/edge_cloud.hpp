@@ -81,10 +81,9 @@ struct BoundaryWindow {
   int level = 0;    ///< brightness threshold of the region
 };
 
-/// Converts a boundary, clockwise as from follow_boundary and in the window's pixels, to a cloud in the picture's
-/// pixels, reusing the cloud's memory. Returns false where the boundary is too small to have sides.
-///
-/// Precondition: every boundary pixel lies inside the window and is brighter than the level.
+/// Converts a boundary, in the window's pixels and clockwise as from follow_boundary(), to a cloud in the picture's
+/// pixels; reuses the cloud's memory. Returns false if the boundary is too short, encloses no area or has its tip at a
+/// corner of its base. Precondition: every boundary pixel lies inside the window and is brighter than the level.
 bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
                      const EdgeCloudOptions& options, EdgeCloud& cloud);
 

@@ -46,9 +46,9 @@ struct PredictOptions {
 };
 
 /// Predicts all rows of a recording; history never crosses episodes.
-/// Returns one series an output, in its own unit, as long as the recording; NaN where there is no prediction: in the
-/// first rows of an episode (longest lag + steps − 1 of them; for kFreeRun the longest lag), and where a sample that
-/// the prediction needs is missing. After its start a free simulation needs inputs only; it restarts after a gap in
+/// Returns one series per output, in its own unit, as long as the recording; NaN in an episode's first rows (longest
+/// lag + steps − 1 rows; for kFreeRun the longest lag), and where a sample of the last `steps` rows, this one included,
+/// or one at their lags is missing. A free simulation needs only inputs after its start, and restarts after a gap in
 /// them. Errors: a channel missing from the recording, channels that do not fit the model, steps out of range.
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options = {});

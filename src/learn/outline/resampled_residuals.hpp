@@ -20,9 +20,9 @@ inline constexpr double kLargestStored = 127;  ///< largest 8-bit number of a st
 /// Nearest whole number of scales, within ±`largest`; 0 where the scale is 0.
 double stored(double value, double scale, double largest = kLargestStored);
 
-/// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component; an input of
-/// opposite sign plays mirror images. Empty if the model has inputs and less than a second of rows is complete.
-/// Errors: as predict(); no two consecutive complete rows.
+/// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component; empty if the
+/// model has inputs and less than a second of rows is usable: complete, with their input's past, outline not crossing
+/// itself. An input of the other sign replays rows mirrored. Errors: as predict(); no two consecutive usable rows.
 ///
 /// Precondition: the dynamics have a shape.
 Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,

@@ -1,17 +1,17 @@
 #pragma once
-// Replays recorded residuals (ResampledResiduals), lane by lane. An instance's state is its current row, the time since
-// its last jump, the blocks of rows played before, and its input's recent past. Comparisons decide on jumps and
-// counter-based random words choose among targets. Without a driving input, it jumps after a random time to a row with
-// similar outputs (lookup_lanes.hpp).
+// Replays recorded residuals (ResampledResiduals), lane by lane. An instance's state is its current row, the number of
+// rows played since its last jump, the blocks of rows played before, and the recent past of its input. Comparisons
+// decide whether an instance jumps; counter-based random words choose its target. Without a driving input, an instance
+// jumps after a random time to a row with similar outputs (lookup_lanes.hpp).
 //
-// With a driving input, a jump searches for the rows with the nearest input past (related methods in animation: D.
-// Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016): one
-// descent of a k-d tree to a leaf, whose rows are compared. The search runs only in steps in which the next row's
-// distance exceeds the tolerance, a stretch ends, or a block has reached its longest duration.
+// With a driving input, an instance jumps to one of the rows whose input past is most similar to its own (related
+// methods in animation: D. Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion
+// Matching", GDC 2016). The search descends a k-d tree once and compares the rows of one leaf. It runs only in steps in
+// which the next row's distance exceeds the tolerance, a stretch ends, or a block has reached its longest duration.
 //
-// For a 3-D body the input is a horizontal vector. A row's components along the wind apply along the wind's direction
-// at the jump to that row; those across come from another row of similar strength, mirrored at random: a second search
-// of the same kind over the same past.
+// For a 3-D body the input is a horizontal vector, and there are two searches over the same past, each with its own
+// state. The row of the first gives the components along the wind, that of the second, mirrored at random, those across
+// it. Both are rotated to the wind's direction at the jump to the row.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
-// ChainBlock: operations of a step that are equal for all falling lanes of a block, computed in parallel. Each lane
-// advances in its segment, its offset is updated, and its pose is displayed. ChainLives: the state of all blocks:
-// played and displayed, [block][number][lane]; of joins, ground and steering, lane by lane.
+// ChainBlock: the part of a step that is the same for all falling lanes of a block, computed in parallel: it advances
+// each lane in its segment, updates its offset and displays its pose. ChainLives: the state of all blocks. What every
+// step needs is stored as [block][number][lane]; what only joins, ground and steering need (ChainPlan), lane by lane.
 
 #include <array>
 #include <cstdint>

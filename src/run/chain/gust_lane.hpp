@@ -28,8 +28,8 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// Returns a quarter of the component of `wind`, relative to the body, that is normal to a flat body: half a normal is
-/// cheaper than a whole one.
+/// Returns a quarter of the component of `wind` along the normal of a flat body; `wind` is relative to the body.
+/// Computing a quarter takes only half of the normal, which needs fewer operations than the unit normal.
 template <class Real>
 inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
   const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],

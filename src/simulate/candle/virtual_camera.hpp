@@ -9,8 +9,8 @@
 #include "wisp/base/result.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
-// Samples light between cells: a grid smoothed by the cubic B-spline kernel, sampled on finer, regular rows. The kernel
-// is nonnegative and smooth, like a lens that does not quite resolve a cell.
+// Samples light between the cells of a grid: the light at a pixel is the mean of 4 × 4 cells, weighted by the cubic
+// B-spline kernel. The kernel is nonnegative and smooth: it blurs about as a lens that does not resolve a cell.
 namespace wisp::flow {
 
 /// Sample positions along one axis: for each, the first of four cells and their weights.

@@ -1,5 +1,5 @@
-// Pairs of a filmed and a played flame in the same wind, as outlines of two seconds: films of the rig with the shipped
-// model, or a film of the studio with the model learned from it.
+// Pairs of a filmed and a played flame in the same wind, two seconds of outlines each: films of the rig, played by the
+// shipped model; or parts of a visitor's film (made in the studio), played by the model learned from it.
 
 import type { Library, Model } from '@wisp/player';
 import type { Outlines } from '../studio/outlines.js';

@@ -178,10 +178,10 @@ class FallCapture {
   /// Returns the observations from the frames so far.
   FallSeen seen() const;
 
-  /// Ends the film. Returns the recording: outputs pos.x, pos.y (0: a picture is flat), pos.z in metres, z up, from the
-  /// middle of the picture's lower border; where the object is elongated enough to have an orientation, q.w, q.x, q.y,
-  /// q.z: its long axis (the body's second) and its normal (the third) lie in the picture. Flag `filled`. One episode
-  /// per fall, one row per frame, none missing.
+  /// Ends the film. Returns the recording: one episode per fall, one row per frame, none missing. Outputs: pos.x, pos.y
+  /// (always 0) and pos.z, in metres from the middle of the picture's lower border, z up. If the objects are elongated
+  /// enough to have an orientation, also q.w, q.x, q.y, q.z: the body's second axis is the long axis, its third the
+  /// normal, both in the picture plane. Flag `filled`.
   /// Errors: fewer than 16 frames; no fall, with the reason, such as: nothing moves, everything moves.
   Result<Captured> finish();
 

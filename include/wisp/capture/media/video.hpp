@@ -1,8 +1,8 @@
 #pragma once
 // Reader of the frames of a video file, or of a folder of numbered images, in order.
 //
-// Frames are the decoder's own planes, borrowed, and each has a place on a grid of one fixed rate: places of lost
-// frames stay empty.
+// A frame's picture is borrowed: the decoder's own planes, or a copy if they must be converted, scaled or rotated. Its
+// index counts frame times at one fixed rate; the indices of lost frames are skipped, at most 2 s in a row.
 
 #include <cstdint>
 #include <filesystem>

@@ -44,8 +44,8 @@ std::vector<double> event_rows(std::span<const double> signal, double rate_hz, d
                                const SegmentationOptions& options);
 
 /// Cuts motion into segments. Rows before a piece's first event and after its last are dropped.
-/// Errors: a signal that is neither a channel nor derived, one that needs a missing orientation, an option out of
-/// range, no segment.
+/// Errors: a signal that is neither a channel nor derived, or has missing samples; one that needs a missing
+/// orientation; an option out of range; no segment.
 Result<Segmentation> segment(const Motion& motion, std::span<const Recording> recordings,
                              const SegmentationOptions& options);
 
