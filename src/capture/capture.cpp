@@ -40,7 +40,7 @@ ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
 template <class Hear>
 Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, Hear hear) {
   Result<void> heard;
-  const auto info = stream_sound(path, [&](const SoundInfo& sound, std::span<const float> samples) {
+  auto info = stream_sound(path, [&](const SoundInfo& sound, std::span<const float> samples) {
     heard = hear(SoundFormat{.rate_hz = sound.rate_hz, .channels = sound.channels}, sound.begin, samples);
     return static_cast<bool>(heard);
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +21,8 @@
 
 namespace wisp {
 namespace exporting {
-extern const unsigned char flame_picture[];
-extern const unsigned flame_picture_size;
+extern const unsigned char kFlamePicture[];
+extern const unsigned kFlamePictureSize;
 }  // namespace exporting
 namespace {
 
@@ -205,6 +206,7 @@ std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> 
 // Computes the keys of a body. If its period ends before the take does, a key just before has the period's end state.
 Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   constexpr double kJustBefore = 0.01;  // in steps
+  assert(take.frames > 0);
   const Start start = start_of(take, instance);
   std::vector<float> places, turns, times;
   const auto add = [&](double key, std::size_t frame, bool round) {
@@ -367,7 +369,7 @@ Document outline_document(const Model& model, const OutlineView& view, const Tak
     }
     document.tracks.push_back({.times = times, .weights = document.buffer.add(weights, Shape::kScalar)});
   }
-  document.buffer.add_picture(std::as_bytes(std::span(flame_picture, flame_picture_size)));
+  document.buffer.add_picture(std::as_bytes(std::span(kFlamePicture, kFlamePictureSize)));
   document.scale = view.metres_per_unit > 0 ? view.metres_per_unit : 1;
   document.apart = kApart;
   return document;

@@ -158,7 +158,7 @@ Result<Take> shape_take(const Model& model, const ShapeComponents& shape, const 
   moved.outputs = shape.count();
   moved.sides = 1;
   const auto across = static_cast<std::ptrdiff_t>(shape.across);
-  const auto orbit = orbit_take(model_of_components(model, shape), options, std::move(moved));
+  auto orbit = orbit_take(model_of_components(model, shape), options, std::move(moved));
   if (!orbit) return orbit;
   for (std::size_t side = 0; side < taken.sides; ++side) {
     const ShapeComponents seen = side == 0 ? shape : from_the_side(shape);

@@ -51,10 +51,10 @@ Result<ClipEar> ClipEar::create(const SoundFormat& format, double rate_hz) {
 }
 
 void ClipEar::be_silent(double samples) {
-  const auto count = static_cast<std::int64_t>(std::llround(samples)) * format_.channels;
-  if (count <= 0) return;
-  tracker_.feed(std::vector<float>(static_cast<std::size_t>(count), 0.0F));
-  fed_ += static_cast<double>(count / format_.channels);
+  const double whole = std::round(samples);
+  if (whole <= 0) return;
+  tracker_.feed(std::vector<float>(static_cast<std::size_t>(whole) * static_cast<std::size_t>(format_.channels), 0.0F));
+  fed_ += whole;
 }
 
 // Skips a gap in the sound without feeding silence, which the tracker would take for the background. Silence completes

@@ -42,8 +42,7 @@ std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, cons
   if (strip.height < 2 || strip.x >= middle || strip.right() <= middle + 1) return std::nullopt;
   const std::vector<double> levels = profile(pictures, PixelChannel::kLuma, strip);
   const auto at = static_cast<std::size_t>(middle - strip.x);
-  std::vector<double> sorted = levels;
-  const double seen = levels[at], ground = quantile(sorted, 0.1);
+  const double seen = levels[at], ground = quantile(levels, 0.1);
   if (seen < kMinWax || seen - ground < kMinEdge) return std::nullopt;
   std::size_t begin = at, end = at + 1;
   while (begin > 0 && levels[begin - 1] > (seen + ground) / 2) --begin;
