@@ -101,7 +101,11 @@ void add_flag(Wired& wired, const Flag& flag) {
 
 // Checks that flags required unless another one is given are present, and that flags have the other flag they need.
 void check_required(const Wired& wired) {
-  const auto given = [&](const std::string& other) { return wired.app->count("--" + other) > 0; };
+  // CLI11's search for an option is noexcept and allocates: where memory is short it would end the program.
+  const auto given = [&](const std::string& other) {
+    const auto value = wired.values.find(other);
+    return value != wired.values.end() ? !value->second.empty() : wired.switches.at(other);
+  };
   for (const Flag& flag : wired.command->flags) {
     if (given(flag.name) && !flag.with.empty() && !given(flag.with)) {
       throw CLI::RequiresError("--" + flag.name, "--" + flag.with);
