@@ -96,7 +96,7 @@ Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, F
   const std::size_t told = pairs->gusts() * 3 / 5;  // number of gusts to learn from; the others judge
   auto gusts = learn_gusts(*pairs, told);
   if (!gusts) return gusts.error();
-  std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
+  std::get<ChainModel>(fit.model.dynamics).gust = gusts->response;
   fit.model.inputs = std::move(gusts->inputs);
   Training& training = fit.model.training;
   training.inputs.assign(fit.model.inputs.size(), {});  // m/s

@@ -72,7 +72,7 @@ Extinction choose_rule(const ExtinctionRecipe& recipe, std::span<const Extinctio
     out.fit = *std::move(learned);
     return out.fit->rule;
   }
-  const Extinction rule = extinction_beyond(evidence);
+  Extinction rule = extinction_beyond(evidence);
   if (agreement(rule, evidence).deaths > 0) out.warning = learned.error().message;
   return rule;
 }

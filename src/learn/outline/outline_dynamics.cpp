@@ -398,7 +398,7 @@ Result<ControlSeries> predict_outline(const OutlineDynamics& dynamics, const Rec
 }
 
 ControlSeries outline_prediction_sd(const OutlineDynamics& dynamics, int steps) {
-  const ControlSeries moved = prediction_sd(dynamics.arx, steps);
+  ControlSeries moved = prediction_sd(dynamics.arx, steps);
   const ShapeComponents& shape = dynamics.shape;
   if (shape.empty()) return moved;
   ControlSeries out(shape.rest.size(), std::vector<double>(static_cast<std::size_t>(steps), 0.0));

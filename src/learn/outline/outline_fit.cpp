@@ -95,8 +95,8 @@ double outside_share(std::span<const Outline> recorded, std::span<const std::siz
     for (; next < end; ++next) (next < cut ? early : late).push_back(recorded[next]);
   }
   if (early.empty() || late.empty() || played.empty()) return 0;
-  std::vector<double> own;
-  for (const Outline& one : late) own.push_back(nearest(one, early));
+  std::vector<double> own(late.size());
+  std::transform(late.begin(), late.end(), own.begin(), [&](const Outline& one) { return nearest(one, early); });
   const double bound = quantile(own, 0.99);
   double count = 0;
   for (const Outline& one : played) count += nearest(one, recorded) > bound ? 1 : 0;
@@ -205,8 +205,8 @@ Result<std::vector<double>> residual_sd(const OutlineDynamics& dynamics, const P
         errors[i].push_back(recording.channels[i].samples[row] - (*predicted)[i][row]);
     }
   }
-  std::vector<double> out;
-  for (auto& one : errors) out.push_back(deviation(present(std::move(one))));
+  std::vector<double> out(errors.size());
+  std::transform(errors.begin(), errors.end(), out.begin(), [](const auto& one) { return deviation(present(one)); });
   return out;
 }
 
