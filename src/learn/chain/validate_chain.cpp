@@ -162,9 +162,7 @@ Result<Report> validate_gusts(const Model& model, const Recording& windy, const 
   Report report;
   report.sections = {counts_of(windy.rows()), gusts_section(play->figures)};
   report.sections.front().entries.push_back({"fidelity", {}, "", ""});  // clones of gusts are not independent falls
-  for (std::size_t k = 0; k < play->scenes.size(); ++k) {
-    report.sections.push_back(scene_section(play->scenes[k], k));
-  }
+  for (std::size_t k = 0; k < play->scenes.size(); ++k) report.sections.push_back(scene_section(play->scenes[k], k));
   return report;
 }
 

@@ -84,9 +84,7 @@ Event seen_dying(const Sizes& sizes, std::size_t lit, std::size_t gone, double r
 void glow_on(Sizes& dying, double rate_hz) {
   const std::size_t rows = rows_of(kDim, rate_hz);
   const double last = dying.empty() ? 1 : dying.back();
-  for (std::size_t k = rows; k > 0; --k) {
-    dying.push_back(last * static_cast<double>(k) / static_cast<double>(rows + 1));
-  }
+  for (std::size_t k = rows; k > 0; --k) dying.push_back(last * static_cast<double>(k) / static_cast<double>(rows + 1));
 }
 
 Event seen_catching(const Sizes& sizes, const Shapes& shapes, std::size_t back, std::size_t next, double rate_hz) {

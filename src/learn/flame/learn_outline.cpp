@@ -57,9 +57,7 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
-  if (open && are_silent(recordings)) {
-    return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
-  }
+  if (open && are_silent(recordings)) return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
   auto fit = fit_outline(recordings, recipe, progress);
   if (!open || !fit) return fit;
   const bool unrelated = driven_by_nothing(fit->summary);

@@ -186,9 +186,7 @@ void tell(const ArxModel& model, const Model& of, Report& report) {
   for (int i = 0; count <= kMaxCoefficientsTold && i < model.orders.outputs(); ++i) {
     tell_row(model, of, i, report.add("Coefficients of " + of.outputs[i].name + ", ± standard error"));
   }
-  if (count > kMaxCoefficientsTold) {
-    add_line(report.add("Coefficients"), "number", count, "too many to show here");
-  }
+  if (count > kMaxCoefficientsTold) add_line(report.add("Coefficients"), "number", count, "too many to show here");
   tell_poles(model, of.rate_hz, report);
 }
 
