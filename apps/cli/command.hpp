@@ -54,7 +54,7 @@ Flag ranged(Flag flag, double lowest, double highest);
 /// Words with a separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
-/// The flag's help; for a choice also the accepted words, unless its placeholder lists them.
+/// The flag's help; for a choice also the accepted words, unless the name of its value lists them.
 std::string help_of(const Flag& flag);
 
 /// A positional argument.

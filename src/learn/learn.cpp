@@ -1,5 +1,7 @@
 #include "wisp/learn/learn.hpp"
 
+#include <filesystem>
+
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/flame/learn_outline.hpp"
@@ -24,10 +26,11 @@ struct Learning {
   Result<Fit> by(const ChainRecipe& recipe) const { return learn_chain(recordings, recipe, progress); }
 };
 
-// Records in the model's training the program's version and the cost of a frame, and adds the cost to the report. A
-// model that cannot be played has no cost.
+// Records in the model's training the program's version, the file names of the sources without the folders of the
+// user's disk, and the cost of a frame; adds the cost to the report. A model that cannot be played has no cost.
 void complete(Fit& fit) {
   fit.model.training.program = "wisp " WISP_VERSION;
+  for (std::string& source : fit.model.training.sources) source = std::filesystem::path(source).filename().string();
   const auto cost = count_operations(fit.model);
   if (!cost) return;
   // Runtimes with little memory read the cost from the model instead of counting.

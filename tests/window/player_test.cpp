@@ -9,6 +9,7 @@
 #include <array>
 #include <fstream>
 
+#include "capture/support/clip_files.hpp"
 #include "paths.hpp"
 #include "sound/wind_sounds.hpp"
 
@@ -311,6 +312,23 @@ TEST(Players, ShowTheSamePicturesForTheSameSeed) {
   };
   EXPECT_EQ(picture(1), picture(1));
   EXPECT_FALSE(picture(1) == picture(2));
+}
+
+TEST(WindowSound, TheWindOfAFileThatEndsWhileItBlowsEnds) {
+  sounds::Samples sound = sounds::room(3, kRate, 0.001);
+  sounds::add(sound, sounds::steady_blowing(1, kRate, 0.05), 2, kRate);
+  std::vector<std::int16_t> samples;
+  for (const float value : sound) samples.push_back(static_cast<std::int16_t>(std::lround(value * 32767)));
+  const std::string path = scratch("blows.wav").string();
+  support::write_wav(path, static_cast<int>(kRate), 1, samples);
+  auto file = SoundFile::open(path);
+  ASSERT_TRUE(file) << file.error().message;
+  Player player = player_of("flame.wisp");
+  ASSERT_TRUE(player.ear().open(file->format()));
+  player.ear().hear(file->until(2.9, 512));
+  EXPECT_GT(player.ear().wind(), 0.5F);
+  player.ear().hear(file->until(10, 512));
+  EXPECT_EQ(player.ear().wind(), 0);
 }
 
 // From the first sample of blowing to what it changes, with sound in blocks as from a microphone, at twelve places of

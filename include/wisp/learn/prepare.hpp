@@ -21,7 +21,7 @@ std::string text_of(const Preparation& preparation);
 /// Returns the recording with all channels detrended, then filtered, then resampled. All are treated alike, which
 /// preserves a linear system between them. Means are kept, and so is the operating point. Filters are Butterworth of
 /// order 2, applied forward and backward, without delay: −3 dB at their frequency, 24 dB per octave. If the new rate is
-/// lower, a low-pass at 0.4 of the new rate is applied, unless a lower one was asked for. Samples are interpolated by
+/// lower, a low-pass at 0.4 of the new rate is applied, unless a lower one is requested. Samples are interpolated by
 /// cubics. Episodes are processed separately. Missing samples stay missing; the filter bridges them linearly.
 /// Errors, naming the recording: a filter's frequency is not below half of its rate, or the high-pass is not below the
 /// low-pass; a rate more than 100 times its own, or at which an episode has fewer than two rows.

@@ -32,6 +32,7 @@ constexpr double kMinNarrowing = 0.25;
 constexpr double kMinLight = 0.85;
 constexpr double kMinContrast = 20;
 constexpr double kMaxWidth = 0.8;
+constexpr double kSamePlace = 0.5;  // intersection over union of the places of one object
 
 // Following the underside takes control points from the sides and makes them move more. It must pay in all samples, as
 // the clip's first second may be calm where later the flame leaves one foot and then the other.
@@ -337,7 +338,7 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.facts.contrast = survey_->contrast;
   report.facts.steadiness = survey_->steadiness;
   for (const Waited& waited : stood_still_) {
-    if (!intersection(waited.place, survey_->home).empty()) report.facts.still += waited.rows;
+    if (shared_share(waited.place, survey_->home) > kSamePlace) report.facts.still += waited.rows;
   }
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;

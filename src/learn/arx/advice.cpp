@@ -49,6 +49,16 @@ struct Subject {
     return all;
   }
 
+  // The row of all_of(name), from 1 in its own recording, which is named if there are several.
+  std::string place_of(const std::string& name, std::size_t row) const {
+    for (const Recording& one : recordings) {
+      const std::size_t rows = find(one, name) ? one.rows() : 0;
+      if (row < rows) return std::to_string(row + 1) + (recordings.size() > 1 ? " of " + one.source : "");
+      row -= rows;
+    }
+    return {};
+  }
+
   std::vector<std::string> names() const {
     std::vector<std::string> all = inputs;
     all.insert(all.end(), outputs.begin(), outputs.end());
@@ -69,9 +79,8 @@ double last_digit(const Samples& all) {
 
 std::size_t distinct(const Samples& all, std::size_t most) {
   std::set<double> seen;
-  for (double x : all) {
+  for (double x : all)
     if (seen.insert(x).second && seen.size() > most) break;
-  }
   return seen.size();
 }
 
@@ -96,7 +105,7 @@ void look_for_sentinel(const std::string& name, const Samples& all, std::vector<
   }
 }
 
-// Rows, from 1, of samples far from the median of the five around them.
+// Rows, from 0, of samples far from the median of the five around them.
 std::vector<std::size_t> outliers_in(const Samples& all) {
   constexpr double kFar = 12;
   std::vector<std::size_t> rows;
@@ -108,24 +117,22 @@ std::vector<std::size_t> outliers_in(const Samples& all) {
   }
   const double usual = 1.4826 * median(apart), spread = quantile(values, 0.95) - quantile(values, 0.05);
   for (std::size_t k = 0; k < apart.size(); ++k) {
-    if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 3);
+    if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 2);
   }
   if (rows.size() * 20 > all.size()) rows.clear();  // too many for outliers: the channel jumps by nature
   return rows;
 }
 
-void look_for_outliers(const std::string& name, const Recording& recording, bool one_of_several, const Samples& all,
-                       std::vector<Remark>& out) {
-  const auto rows = outliers_in(all);
+void look_for_outliers(const Subject& subject, const std::string& name, std::vector<Remark>& out) {
+  const auto rows = outliers_in(subject.all_of(name));
   if (rows.empty()) return;
   std::string list;
   for (std::size_t k = 0; k < std::min<std::size_t>(rows.size(), 5); ++k)
-    list += (k > 0 ? ", " : "") + std::to_string(rows[k]);
+    list += (k > 0 ? ", " : "") + subject.place_of(name, rows[k]);
   if (rows.size() > 5) list += ", …";
   out.push_back({RemarkKind::kOutliers, name,
-                 (one_of_several ? recording.source + ": " : "") + quoted(name) + " has " +
-                     std::to_string(rows.size()) + (rows.size() == 1 ? " outlier" : " outliers") + " (" +
-                     (rows.size() == 1 ? "row " : "rows ") + list + "), far from the samples beside them",
+                 quoted(name) + " has " + std::to_string(rows.size()) + (rows.size() == 1 ? " outlier" : " outliers") +
+                     " (" + (rows.size() == 1 ? "row " : "rows ") + list + "), far from the samples beside them",
                  "leave these cells empty, they are missing samples then"});
 }
 
@@ -144,10 +151,8 @@ void look_at_samples(const Subject& subject, std::vector<Remark>& out) {
       continue;
     }
     look_for_sentinel(name, there, out);
-    if (std::find(subject.outputs.begin(), subject.outputs.end(), name) == subject.outputs.end()) continue;
-    for (const Recording& one : subject.recordings) {
-      const Samples* its = subject.find(one, name);
-      if (its) look_for_outliers(name, one, subject.recordings.size() > 1, *its, out);
+    if (std::find(subject.outputs.begin(), subject.outputs.end(), name) != subject.outputs.end()) {
+      look_for_outliers(subject, name, out);
     }
   }
 }
@@ -184,13 +189,12 @@ void look_for_redundancy(const Subject& subject, std::vector<Remark>& out) {
       if (!(line.size > 0) || line.slope == 0) continue;
       const double rounding = std::hypot(last_digit(present(y)), line.slope * last_digit(present(x))) / std::sqrt(12.0);
       if (line.rest > std::max(kSame * line.size, std::min(1.5 * rounding, 0.05 * line.size))) continue;
-      const bool minus = line.level < 0;
       const std::string scaled = (line.slope == 1 ? "" : number_text(line.slope, 5) + " ") + quoted(names[k]);
       const bool level = std::abs(line.level) > 1e-6 * line.size;
       out.push_back({RemarkKind::kRedundant, names[l],
                      quoted(names[l]) + " is " + scaled +
-                         (level ? (minus ? " - " : " + ") + number_text(std::abs(line.level), 5) : "") + ", within " +
-                         number_text(line.rest, 2) + ": it tells nothing new",
+                         (level ? (line.level < 0 ? " - " : " + ") + number_text(std::abs(line.level), 5) : "") +
+                         ", within " + number_text(line.rest, 2) + ": it tells nothing new",
                      "leave one of them out"});
       break;
     }

@@ -333,9 +333,7 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
   if (state.jobs > 1) {
     arx::add(section, "parts", static_cast<std::int64_t>(state.jobs), "parts that were merged");
     ReportTable table{"covered", "rows taken in", {{"source", "recording"}, {"rows", "rows"}}, {}};
-    for (const arx::SeenRows& seen : *rows) {
-      table.rows.push_back({seen.source, arx::rows_text(seen.begin, seen.end)});
-    }
+    for (const arx::SeenRows& seen : *rows) table.rows.push_back({seen.source, arx::rows_text(seen.begin, seen.end)});
     section.tables.push_back(std::move(table));
   }
   return fit;

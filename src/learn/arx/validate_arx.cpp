@@ -183,9 +183,7 @@ void add_error_growth(const Subject& subject, ReportSection& section) {
 Report report_of(const Subject& subject, const Judged& judged) {
   Report report;
   ReportSection& section = report.add("Prediction and free simulation");
-  for (const PredictionFigures& figure : judged.figures) {
-    add(section, "J." + steps_id(figure.steps), mean(figure.j));
-  }
+  for (const PredictionFigures& figure : judged.figures) add(section, "J." + steps_id(figure.steps), mean(figure.j));
   add(section, "rows", judged.figures.front().rows, "rows judged");
   section.tables.push_back(channel_table(subject, judged));
   add_plots(subject, judged, section);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <filesystem>
 
 #include "learn/chain/motion/segmentation.hpp"
 #include "learn/chain/segments/modes.hpp"
@@ -243,8 +242,8 @@ std::vector<Output> outputs_of(const Motion& motion, bool bounded_height) {
 Training training_of(std::span<const Recording> recordings, const ChainRecipe& recipe, const ChainSummary& summary) {
   Training made;
   for (const Recording& recording : recordings) {
-    const std::string name = std::filesystem::path(recording.source).filename().string();
-    if (std::find(made.sources.begin(), made.sources.end(), name) == made.sources.end()) made.sources.push_back(name);
+    const auto found = std::find(made.sources.begin(), made.sources.end(), recording.source);
+    if (found == made.sources.end()) made.sources.push_back(recording.source);
   }
   made.motion = MotionTraining{word_of(recipe.event), recipe.min_seconds, recipe.debounce, recipe.smooth_rows};
   made.recipe = {{"frame", recipe.heading_free ? "heading" : "world"},

@@ -1,6 +1,5 @@
 // Learns and judges a chain from recordings: sorting, fit, fidelity, gusts, verdict.
 
-#include <filesystem>
 #include <string>
 
 #include "learn/chain/chain_fidelity.hpp"
@@ -100,7 +99,7 @@ Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, F
   fit.model.inputs = std::move(gusts->inputs);
   Training& training = fit.model.training;
   training.inputs.assign(fit.model.inputs.size(), {});  // m/s
-  for (const Recording& one : paired) training.sources.push_back(std::filesystem::path(one.source).filename().string());
+  for (const Recording& one : paired) training.sources.push_back(one.source);
   if (const auto sound = check(fit.model); !sound) {
     return Error{pairs->source + ": " + sound.error().message + " from more gusts than its " + std::to_string(told)};
   }

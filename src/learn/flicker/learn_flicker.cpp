@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -311,9 +310,7 @@ Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Rec
   const std::vector<double> all = joined(light.learned);
   const auto [lowest, highest] = std::minmax_element(all.begin(), all.end());
   model.outputs = {{"brightness", "", std::min(1.0, *lowest), std::max(1.0, *highest)}};
-  for (const Recording& recording : recordings) {
-    model.training.sources.push_back(std::filesystem::path(recording.source).filename().string());
-  }
+  for (const Recording& recording : recordings) model.training.sources.push_back(recording.source);
   model.training.recipe = {{"modes", std::to_string(recipe.modes)}, {"order", std::to_string(recipe.order)}};
   return model;
 }

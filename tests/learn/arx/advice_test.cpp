@@ -93,7 +93,7 @@ TEST(Advice, OutliersAreCountedInTheRowsOfTheirOwnRecording) {
   recordings[1].channels[1].samples[10] += 80;
   const auto found = remarks_on(recordings, {"u"}, {"y"});
   ASSERT_THAT(found, remark(RemarkKind::kOutliers));
-  EXPECT_THAT(found.front().cause, HasSubstr("second.csv: 'y' has 1 outlier (row 11)"));
+  EXPECT_THAT(found.front().cause, HasSubstr("'y' has 1 outlier (row 11 of second.csv)"));
 }
 
 }  // namespace

@@ -55,6 +55,14 @@ TEST(LearnFlicker, PlaysAsCalmAndAsStronglyAsWhatWasHeldOut) {
   EXPECT_GT(quantiles[16], 2.5);
 }
 
+TEST(LearnFlicker, TheModelKeepsTheNameOfItsSourceWithoutTheUsersFolders) {
+  Recording trace = light(50, 1, 2000);
+  trace.source = "films of home/lamp.csv";
+  const auto fit = learn(trace, FlickerRecipe{});
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->model.training.sources, std::vector<std::string>{"lamp.csv"});
+}
+
 TEST(LearnFlicker, AFasterTraceIsAveragedDown) {
   const auto fit = learn(light(200, 2), FlickerRecipe{.rate_hz = 50});
   ASSERT_TRUE(fit) << fit.error().message;
