@@ -11,8 +11,8 @@
 namespace wisp::cli {
 namespace {
 
-constexpr std::size_t kWidth = 100;  // width of a line of help, characters
-constexpr std::size_t kColumn = 26;  // column at which explanations begin
+constexpr std::size_t kLineWidth = 100;  // width of a line of help, characters
+constexpr std::size_t kColumn = 26;      // column at which explanations begin
 
 std::string usage(const Command& command) {
   std::string line = "wisp " + command.name;
@@ -57,7 +57,7 @@ std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-// An entry with a word or flag on the left and its meaning on the right, in lines of kWidth.
+// An entry with a word or flag on the left and its meaning on the right, in lines of kLineWidth.
 std::string entry(const std::string& left, const std::string& right) {
   std::string line = "  " + left, text;
   if (width_of(line) + 2 > kColumn) {
@@ -68,7 +68,7 @@ std::string entry(const std::string& left, const std::string& right) {
   std::istringstream words(right);
   bool first = true;
   for (std::string word; words >> word; first = false) {
-    if (!first && width_of(line) + 1 + width_of(word) > kWidth) {
+    if (!first && width_of(line) + 1 + width_of(word) > kLineWidth) {
       text += line + "\n";
       line = std::string(kColumn, ' ');
       first = true;
