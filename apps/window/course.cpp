@@ -1,6 +1,7 @@
 #include "window.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <ctime>
 #include <fstream>
@@ -34,6 +35,7 @@ std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, 
   if (word == "drop" || word == "picture") {
     std::string rest;
     std::getline(words >> std::ws, rest);
+    while (!rest.empty() && std::isspace(static_cast<unsigned char>(rest.back()))) rest.pop_back();
     if (rest.empty()) return {};
     if (word == "drop") return {Event{FileDropped{rest}}};
     if (rest.find('/') != std::string::npos) return {};

@@ -1,6 +1,6 @@
 """How like recorded flames are synthesized ones? One table for every wind.
 
-usage: fidelity.py FOLDER [--splits 20] [--few 4] [--surely NAME]… [--above-floor D]
+usage: fidelity.py FOLDER [--splits 6] [--few 4] [--surely NAME]… [--above-floor D]
 
 FOLDER/WIND/figures.csv and windows.csv are what wisp_verify_flame or wisp_verify_baselines left there. A line of figures:
 name, energy distance, log-spectral distance, speeds, fit of the tip, operations, bytes. A line of windows: side, clip,
@@ -99,7 +99,7 @@ def print_table(folder, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--splits", type=int, default=20)
+    parser.add_argument("--splits", type=int, default=6)
     parser.add_argument("--few", type=int, default=4)
     parser.add_argument("--surely", action="append", default=[])
     parser.add_argument("--above-floor", type=float)

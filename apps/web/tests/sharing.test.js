@@ -153,7 +153,7 @@ describe('sharing', { skip }, () => {
     await calm.click('[data-file=send]');
     await until(calm, 'it says so', () => document.querySelector('[data-file=send]').textContent === 'Copied');
     assert.doesNotMatch(await calm.evaluate(() => navigator.clipboard.readText()), /noise|leaves=/);
-    // And it is slow, and can be paused by a finger.
+    // With that preference there is a button, for a finger too, that pauses the scene.
     assert.equal(await calm.isVisible('#pause'), true);
     await calm.click('#pause');
     const wick = () => calm.evaluate(() => window.wisp.answer);

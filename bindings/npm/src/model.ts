@@ -16,8 +16,8 @@ export interface Channel {
   evenOdd: boolean;
 }
 
-/** 'arx': autoregression with exogenous inputs. 'chain': a random sequence of recorded segments of motion. */
-export type Dynamics = 'arx' | 'chain';
+/** 'arx': autoregression with exogenous inputs. 'chain': recorded segments, joined at random. 'switched': ARX modes in turn. */
+export type Dynamics = 'arx' | 'chain' | 'switched';
 
 /** Meaning of the outputs. 'outline': control points x, y. 'pose': position and quaternion w, x, y, z. */
 export type View = 'plain' | 'outline' | 'pose' | 'position';
@@ -95,7 +95,7 @@ export interface Provenance {
   reason: string;
 }
 
-const dynamicsNames: Dynamics[] = ['arx', 'arx', 'chain'];
+const dynamicsNames: Dynamics[] = ['arx', 'arx', 'chain', 'switched'];
 const viewNames: View[] = ['plain', 'outline', 'pose', 'position'];
 
 // The signature of a model's file.

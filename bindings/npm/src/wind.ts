@@ -16,7 +16,7 @@ export interface WindOptions {
   smoothingSeconds?: number;
   /** Maximum rise of the background, dB a second, 0 to 60; default 1. */
   floorRiseDbPerSecond?: number;
-  /** Initial RMS of wind 1, full scale 1; default 0.05. */
+  /** Initial RMS of wind 1, full scale 1; default 0.04. */
   firstGustRms?: number;
 }
 
@@ -26,7 +26,7 @@ export interface WindFrame {
   rms: number;
   rmsClean: number;
   level: number;
-  /** Proportional to wind speed; 1 is the 95th percentile while it blows. */
+  /** Proportional to wind speed; 1 lies between soft breath and hard blowing. */
   speed: number;
   /** Input for a model: speed where it sounds like blowing, 0 in silence. */
   wind: number;

@@ -108,8 +108,8 @@ struct ValidatedOutline {
 /// extinction is judged separately. A recording with other knots is converted to the model's, with a warning. The
 /// report has gain, rows, channels, points, J, tip, overlap, fidelity, extinction, and the series of plots: `tip`, the
 /// inputs, `flicker`.
-/// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; a number of control points or
-/// a rate that differs from the model's; a missing input; no outline in any row; kStopped.
+/// Errors: no steps; a model that is not an outline or not ARX; naming the recording, a number of control points or a
+/// rate that differs from the model's, a missing input, no outline in any row; kStopped.
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
                                           const ValidationOptions& options = {}, const Progress& progress = {});
 

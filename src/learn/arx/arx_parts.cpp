@@ -336,6 +336,7 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
     for (const arx::SeenRows& seen : *rows) table.rows.push_back({seen.source, arx::rows_text(seen.begin, seen.end)});
     section.tables.push_back(std::move(table));
   }
+  arx::complete(fit);
   return fit;
 }
 

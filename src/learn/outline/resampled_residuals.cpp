@@ -79,7 +79,7 @@ std::vector<bool> simple_outlines(const Recording& given, const PreparedOutlines
   return out;
 }
 
-// Complete rows, as stretches.
+// Residuals of the complete rows whose outlines do not cross themselves, in stretches of two rows or more.
 Result<std::vector<RowStretch>> stretches_left(const OutlineDynamics& dynamics, const Recording& given,
                                                const PreparedOutlines& prepared, std::size_t past) {
   const Recording recording = moved_recording(dynamics.shape, given, prepared);

@@ -1,5 +1,7 @@
 #include "learn/report/report_values.hpp"
 
+#include <filesystem>
+
 #include "wisp/learn/arx_recipe.hpp"
 
 namespace wisp::arx {
@@ -86,6 +88,17 @@ ReportSection cost_section(const Cost& cost) {
   add(section, "cost.worst_operations_per_frame", cost.worst_operations, "operations in the worst frame");
   add(section, "cost.steered_operations_per_frame", cost.steered_operations);
   return section;
+}
+
+void complete(Fit& fit) {
+  fit.model.training.program = "wisp " WISP_VERSION;
+  for (std::string& source : fit.model.training.sources) source = std::filesystem::path(source).filename().string();
+  const auto cost = count_operations(fit.model);
+  if (!cost) return;
+  // Runtimes with little memory read the cost from the model instead of counting.
+  fit.model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;
+  fit.model.training.operations_per_frame = cost->operations_per_frame;
+  fit.report.sections.push_back(cost_section(*cost));
 }
 
 }  // namespace wisp::arx

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wisp/base/report.hpp"
+#include "wisp/learn/learn.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/run/cost.hpp"
 
@@ -53,6 +54,10 @@ std::string element(const char* list, std::size_t index, const char* field);
 
 /// Section `cost` {multiply_adds_per_frame, operations_per_frame, …}.
 ReportSection cost_section(const Cost& cost);
+
+/// Records in the model's training the program's version, the file names of the sources without the folders of the
+/// user's disk, and the cost of a frame; adds the cost to the report. A model that cannot be played has no cost.
+void complete(Fit& fit);
 
 /// Matrix [output][input] of values of a model.
 template <class Value>

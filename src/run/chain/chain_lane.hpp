@@ -141,7 +141,7 @@ inline void each_played(A& a, B& b, Visit visit) {
 /// Minimum agreement of two stored quaternions after the best rotation about z; below it, no rotation is made.
 inline constexpr float kMinTurn = 1e-3f;
 
-/// Bound of differences at joins.
+/// Magnitude to which differences at joins are clamped.
 inline constexpr float kMaxDifference = 1e9f;
 
 /// Returns a half turn with the scales of the quantities that it rotates; number(x) is x in every lane.

@@ -64,6 +64,8 @@ TEST(ArxParts, SharesThroughBytesMakeTheModelOfAllRows) {
   expect_same(fit->model, in_memory(recording).model);
   EXPECT_THAT(fit->model.training.sources, testing::ElementsAre(recording.source));
   EXPECT_EQ(fit->report.find("fit_percent.inf"), nullptr);  // no rows to simulate
+  EXPECT_GT(fit->model.training.operations_per_frame, 0);
+  EXPECT_FALSE(fit->model.training.program.empty());
 }
 
 TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRangeAndSimulatesIt) {

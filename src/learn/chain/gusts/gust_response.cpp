@@ -76,8 +76,8 @@ std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response
   return change;
 }
 
-// Parameters of the search, per axis: coefficients of the change, of the normal wind and of the wind. With the
-// constraint that a steady wind carries the body along, the wind's coefficient is 1 minus that of the change.
+// Parameters of the search: for each Axis of GustResponse its change, its press and, unless `carried`, its wind. With
+// `carried`, a steady wind carries the body along: wind = 1 − change.
 struct Unknowns {
   bool carried;
 

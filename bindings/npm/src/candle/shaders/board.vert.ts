@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// A rectangle facing the eye, in units around a foot; p is its nearness.
+// A rectangle facing the eye at a foot in the room; vAt is the position on it, relative to the foot, in board units.
 uniform vec4 uView;
 uniform float uEye;
 uniform vec3 uFoot;   // in the room

@@ -137,7 +137,7 @@ void main() {
   vec3 wall = side(u, max(0.0, front - vAt.y));
   vec3 lid = top(vec2(u, (vAt.y - wobble) / (uFlat.x * uRadius)));
   vec3 lit = mix(wall, lid, smoothstep(front - uPixel, front + uPixel, vAt.y));
-  // The thin, bright lip between them.
+  // The thin, bright lip between wall and lid.
   float lip = exp(-pow((vAt.y - front) / (0.010 + uPixel), 2.0)) * (0.6 + 0.4 * noise(vec2(turn * 6.0, uSeed)));
   lit += lip * uWax * vec3(1.0, 0.60, 0.27) * 0.50 * uLight;
   // It shades itself near the table.

@@ -1,5 +1,5 @@
 export default /* glsl */ `
-// Glare in the eye: each picture of the chain is half the size of the one before; on the way back they are added up.
+// Glare in the eye: each picture of the chain is half the size of the one before; on the way back they are blended.
 // Thirteen samples down as in Jimenez (2014), nine up.
 uniform sampler2D uFrom, uFiner;
 uniform vec2 uTexel;   // texel of the source picture

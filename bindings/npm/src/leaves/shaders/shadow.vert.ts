@@ -25,7 +25,7 @@ void main() {
   vec2 along = onGround(turned(q, vec3(0, uHalfSize.y, 0)));
   float blur = 0.006 + 0.055 * max(0.0, where.z);
   float size = 0.5 * (length(wide) + length(along));
-  // Minimum area, that of its own blur.
+  // The grown area is at least blur², so that the shadow of an edge-on leaf stays faint.
   float area = abs(wide.x * along.y - wide.y * along.x);
   vec2 grown_wide = wide + normalize(wide + 1e-6) * blur;
   vec2 grown_along = along + normalize(along + 1e-6) * blur;

@@ -1,0 +1,45 @@
+// Whether memory stays flat: leaves and a cake run, wind comes and goes, and the heap is looked at after collections.
+//
+//     npm run soak --workspace apps/web [-- MINUTES]      default 10; ends with status 1 when it grew by more than a tenth
+
+import { chromiumPath, openBrowser } from '../tests/browser.js';
+
+const minutes = Number(process.argv[2] ?? 10);
+const looks = 12;
+
+if (chromiumPath === undefined) throw new Error('there is no Chromium here');
+
+async function heap(page, session) {
+  await session.send('HeapProfiler.collectGarbage');
+  const { metrics } = await session.send('Performance.getMetrics');
+  const used = metrics.find(({ name }) => name === 'JSHeapUsedSize').value;
+  return { used, memory: await page.evaluate(() => window.wisp.memory) };
+}
+
+const opened = await openBrowser();
+const page = await opened.page('#scene=leaves&leaves=500&seed=1&detail=0.05');
+const session = await page.context().newCDPSession(page);
+await session.send('Performance.enable');
+const seen = [];
+for (let look = 0; look <= looks; ++look) {
+  // Every kind of thing that happens: other scenes, blowing, lighting, the drawer, other models.
+  for (const key of look % 2 === 0 ? ['2', 'i', 'l', 'i'] : ['1', '+', 'l', 'i', 'n', 'i', '-']) await page.keyboard.press(key);
+  await page.focus('#stage');
+  await page.keyboard.down('Space');
+  await page.waitForTimeout(1000);
+  await page.keyboard.up('Space');
+  await page.keyboard.press('2');
+  await page.waitForTimeout((60_000 * minutes) / (looks + 1) - 1000);
+  const now = await heap(page, session);
+  seen.push(now);
+  console.log(`${((look + 1) * minutes / (looks + 1)).toFixed(1).padStart(5)} min   heap ${(now.used / 1e6).toFixed(2)} MB   library ${(now.memory / 1e6).toFixed(2)} MB`);
+}
+await opened.close();
+
+const mean = (list) => list.reduce((sum, { used }) => sum + used, 0) / list.length;
+const early = mean(seen.slice(2, 6));
+const late = mean(seen.slice(-4));
+const grown = late / early - 1;
+const library = seen.at(-1).memory - seen[2].memory;
+console.log(`heap ${grown > 0 ? 'grew' : 'shrank'} by ${Math.abs(100 * grown).toFixed(1)} %, the library's memory by ${library} bytes`);
+process.exitCode = grown > 0.1 || library > 0 ? 1 : 0;
