@@ -45,14 +45,15 @@ std::string complaint_of_kind(const Flag& flag, const std::string& text) {
     case Kind::kNames:
       return text.empty() ? "is empty" : std::string();
     case Kind::kInteger:
-      return is_whole(text) ? std::string() : found + "a whole number from 0";
+      return is_whole(text) ? std::string() : found + "a whole number from 0 to 999999999";
     case Kind::kNumber:
       return is_number(text) ? std::string() : found + "a number";
     case Kind::kChoice:
       return is_word(flag, text) ? std::string() : found + "one of " + joined(flag.words, ", ");
     case Kind::kIntegerOrWord:
-      return is_whole(text) || is_word(flag, text) ? std::string()
-                                                   : found + "a whole number from 0, or " + joined(flag.words, ", ");
+      return is_whole(text) || is_word(flag, text)
+                 ? std::string()
+                 : found + "a whole number from 0 to 999999999, or " + joined(flag.words, ", ");
     case Kind::kSamples:
       return is_sample_range(text) ? std::string() : found + "a range A:B of samples with 1 <= A <= B, such as 1:300";
   }

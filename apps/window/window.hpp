@@ -105,9 +105,9 @@ class Course {
 /// Returns this thread's processor time in milliseconds.
 double thread_milliseconds();
 
-/// Runs without a display, at most `frames` frames of 1/60 s. Writes into `pictures` every frame (frame-00001.png, …), or, if
-/// the script takes pictures, only those. Files appear completely or not at all.
-/// Errors: an invalid model, sound, script or folder; a picture cannot be written.
+/// Runs without a display, at most `frames` frames of 1/60 s. Writes into `pictures` every frame (frame-00001.png, …),
+/// or, if the script takes pictures, only those. Files appear completely or not at all. Errors: an invalid model,
+/// sound, script or folder; a picture cannot be written.
 Result<PlayReport> play_without_display(const PlayOptions& options);
 
 /// Returns whether this build has a window.

@@ -116,8 +116,8 @@ typedef struct wisp_model_facts {
   double blow_out_seconds; /* duration until it is out at that wind; stronger wind takes less */
   uint32_t dynamics;       /* one of WISP_DYNAMICS_* */
   uint32_t view;           /* WISP_VIEW_PLAIN, WISP_VIEW_OUTLINE, WISP_VIEW_POSE or WISP_VIEW_POSITION */
-  double half_width;       /* metres, of a body with pose or position; 0: unknown */
-  double half_length;      /* metres, of a body with pose; 0: unknown */
+  double half_width;       /* metres along the first axis of a body with pose, a leaf's midrib; 0: unknown */
+  double half_length;      /* metres along its second axis; 0: unknown */
   double blow_out_haste;   /* the duration at twice the level is blow_out_seconds / (1 + blow_out_haste) */
   double blow_out_recovery_seconds; /* time below the level until full recovery */
   uint32_t blow_out_input;          /* index of the input that blows it out */

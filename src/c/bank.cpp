@@ -128,8 +128,11 @@ wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* o
   const auto known = options_of(__func__, options);
   if (!known) return WISP_BAD_ARGUMENT;
   return guarded(__func__, [&]() -> wisp_status {
+    if (const auto needed = wisp::bank_bytes(model->model, *known); !needed) {
+      return fail(WISP_BAD_ARGUMENT, needed.error());
+    }
     auto made = wisp::Bank::create(model->model, *known);
-    if (!made) return fail(WISP_BAD_ARGUMENT, made.error());
+    if (!made) return fail(WISP_NO_MEMORY, made.error());
     *bank = new wisp_bank{std::move(made).value()};
     return WISP_OK;
   });
@@ -276,6 +279,10 @@ wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, fl
 }
 
 wisp_status wisp_bank_look(wisp_bank* bank, float right_x, float right_z) {
+  if (!(std::abs(std::hypot(right_x, right_z) - 1) < 0.01F)) {
+    return fail(WISP_BAD_ARGUMENT, "%s was given (%g, %g), expected a unit vector", __func__,
+                static_cast<double>(right_x), static_cast<double>(right_z));
+  }
   return on_body(__func__, bank, [&](wisp::BodyFacet& body) { body.look(right_x, right_z); });
 }
 

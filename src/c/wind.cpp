@@ -110,7 +110,7 @@ wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame) {
 
 wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds) {
   if (!wind) return null_argument(__func__);
-  if (!std::isfinite(seconds)) return fail(WISP_BAD_ARGUMENT, "%s was given a time that is not finite", __func__);
+  if (std::isnan(seconds)) return fail(WISP_BAD_ARGUMENT, "%s was given a time that is not a number", __func__);
   if (what > WISP_WIND_BLOW_HARD)
     return fail(WISP_BAD_ARGUMENT, "%s was requested %u, expected a WISP_WIND_*, 0 or 1", __func__, what);
   wind->level.calibrate(static_cast<wisp::WindAsk>(what), seconds);

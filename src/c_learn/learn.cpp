@@ -6,6 +6,7 @@
 
 #include "c/boundary.hpp"
 #include "wisp/learn/learn.hpp"
+#include "wisp/learn/recipe_fields.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/wisp.h"
 
@@ -38,7 +39,7 @@ wisp::ArxRecipe arx_recipe(const wisp_recipe& given, const wisp::Recording& firs
 }
 
 wisp::Result<wisp::Recipe> chain_recipe(const wisp_recipe& given, wisp::ChainRecipe recipe) {
-  if (given.modes > 0) recipe.modes = given.modes;
+  if (given.modes != 0) recipe.modes = given.modes;
   if (!given.event) return wisp::Recipe(recipe);
   auto event = wisp::parse_event(given.event);
   if (!event) return event.error();
@@ -59,7 +60,7 @@ wisp::Result<wisp::Recipe> kind_of(const wisp_recipe& given, const wisp::Recordi
     case WISP_RECIPE_LEAF:
       return chain_recipe(given, wisp::LeafRecipe());
     case WISP_RECIPE_FLICKER:
-      return wisp::Recipe(wisp::FlickerRecipe{.modes = given.modes > 0 ? given.modes : wisp::FlickerRecipe().modes});
+      return wisp::Recipe(wisp::FlickerRecipe{.modes = given.modes != 0 ? given.modes : wisp::FlickerRecipe().modes});
     default:
       return wisp::Error{"wisp_learn was given a recipe of kind " + std::to_string(given.kind)};
   }
@@ -67,7 +68,10 @@ wisp::Result<wisp::Recipe> kind_of(const wisp_recipe& given, const wisp::Recordi
 
 wisp::Result<wisp::Recipe> recipe_of(const wisp_recipe& given, const wisp::Recording& first) {
   auto recipe = kind_of(given, first);
-  if (recipe && given.name) std::visit([&](auto& kind) { kind.name = given.name; }, *recipe);
+  if (!recipe) return recipe;
+  if (given.name) std::visit([&](auto& kind) { kind.name = given.name; }, *recipe);
+  const auto right = std::visit([](const auto& kind) { return wisp::check_fields(kind); }, *recipe);
+  if (!right) return right.error();
   return recipe;
 }
 

@@ -96,20 +96,20 @@ std::vector<std::uint16_t> ring_corners(int rings, int segments) {
   return {corners.begin(), corners.end()};
 }
 
-Surface leaf_blade(double half_width, double half_length) {
+Surface leaf_blade(double half_first, double half_second) {
   constexpr int kRows = 12;
   constexpr double kFold = 0.3, kBend = 0.18;  // rise of the edges in half widths, and of the ends in half lengths
-  const double width = half_width > 0 ? half_width : 0.03, length = half_length > 0 ? half_length : width;
+  const double length = half_first > 0 ? half_first : 0.03, width = half_second > 0 ? half_second : length;
   Surface leaf;
   for (int row = 0; row <= kRows; ++row) {
     // The leaf is widest below its middle.
     const double t = 2.0 * row / kRows - 1, across = width * std::cos(std::numbers::pi / 2 * t) * (1 - 0.4 * t) / 1.08;
     for (const int column : {-1, 0, 1}) {
       const double fold = column == 0 ? 0 : kFold * across;
-      for (double place : {column * across, length * t, fold + kBend * length * t * t}) {
+      for (double place : {length * t, -column * across, fold + kBend * length * t * t}) {
         leaf.places.push_back(static_cast<float>(place));
       }
-      const double x = -kFold * column, y = -2 * kBend * t, size = std::sqrt(x * x + y * y + 1);
+      const double x = -2 * kBend * t, y = kFold * column, size = std::sqrt(x * x + y * y + 1);
       for (double normal : {x / size, y / size, 1 / size}) leaf.normals.push_back(static_cast<float>(normal));
     }
     for (int left = 3 * row; row < kRows && left < 3 * row + 2; ++left) {
@@ -131,7 +131,9 @@ std::vector<double> operating_point(const Model& model) {
 }
 
 Result<void> check_take(const Model& model, const Take& take) {
-  const bool right = take.frames > 0 && take.instances > 0 && take.outputs == model.outputs.size() &&
+  const bool travels = take.loop && std::holds_alternative<ChainModel>(model.dynamics);
+  const bool right = (!travels || take.travel.size() == take.instances) && take.frames > 0 && take.instances > 0 &&
+                     take.outputs == model.outputs.size() &&
                      take.values.size() == take.sides * take.frames * take.instances * take.outputs && take.rate_hz > 0;
   if (right) return {};
   return Error{"the take has " + std::to_string(take.outputs) + " outputs and " + std::to_string(take.frames) +

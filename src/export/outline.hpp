@@ -41,9 +41,9 @@ struct Surface {
   std::vector<std::uint16_t> triangles;
 };
 
-/// Returns a leaf in a body's first two axes, folded along its midrib and bent along it; a small one if its size is
-/// unknown.
-Surface leaf_blade(double half_width, double half_length);
+/// Returns a leaf in a body's first two axes, folded along its midrib, the first axis, and bent along it; a small one
+/// if its size is unknown.
+Surface leaf_blade(double half_first, double half_second);
 
 /// Errors: the number of outputs differs from the model's; no frames or instances; a wrong number of values.
 Result<void> check_take(const Model& model, const Take& take);

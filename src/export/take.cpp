@@ -176,7 +176,8 @@ Result<Take> walk_take(const Model& model, const TakeOptions& options, Take take
   const std::size_t width = taken.instances * taken.outputs;
   taken.values.resize(taken.frames * width);
   for (std::size_t k = 0; k < taken.instances; ++k) {
-    const auto loop = find_walk_loop(model, taken.frames, options.seed + k, inputs_of(model, options));
+    const std::uint64_t seed = options.seed + 0xd1342543de82ef95U * k;  // neighbouring seeds share no instance
+    const auto loop = find_walk_loop(model, taken.frames, seed, inputs_of(model, options));
     if (!loop) {
       return Error{"none of thousands of walks came back to where it was after exactly " +
                    std::to_string(taken.frames) + " frames; ask for a few frames more or less, or a longer loop"};

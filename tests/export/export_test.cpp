@@ -81,6 +81,22 @@ TEST(Gltf, ABodysKeysAreWhatIsPlayed) {
   }
 }
 
+TEST(Gltf, ALeafsMidribIsItsFirstAxis) {
+  const Model model = leaf();
+  const auto& size = std::get<PoseView>(model.view);
+  const Opened file = opened(*gltf_bytes(model, *take(model, {.seconds = 0.1})));
+  const auto& accessor =
+      file.json["accessors"][file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+  EXPECT_NEAR(accessor["max"][0].get<double>(), size.half_width, 0.003);
+  EXPECT_NEAR(accessor["max"][1].get<double>(), size.half_length, 0.003);
+}
+
+TEST(Gltf, ALoopWithoutItsTravelIsRefused) {
+  auto taken = take(leaf(), {.seconds = 0.2});
+  taken->loop = true;
+  EXPECT_FALSE(gltf_bytes(leaf(), *taken));
+}
+
 TEST(Gltf, ALoopEndsWithItsFirstFrameAgain) {
   const Model model = leaf();
   const auto taken = take(model, {.seconds = 2, .loop = true});
@@ -213,7 +229,7 @@ TEST(VertexAnimation, ALeafTurnsAndMovesWithItsPose) {
     double along = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
       along = std::hypot(along, place(frame, 1, axis) - place(frame, columns - 2, axis));
-    EXPECT_NEAR(along, 2 * std::get<PoseView>(model.view).half_length, 1e-3);
+    EXPECT_NEAR(along, 2 * std::get<PoseView>(model.view).half_width, 1e-3);
   }
 }
 

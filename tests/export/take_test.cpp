@@ -176,6 +176,14 @@ TEST(Take, ALoopOfALeafMeetsItsBeginInAttitudeAndVelocity) {
   }
 }
 
+TEST(Take, LoopsOfNeighbouringSeedsShareNoLeaf) {
+  const auto first = take(leaf(), {.seconds = 2, .loop = true, .instances = 3, .seed = 1});
+  const auto second = take(leaf(), {.seconds = 2, .loop = true, .instances = 3, .seed = 2});
+  for (const auto& a : first->travel) {
+    for (const auto& b : second->travel) EXPECT_NE(a, b);
+  }
+}
+
 TEST(Take, IsWhatABankPlays) {
   const Model model = leaf();
   const auto taken = take(model, {.seconds = 1, .instances = 3, .seed = 9});

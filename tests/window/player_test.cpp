@@ -365,8 +365,8 @@ TEST(Latency, IsAtMostAFrameABlockAModelStepAndWhatHearingTakes) {
 }
 
 TEST(Scripts, AreEventsInTheOrderOfTheirTimes) {
-  std::ofstream(scratch("good.txt"))
-      << "# a comment\n2 click 0.5 0.25\n\n0.5 key space # puff\n1 drop a b.wisp  # a model\n3 picture end  # the last\n";
+  std::ofstream(scratch("good.txt")) << "# a comment\n2 click 0.5 0.25\n\n0.5 key space # puff\n1 drop a b.wisp  # a "
+                                        "model\n3 picture end  # the last\n";
   const auto events = read_script(scratch("good.txt"));
   ASSERT_TRUE(events) << events.error().message;
   ASSERT_EQ(events->size(), 6U);

@@ -189,18 +189,27 @@ std::optional<PlantLanguage> plant_language(const Model& model, const std::strin
 }
 
 // Reports flags without effect as errors, since the user expects an effect.
-Result<void> check_flags(const Arguments& arguments, const std::string& extension, bool is_source) {
+Result<void> check_flags(const Arguments& arguments, std::string extension, bool is_source) {
+  if (arguments.text("output").ends_with(".vat.png")) extension = ".vat.png";
   const std::string nothing = "does nothing to a " + extension + " file, which ";
   if (is_source) {
     const auto why = nothing + "is the model itself and plays for ever";
-    auto ok = refuse(arguments, {"seconds", "loop", "wind", "noise", "size", "seed", "input"}, why);
+    auto ok = refuse(arguments, {"seconds", "loop", "wind", "noise", "size", "seed", "input", "frames"}, why);
     if (!ok) return ok;
   }
   if (extension != ".png") {
     if (auto ok = refuse(arguments, {"columns"}, nothing + "is no atlas"); !ok) return ok;
   }
-  if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop"))) {
-    return Error{"--input does not go with --columns, or with --loop, which is a steady play"};
+  if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop") || arguments.has("seconds"))) {
+    return Error{
+        "--input does not go with --columns, with --seconds, since its length is the input's, or with --loop, "
+        "which is a steady play"};
+  }
+  if (extension == ".glb" || extension == ".vat.png" || extension == ".json") {
+    if (auto ok = refuse(arguments, {"frames"}, nothing + "holds every frame"); !ok) return ok;
+  }
+  if (extension == ".vat.png") {
+    if (auto ok = refuse(arguments, {"size"}, nothing + "has a column a corner and a row a frame"); !ok) return ok;
   }
   if (extension == ".glb") return refuse(arguments, {"size"}, nothing + "is in metres");
   return refuse(arguments, {"instances"}, nothing + "holds one");

@@ -307,7 +307,11 @@ Result<void> check_size(const Play& play, int instances) {
 
 // Applies --camera, --orbit, --wind-direction: converts the model to a body. Errors: it cannot be one; bad --camera.
 Result<void> go_round(const Arguments& arguments, Play& play) {
-  if (!arguments.has("camera") && arguments.number("orbit") == 0) return {};
+  if (arguments.number("orbit") < 0)
+    return Error{"--orbit: found " + arguments.text("orbit") + ", expected seconds above 0"};
+  if (!arguments.has("camera") && arguments.number("orbit") == 0) {
+    return refuse(arguments, {"wind-direction"}, "is of a flame seen from all sides: give --camera or --orbit too");
+  }
   auto round = in_the_round(play.model);
   if (!round) return round.error();
   play.model = *std::move(round);

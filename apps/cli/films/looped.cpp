@@ -71,8 +71,9 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
 }
 
 Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal) {
-  auto constant = refuse(arguments, {"frames", "input", "relight", "steer", "clip"},
-                         "does not go with --loop, a loop of so many seconds in a constant wind");
+  auto constant =
+      refuse(arguments, {"frames", "input", "relight", "steer", "clip", "camera", "orbit", "wind-direction"},
+             "does not go with --loop, a loop of so many seconds in a constant wind");
   if (!constant) return constant;
   const std::string& path = arguments.text("output");
   const std::string extension = std::filesystem::path(path).extension().string();

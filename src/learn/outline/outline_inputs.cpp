@@ -91,8 +91,8 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
   return out;
 }
 
-// Strength up to which an input is calm. kCalmShare is defined on the 99th percentile of all samples; the input's scale,
-// the 95th percentile while it blows, is close to that and used in its place.
+// Strength up to which an input is calm. kCalmShare is defined on the 99th percentile of all samples; the input's
+// scale, the 95th percentile while it blows, is close to that and used in its place.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
 double whole(double size) { return size; }

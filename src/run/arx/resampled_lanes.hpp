@@ -136,8 +136,8 @@ class ResampledLanes {
   }
 
  private:
-  // State layout: kPlace is 2 · row, plus 1 for the row's mirror image; kAge is the number of rows played since the jump.
-  // The same pair follows for the last row of each of the kRecentBlocks blocks before, newest first.
+  // State layout: kPlace is 2 · row, plus 1 for the row's mirror image; kAge is the number of rows played since the
+  // jump. The same pair follows for the last row of each of the kRecentBlocks blocks before, newest first.
   static constexpr float kMaxSum = 1e15f;  // bound on the sum of an input's past, in channel units
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;

@@ -176,7 +176,7 @@ void Bank::set_crew(const Crew& crew) {
 }
 
 void Bank::step() {
-  state_->called = state_->steps;
+  state_->begin_call();
   state_->passed = 0;
   state_->between = false;
   state_->step_all({});
@@ -190,7 +190,7 @@ void Bank::step(int count, std::span<const float> inputs, std::span<float> outpu
   if (!inputs.empty() && !check_size("Bank::step()", inputs.size(), static_cast<std::size_t>(count) * row_in)) return;
   if (!outputs.empty() && !check_size("Bank::step()", outputs.size(), static_cast<std::size_t>(count) * row_out))
     return;
-  s.called = s.steps;
+  s.begin_call();
   s.passed = 0;
   s.between = false;
   if (kAhead) {
@@ -205,7 +205,7 @@ void Bank::step(int count, std::span<const float> inputs, std::span<float> outpu
 
 int Bank::advance(std::chrono::nanoseconds time) {
   State& s = *state_;
-  s.called = s.steps;
+  s.begin_call();
   s.passed += std::clamp<std::int64_t>(time.count(), 0, s.longest);
   const auto steps = static_cast<int>(s.passed / s.step_time);
   s.passed %= s.step_time;

@@ -77,6 +77,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
     offset = arena.take<float>(lanes * moved());
     lit_at = arena.take<std::uint64_t>(lanes);
     out_at = arena.take<std::uint64_t>(lanes);
+    by_hand = arena.take<std::uint8_t>(lanes);
   }
   if (arena.measures()) return;
   for (std::size_t slot = 0; slot < lanes; ++slot) start(static_cast<int>(slot));
@@ -95,6 +96,7 @@ void Bank::State::start(int slot) {
     event[slot] = kNoEvent;
     left[slot] = previous_left[slot] = 0.0f;
     lit_at[slot] = out_at[slot] = kNeverInSteps;
+    by_hand[slot] = 0;
     for (std::size_t i = 0; i < moved(); ++i) offset_of(slot, i) = 0.0f;
   }
   show_block(block);
@@ -110,6 +112,7 @@ void Bank::State::relight(int slot) {
   harm[slot] = 0.0f;
   lit[slot] = 1.0f;
   lit_at[slot] = steps;
+  by_hand[slot] = handled = true;
   begin_event(slot, extinction.catching, steps);
   left[slot] = previous_left[slot] = size[slot] > 0.0f ? 1.0f : 0.0f;
   for (std::size_t i = 0; i < moved(); ++i) {
@@ -122,8 +125,10 @@ void Bank::State::relight(int slot) {
 void Bank::State::extinguish(int slot) {
   if (!burns(slot)) return;
   harm[slot] = 1.0f;
+  by_hand[slot] = handled = true;
   const int block = slot / kLanes;
   go_out(slot, std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper), steps);
+  show_block(block);
 }
 
 LitState Bank::State::lit_state(int slot) const {
@@ -134,7 +139,9 @@ LitState Bank::State::lit_state(int slot) const {
     const auto ago = static_cast<std::int64_t>(steps - then) * step_time - shown_late;
     return std::chrono::nanoseconds(std::max<std::int64_t>(ago, 0));
   };
-  const auto just = [&](std::uint64_t then) { return steps - then < steps - called; };
+  const auto just = [&](std::uint64_t then) {
+    return steps - then < steps - called || (by_hand[slot] != 0 && then == steps);
+  };
   LitState state{lit[slot] != 0.0f,   size[slot],         since(lit_at[slot]),
                  since(out_at[slot]), just(lit_at[slot]), just(out_at[slot])};
   if (between) {
@@ -412,7 +419,7 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   s.set_noise(float_of(fields.noise));
   s.set_ground(float_of(fields.ground));
   s.clamped = {fields.clamped, fields.steps};
-  s.called = s.steps;
+  s.begin_call();
   s.living = s.rows = s.lowest_free = 0;
   SlotRecord record{.in = &in, .now = s.steps, .restores = true};
   for (int slot = 0; slot < s.capacity; ++slot) {

@@ -91,6 +91,10 @@ struct Bank::State {
   void show_life(int block, std::size_t count, float* values) const;
   void see_round(int block, bool lines_too = true) const;
   void set_noise(float scale);
+  void begin_call() {
+    called = steps;
+    if (std::exchange(handled, false)) std::fill(by_hand.begin(), by_hand.end(), std::uint8_t{0});
+  }
   void set_ground(float height);  // for a chain
   void read_outputs(int slot, float* values) const;
   template <class Show>
@@ -144,6 +148,7 @@ struct Bank::State {
                                     // extinguished instance the shown variables themselves
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
   std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
+  std::span<std::uint8_t> by_hand;  // whether it was relit or extinguished by hand since the last call
 
   int living = 0;
   int rows = 0;         // one more than the highest slot in use
@@ -155,6 +160,7 @@ struct Bank::State {
   std::int64_t longest;      // longest time that advance() plays, nanoseconds
   std::int64_t passed = 0;   // nanoseconds since the last step
   LevelView view;            // view of a body
+  bool handled = false;      // whether `by_hand` holds any
   bool between = false;      // whether `shown` is interpolated between the last two steps, by `passed`
   float noise = 0.0f;
   float ground = kNoGround;

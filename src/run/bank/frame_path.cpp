@@ -229,7 +229,8 @@ float Bank::State::shape_in_event(int slot, std::size_t component, float dynamic
   if (lit[slot] == 0.0f) return beside;
   const OutputChannel& channel = channels.outputs[component];
   const float rest = nearer(previous_left[slot], left[slot], share);
-  const auto row = static_cast<std::size_t>(std::max(event[slot], 1.0f)) - 1;
+  auto row = static_cast<std::size_t>(std::max(event[slot], 1.0f)) - 1;
+  if (extinction.sizes[row] == kEventEnds) ++row;  // no step of the event has been played
   const bool recorded = !(extinction.sizes[row] < 0.0f) && !extinction.shapes.empty();
   const float now = recorded ? recorded_component(row, component) : dynamics;
   if (rest > 0.0f) return std::clamp(now + rest * beside, channel.lowest, channel.highest);
@@ -255,7 +256,7 @@ void Bank::State::play_event(int slot, const float* newest) {
   while (burning && wind[slot] > extinction.stirs && !(at(next) < 0.0f)) next += 1.0f;
   const float recorded = at(next);
   const bool leaves = recorded < 0.0f, shaped = burning && !extinction.shapes.empty();
-  const bool begins = shaped && leaves && !(at(last) < 0.0f);  // first step of the cross-over
+  const bool begins = shaped && leaves && (!(at(last) < 0.0f) || at(last) == kEventEnds);  // first of the cross-over
   for (std::size_t i = 0; i < moved() && begins; ++i) {
     const float made = newest_of(slot, i, newest);
     offset_of(slot, i) = shape_in_event(slot, i, made, 1.0f) - made;

@@ -269,6 +269,14 @@ namespace {
 // air. At 2.5 m/s steps of 1/60 s are unstable.
 constexpr double kFastestForWholeSteps = 1.6;
 
+constexpr double kStableRates = 1.2;  // steps longer than some 1.5 over fastest_rate() diverge
+
+// Rate of the fastest motions, 1/s: a turn over the width, and drag, both at the speed at which a flat leaf falls.
+double fastest_rate(const Leaf& leaf) {
+  const double drag = leaf.air_density / leaf.areal_density, speed = std::sqrt(2 * leaf.gravity / drag);
+  return speed * (1 / leaf.width + 1.5 * drag);
+}
+
 bool finite(const LeafState& s) {
   double sum = 0;
   for (const double value : s.attitude) sum += value;
@@ -299,7 +307,8 @@ Result<LeafFlight> LeafFlight::begin(const Leaf& leaf, const LeafWind& wind, con
   LeafFlight flight;
   flight.constants_ = leaf::constants_of(leaf);
   flight.wind_ = &wind;
-  flight.longest_step_ = longest_step * std::min(1.0, kFastestForWholeSteps / wind.fastest());
+  flight.longest_step_ =
+      std::min(longest_step * std::min(1.0, kFastestForWholeSteps / wind.fastest()), kStableRates / fastest_rate(leaf));
   flight.state_ = state;
   flight.state_.attitude = leaf::normalised(state.attitude);
   return flight;

@@ -547,5 +547,39 @@ TEST(Extinction, ItsCostIsCountedAndSmall) {
   EXPECT_EQ(cost->multiply_adds_per_frame, without->multiply_adds_per_frame);
 }
 
+// Relit while it still dies, a flame is shown as it was until the next step.
+TEST(Extinction, RelightingADyingFlameDoesNotMoveIt) {
+  const auto model = read_model(WISP_SOURCE_DIR "/apps/web/public/models/flame.wisp");
+  ASSERT_TRUE(model) << model.error().message;
+  for (const int dying : {0, 1, 3}) {
+    auto bank = Bank::create(*model, {.capacity = 1, .seed = 5});
+    const InstanceId id = bank->spawn();
+    for (int k = 0; k < 60; ++k) bank->step();
+    bank->extinction()->extinguish(id);
+    for (int k = 0; k < dying; ++k) bank->step();
+    std::vector<float> before(model->outputs.size()), after(before);
+    bank->outputs(before);
+    bank->extinction()->relight(id);
+    bank->outputs(after);
+    for (std::size_t i = 0; i < after.size(); ++i) EXPECT_NEAR(after[i], before[i], 1e-5) << dying << " " << i;
+  }
+}
+
+TEST(Extinction, WhatHappensByHandIsReportedThoughTheLastCallMadeNoStep) {
+  Bank bank = bank_of(mortal_flame(), 2);
+  const InstanceId id = bank.spawn(), other = bank.spawn();
+  bank.step();
+  bank.advance(nanoseconds(1000));
+  bank.extinction()->extinguish(id);
+  EXPECT_TRUE(bank.extinction()->state_of(id)->went_out);
+  EXPECT_FALSE(bank.extinction()->state_of(other)->went_out);
+  bank.advance(nanoseconds(1000));
+  EXPECT_FALSE(bank.extinction()->state_of(id)->went_out);
+  bank.extinction()->relight(id);
+  EXPECT_TRUE(bank.extinction()->state_of(id)->relit);
+  bank.step();
+  EXPECT_FALSE(bank.extinction()->state_of(id)->relit);
+}
+
 }  // namespace
 }  // namespace wisp::extinction_test

@@ -150,6 +150,18 @@ TEST(LeafPairs, BlowALeafAlongWithTheGust) {
   EXPECT_LT(along / 256, 0.6);
 }
 
+// A petal, confetti, a strip, and paper on a heavy planet.
+TEST(LeafDrops, OfSmallLeavesStayFinite) {
+  for (const Leaf& leaf :
+       {Leaf{.length = 0.02, .width = 0.015}, Leaf{.length = 0.005, .width = 0.005},
+        Leaf{.length = 0.001, .width = 0.001}, Leaf{.length = 0.3, .width = 0.01}, Leaf{.gravity = 40}}) {
+    LeafDropsOptions options = few_drops();
+    options.leaf = leaf;
+    const auto made = simulate_leaf_drops(options);
+    EXPECT_TRUE(made) << made.error().message;
+  }
+}
+
 TEST(LeafDrops, ThatCannotBeMadeAreExplained) {
   const auto message = [](auto change) {
     LeafDropsOptions options = few_drops();
