@@ -193,8 +193,9 @@ std::optional<double> seconds_of_date(std::string_view text) {
                     part[count]);
     if (code != std::errc() || rest == at) return std::nullopt;
     ++count, at = rest;
-    if (at < end && *at == '.' && count == part.size()) break;
     if (at == end || *at == 'Z') break;
+    if (*at == '.' && (count == part.size() || (count == 3 && before[1] == ':'))) break;
+    if ((*at == '+' && count >= 5) || (*at == '-' && count == part.size())) break;  // the zone
     if (std::string_view("-/.: T").find(*at) == std::string_view::npos) return std::nullopt;
     if (count < before.size()) before[count] = *at;
     ++at;

@@ -158,10 +158,8 @@ std::string as_named(const std::string& name) {
   return text + "\"";
 }
 
-// Returns whether a time step is an integer typical of milliseconds, and not of seconds.
-bool counts_milliseconds(double step) {
-  return step == std::round(step) && step >= 2 && step <= 1000 && std::fmod(step, 15) != 0;
-}
+// Returns whether a mean time step between whole numbers is typical of milliseconds, and not of seconds.
+bool counts_milliseconds(double step) { return step >= 2 && step <= 1000 && std::fmod(step, 15) != 0; }
 
 // Lists the first names to choose from.
 std::string listed(const std::vector<std::string>& names) {
@@ -394,7 +392,7 @@ Result<void> CsvReader::State::learn_step() {
                         (*ahead)[1].row);
   }
   if (time->unit.empty() && step->step == 1 && !time->dated) return {};  // the column counts rows
-  if (time->unit.empty() && !time->dated && counts_milliseconds(step->step)) {
+  if (time->unit.empty() && !time->dated && !(resolution < 1) && counts_milliseconds(step->step)) {
     time->seconds = 1e-3;
     header.rate_note = {
         column + " has no unit and goes on by whole steps of " + number_text(step->step) + ": taken as milliseconds",

@@ -34,7 +34,7 @@ struct Remark {
   std::string channel;
   std::string cause;
   std::string cure;
-  double size = 0;  ///< kDelay: delay in samples
+  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the input that the output's past explains
 };
 
 /// Returns remarks on recordings, in the order of RemarkKind. Only outputs are tested for outliers, drift and
@@ -45,6 +45,10 @@ std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std:
 
 /// Returns the kRedundant remarks on the named channels, judged by a sample of the rows.
 std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names);
+
+/// Returns the kFeedback remarks on the first recording.
+std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
+                                const std::vector<std::string>& outputs);
 
 /// Returns the data page of `wisp info`: rate and its source, rows, a table `channels`, a table `remarks`, and one
 /// series per channel. Inputs and outputs are the channels with that role.

@@ -256,7 +256,8 @@ void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
                      "input " + quoted(input) + " is set by " + quoted(output) + " (its past explains " +
                          number_text(100 * (1 - both / own), 2) +
                          " % of what the input's own past leaves): a controller closes the loop",
-                     "record with the controller off, or with a change of set point that moves the input by itself"});
+                     "record with the controller off, or with a change of set point that moves the input by itself",
+                     100 * (1 - both / own)});
       break;
     }
   }
@@ -396,6 +397,13 @@ std::vector<Remark> redundant_channels(std::span<const Recording> recordings, co
   const std::vector<Recording> some = arx::middles_of(recordings, kManyRows);
   std::vector<Remark> out;
   if (names.size() > 1) look_for_redundancy({some, names, {}}, out);
+  return out;
+}
+
+std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
+                                const std::vector<std::string>& outputs) {
+  std::vector<Remark> out;
+  if (!recordings.empty()) look_for_feedback({recordings, inputs, outputs}, out);
   return out;
 }
 

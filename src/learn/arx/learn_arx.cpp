@@ -152,6 +152,7 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
   evidence.held_out = held_out_fits(prepared.judged, channels, options);
   evidence.integrators = options.integrators;
   evidence.redundant = redundant_channels(prepared.seen, channels.inputs);
+  evidence.feedback = feedback_of(prepared.seen, channels.inputs, channels.outputs);
   evidence.remarks = [&] { return remarks_on(prepared.seen, channels.inputs, channels.outputs); };
   judge_use(evidence, summary);
 }

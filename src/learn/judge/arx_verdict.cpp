@@ -15,7 +15,9 @@ constexpr double kMinSkill = 5;              // percent below the squared error 
 constexpr double kMinRowsACoefficient = 10;  // per coefficient of an output
 constexpr double kMaxMoved = 10;             // standard errors by which stabilisation may move a coefficient
 constexpr double kSameSample = 0.25;         // correlation that shows an input acting without delay
-constexpr double kMaxLostInPlay = 1;         // percent of fit that single precision may lose against the estimate
+constexpr double kTrace = 1e-4;       // share of the output's variance below which an effect is of rounding or means
+constexpr double kSetByOutput = 95;   // percent of an input that outputs explain, above which it tells nothing
+constexpr double kMaxLostInPlay = 1;  // percent of fit that single precision may lose against the estimate
 
 // A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
 constexpr double kTimesBound = 2.5;
@@ -36,7 +38,7 @@ std::string repaired_far(const ArxSummary& summary) {
          " standard errors: the model is not what the data say; try other orders, or fewer coupled outputs";
 }
 
-std::string acts_at_once(const VerdictEvidence& evidence) {
+std::string acts_at_once(const VerdictEvidence& evidence, const ArxSummary& summary) {
   if (!evidence.least_squares) return "";
   for (int i = 0; i < evidence.orders.outputs(); ++i) {
     for (int k = 0; k < evidence.orders.inputs(); ++k) {
@@ -44,6 +46,8 @@ std::string acts_at_once(const VerdictEvidence& evidence) {
       const Independence& pair = evidence.least_squares->independence[std::size_t(i)][std::size_t(k)];
       const double own = std::abs(pair.correlation[pair.correlation.size() / 2]);
       if (own < kSameSample || own < kTimesBound * pair.bound) continue;
+      const double left = 1 - summary.fit_percent[std::size_t(i)] / 100;
+      if (own * own * left * left < kTrace) continue;
       return "input '" + evidence.channels.inputs[std::size_t(k)] + "' acts on '" +
              evidence.channels.outputs[std::size_t(i)] +
              "' in the same sample (the residual's correlation with it is " + number_text(own, 2) + "): try --nk 0";
@@ -111,6 +115,13 @@ std::string is_redundant(const VerdictEvidence& evidence) {
   return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }
 
+// The response to an input that follows the output is not in such a recording, however well the model fits.
+std::string is_set(const VerdictEvidence& evidence) {
+  for (const Remark& one : evidence.feedback)
+    if (one.size >= kSetByOutput) return one.cause + "; " + one.cure;
+  return "";
+}
+
 std::string has_no_skill(const VerdictEvidence& evidence, const ArxSummary& summary) {
   if (!summary.free_run_fit_percent.empty() || evidence.orders.inputs() > 0) return "";
   for (std::size_t i = 0; i < summary.fit_percent.size(); ++i) {
@@ -150,9 +161,9 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
 
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
   if (!summary.usable.verdict) return;
-  for (std::string reason :
-       {is_redundant(evidence), too_few_rows(summary), repaired_far(summary), plays_otherwise(evidence, summary),
-        acts_at_once(evidence), simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
+  for (std::string reason : {is_redundant(evidence), too_few_rows(summary), repaired_far(summary),
+                             plays_otherwise(evidence, summary), acts_at_once(evidence, summary), is_set(evidence),
+                             simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
     if (reason.empty()) continue;
     summary.usable = {false, std::move(reason)};
     return;

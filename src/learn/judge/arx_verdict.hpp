@@ -24,6 +24,7 @@ struct VerdictEvidence {
   std::vector<double> held_out{};                  ///< held_out_fits(); empty: the fits of the training rows are judged
   std::vector<int> integrators{};                  ///< as in ArxOptions::integrators
   std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
+  std::vector<Remark> feedback{};                  ///< feedback_of() the recordings
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
 };
 

@@ -70,6 +70,7 @@ std::vector<double> held_out_fits(std::span<const Recording> recordings, const C
   ArxOptions quick = options;
   quick.covariance = quick.judge_free_run = false;
   std::vector<double> error(channels.outputs.size(), 0.0), size = error;
+  std::vector<bool> perfect(channels.outputs.size(), true);
   for (const bool last : {true, false}) {
     Fold fold;
     for (const Recording& one : recordings) {
@@ -84,11 +85,13 @@ std::vector<double> held_out_fits(std::span<const Recording> recordings, const C
     const PredictionFigures& free = figures->front();
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double square = static_cast<double>(free.rows) * free.mean_square[i], share = 1 - free.fit_percent[i] / 100;
+      perfect[i] = perfect[i] && !(square > 0);
       error[i] += square;
       size[i] += share > 0 ? square / (share * share) : 0;
     }
   }
-  for (std::size_t i = 0; i < error.size(); ++i) error[i] = size[i] > 0 ? 100 * (1 - std::sqrt(error[i] / size[i])) : 0;
+  for (std::size_t i = 0; i < error.size(); ++i)
+    error[i] = perfect[i] ? 100 : size[i] > 0 ? 100 * (1 - std::sqrt(error[i] / size[i])) : 0;
   return error;
 }
 

@@ -268,6 +268,10 @@ class Runner {
   }
 
   std::size_t memory() const { return memory_; }
+
+  /// Inputs before that row count as resting at the operating point.
+  void rest_until(std::size_t row) { rest_until_ = row; }
+
   std::size_t outputs() const { return feedback_.size(); }
 
   double deviation(std::size_t channel, std::size_t row) const {
@@ -347,17 +351,18 @@ class Runner {
     const double offset = signals_.offset[channel];
     const auto b = model_.b(output, input);
     for (std::size_t l = 0; l < b.size(); ++l) {
-      const double* shifted = samples + begin - l - static_cast<std::size_t>(model_.orders.nk(output, input));
+      const std::size_t lag = l + static_cast<std::size_t>(model_.orders.nk(output, input));
+      const std::size_t rest = rest_until_ + lag > begin ? rest_until_ + lag - begin : 0;
       const auto weight = static_cast<Number>(b[l]);
-      for (std::size_t t = 0; t < part.size(); ++t) {
-        part[t] = static_cast<Number>(part[t]) + weight * static_cast<Number>(shifted[t] - offset);
+      for (std::size_t t = rest; t < part.size(); ++t) {
+        part[t] = static_cast<Number>(part[t]) + weight * static_cast<Number>(samples[begin + t - lag] - offset);
       }
     }
   }
 
   const ArxModel& model_;
   const Signals& signals_;
-  std::size_t recording_;
+  std::size_t recording_, rest_until_ = 0;
   std::size_t memory_ = 0;
   std::vector<std::vector<Tap>> feedback_;  // per output
 };
@@ -367,6 +372,19 @@ std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, 
   if (initial != InitialState::kMeasured) return begin;
   while (begin < end && !runner.past_is_measured(begin)) ++begin;
   return begin;
+}
+
+// A simulation from rest starts at the episode's first row, unless an input is missing before `run`.
+std::size_t rested_begin(const Signals& signals, const RowRun& run, int first_sample) {
+  std::size_t begin = run.begin;
+  const auto present = [&](std::size_t row) {
+    for (int c = signals.outputs; c < signals.channels(); ++c)
+      if (!std::isfinite(signals.samples[run.recording][c][row])) return false;
+    return true;
+  };
+  const auto back = static_cast<std::size_t>(first_sample);
+  for (std::size_t k = 0; k < back && begin > 0 && present(begin - 1); ++k) --begin;
+  return run.begin - begin == back ? begin : run.begin;
 }
 
 template <class Number>
@@ -395,11 +413,27 @@ void simulate_stretch(const Runner& runner, const RowRun& run, InitialState init
 
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit) {
-  const Runner runner(model, signals, recording);
+  Runner runner(model, signals, recording);
   const LagLayout layout = layout_of_model(model);
-  for (const RowRun& run : plan_input_rows(signals, layout, start.first_sample).runs) {
+  std::vector<double> played;
+  // Play adds the operating point in single precision.
+  const auto rounded = [&](std::size_t first, std::size_t rows, const double* values) {
+    played.assign(values, values + rows * runner.outputs());
+    for (std::size_t k = 0; k < played.size(); ++k) {
+      const double mean = model.output_mean[k % runner.outputs()];
+      played[k] = static_cast<double>(static_cast<float>(played[k] + mean)) - mean;
+    }
+    visit(first, rows, played.data());
+  };
+  for (RowRun run : plan_input_rows(signals, layout, start.first_sample).runs) {
     if (run.recording != recording) continue;
-    (start.as_played ? simulate_stretch<float> : simulate_stretch<double>)(runner, run, start.initial, visit);
+    if (start.initial == InitialState::kZero) run.begin = rested_begin(signals, run, start.first_sample);
+    runner.rest_until(start.initial == InitialState::kZero ? run.begin : 0);
+    if (start.as_played) {
+      simulate_stretch<float>(runner, run, start.initial, rounded);
+    } else {
+      simulate_stretch<double>(runner, run, start.initial, visit);
+    }
   }
 }
 
