@@ -80,6 +80,12 @@ Recording slice(const Recording& recording, std::size_t first, std::size_t last)
   return out;
 }
 
+bool is_flagged(const Recording& recording, std::string_view flag, std::size_t row) {
+  return std::any_of(recording.flags.begin(), recording.flags.end(), [&](const RowFlag& one) {
+    return one.name == flag && row < one.rows.size() && one.rows[row] != 0;
+  });
+}
+
 Result<void> check(const Recording& recording) {
   if (!(std::isfinite(recording.rate_hz) && recording.rate_hz > 0)) {
     return Error{"the rate is " + std::to_string(recording.rate_hz) + " Hz, expected above 0"};

@@ -140,6 +140,9 @@ TEST(Csv, AColumnOfTimeGivesTheRate) {
   EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\nmin,V,K\n0,1,2\n0.5,2,3\n1,3,4\n"), 1 / 30.0);
   EXPECT_DOUBLE_EQ(rate_by_time("t_s,u,y\n1,1,2\n2,2,3\n3,3,4\n"), 1);
   EXPECT_DOUBLE_EQ(rate_by_time("t,u,y\n10.1,1,2\n10.2,2,3\n10.3,3,4\n", 25), 10);
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n0,1,2\n33,2,3\n67,3,4\n100,1,1\n133,1,1\n"), 30);
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n08:00:00.000,1,2\n08:00:02.500,2,3\n08:00:05.000,3,4\n"), 0.4);
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\n2024-01-01T08:00:00+02:00,1,2\n2024-01-01T08:00:05+02:00,2,3\n"), 0.2);
 }
 
 TEST(Csv, AColumnOfTimeBeginsAnewWithEveryEpisode) {

@@ -34,6 +34,9 @@ struct RowFlag {
   std::vector<std::uint8_t> rows;
 };
 
+/// Name of the flag of rows whose picture is missing or repeats the one before: they tell nothing of what was there.
+inline constexpr std::string_view kLostRows = "lost";
+
 /// A named fact about the whole recording (a CSV comment line `# NAME VALUE…`). The value of an attribute named
 /// kNotNumbers is the name of a column that was omitted because it holds no numbers.
 struct Attribute {
@@ -77,6 +80,9 @@ std::vector<std::size_t> channels_with_role(const Recording& recording, Role rol
 
 /// Returns the index of the channel of that name, or nothing.
 std::optional<std::size_t> find_channel(const Recording& recording, std::string_view name);
+
+/// Whether the flag of that name marks a row; false without such a flag.
+bool is_flagged(const Recording& recording, std::string_view flag, std::size_t row);
 
 /// Returns the attribute's value, or nothing.
 std::optional<std::string_view> find_attribute(const Recording& recording, std::string_view name);

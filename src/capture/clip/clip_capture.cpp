@@ -46,15 +46,17 @@ void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureR
     }
     return false;
   };
-  std::size_t rows = 0, times = 0, seen = outline.size();
+  std::size_t rows = 0, times = 0, gone = 0, seen = outline.size();
   for (std::size_t row = 0; row < outline.size(); ++row) {
-    if (std::isnan(outline[row])) continue;
-    const bool absent = seen < row && row - seen - 1 > rows_of(kMinOut);
-    if (absent && blows(seen + 1)) {
-      rows += row - seen - 1;
+    if (std::isnan(outline[row])) {
+      gone += is_flagged(recording, kLostRows, row) ? 0 : 1;
+      continue;
+    }
+    if (seen < row && gone > rows_of(kMinOut) && blows(seen + 1)) {
+      rows += gone;
       ++times;
     }
-    seen = row;
+    seen = row, gone = 0;
   }
   excuse_absence(picture, rows, times);
 }

@@ -223,7 +223,7 @@ void write_channels(const std::vector<Fate>& fate, const std::vector<double>& co
 
 // Writes episodes. Missing rows belong to the episode before them; the next outline starts a new one.
 void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
-  RowFlag filled{"filled", {}};
+  RowFlag filled{"filled", {}}, lost{std::string(kLostRows), {}};
   std::int64_t episode = 0;
   bool seen = false, gap = false;
   for (const Fate f : fate) {
@@ -232,8 +232,10 @@ void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
     seen = seen || present(f);
     recording.episode_ids.push_back(episode);
     filled.rows.push_back(f == Fate::kFilled);
+    lost.rows.push_back(f == Fate::kLost || f == Fate::kDuplicate);
   }
   recording.flags.push_back(std::move(filled));
+  if (std::count(lost.rows.begin(), lost.rows.end(), 1) > 0) recording.flags.push_back(std::move(lost));
 }
 
 }  // namespace

@@ -19,11 +19,12 @@ constexpr double kMinPresence = 0.15;  // seconds: shorter appearances between t
 
 constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;
 
-// Runs of rows without an outline, including appearances between them shorter than kMinPresence.
+// Runs of rows without an outline, lost ones left out, including appearances between them shorter than kMinPresence.
 std::vector<Episode> absences(const Recording& recording, const OutlineLayout& layout) {
   std::vector<Episode> runs;
   const std::size_t least = rows_of(kMinPresence, recording.rate_hz);
   for (std::size_t row = 0; row < recording.rows(); ++row) {
+    if (is_flagged(recording, kLostRows, row)) continue;
     const bool seen = std::none_of(layout.outputs.begin(), layout.outputs.end(),
                                    [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); });
     if (seen) continue;

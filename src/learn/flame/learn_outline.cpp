@@ -127,6 +127,13 @@ void note_what_is_borrowed(OutlineFit& fit) {
   fit.model.training.usable = fit.summary.usable;
 }
 
+// Clocks and rounded periods differ by a thousandth.
+Result<void> check_same_rate(const Recording& one, const Recording& first) {
+  if (std::abs(one.rate_hz - first.rate_hz) <= 1e-3 * first.rate_hz) return {};
+  return Error{one.source + ": has " + number_text(one.rate_hz, 6) + " frames a second, " + first.source + " " +
+               number_text(first.rate_hz, 6) + ": learn from films of one rate"};
+}
+
 // Stores the first visible candle of the films: its width in flame heights, and its colour.
 void keep_candle(std::span<const Recording> recordings, Training& training) {
   for (const Recording& recording : recordings) {
@@ -142,6 +149,9 @@ void keep_candle(std::span<const Recording> recordings, Training& training) {
 Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                           const Progress& progress) {
   if (recordings.empty()) return Error{"there is no recording to learn from; expected at least one"};
+  for (const Recording& one : recordings) {
+    if (auto ok = check_same_rate(one, recordings.front()); !ok) return ok.error();
+  }
   const auto factors = common_gain_factors(recordings);
   if (!factors) return factors.error();
   auto on_one_scale = at_common_gain({recordings.begin(), recordings.end()});

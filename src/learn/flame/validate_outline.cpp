@@ -8,6 +8,7 @@
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/report/outline_report.hpp"
 #include "learn/report/fit_report.hpp"
+#include "record/verdict.hpp"
 
 namespace wisp {
 namespace {
@@ -145,6 +146,7 @@ Result<ValidatedOutline> validate_outline(const Model& model, const Recording& r
   ValidatedOutline out;
   if (auto ok = add_outlines(*heard, *found, out); !ok) return ok.error();
   out.report.warnings = found->warnings;
+  if (const auto why = refused_by_capture({&recording, 1})) out.report.warnings.push_back(*why);
   out.report.sections = report_sections(*found);
   out.report.sections.push_back(gain_section(*factor));
   out.report.sections.push_back(extinction_section(*extinction));

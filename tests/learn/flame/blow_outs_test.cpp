@@ -49,6 +49,19 @@ TEST(BlowOuts, AStretchWithoutWindBeforeItIsNotBlown) {
   EXPECT_FALSE(found->front().blown);
 }
 
+// Frames that a camera lost while it blows are no evidence.
+TEST(BlowOuts, LostRowsAreNone) {
+  auto made = made::blow_out_recording({.every = 0});
+  auto& wind = wind_of(made.recording);
+  std::fill(wind.begin() + 900, wind.begin() + 1010, 1.0);
+  blank(made.recording, 1000, 1100);
+  ASSERT_EQ(find_blow_outs(made.recording, "wind")->size(), 1U);
+  RowFlag lost{std::string(kLostRows), std::vector<std::uint8_t>(made.recording.rows())};
+  std::fill(lost.rows.begin() + 1000, lost.rows.begin() + 1100, 1);
+  made.recording.flags.push_back(lost);
+  EXPECT_TRUE(find_blow_outs(made.recording, "wind")->empty());
+}
+
 TEST(BlowOuts, AFlameThatComesBackByItselfDidNotGoOut) {
   auto made = made::blow_out_recording({.every = 0});
   blank(made.recording, 1000, 1020);

@@ -69,6 +69,14 @@ Recording growing_flame() {
   return film;
 }
 
+TEST(LearnOutline, FilmsOfTwoRatesAreRefused) {
+  Recording slow = windy();
+  slow.rate_hz /= 2;
+  const auto fit = learn(std::vector<Recording>{windy(), slow}, OutlineRecipe());
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("learn from films of one rate"));
+}
+
 TEST(LearnOutline, OfAFilmThatChangesTheLongestSteadyPartIsLearned) {
   const Fit fit = learned({growing_flame()}, {});
   EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;

@@ -73,6 +73,26 @@ TEST(ArxVerdict, AnOscillationWithoutInputsIsUsable) {
   EXPECT_TRUE(verdict(wave, {.outputs = {"y"}, .na = 2, .nb = 0}).usable);
 }
 
+// The output wanders by itself, and the input follows it.
+TEST(ArxVerdict, AnInputThatTheOutputSetsTellsNothing) {
+  double level = 0;
+  const Recording follower = made(1000, 6, [&](double, double, double, double e) { return level = 0.995 * level + e; });
+  Recording reversed = follower;
+  auto& u = reversed.channels[*find_channel(reversed, "u")].samples;
+  const auto& y = reversed.channels[*find_channel(reversed, "y")].samples;
+  u[0] = 0;
+  for (std::size_t t = 1; t < u.size(); ++t) u[t] = 0.5 * u[t - 1] + 0.5 * y[t - 1];
+  const auto said = verdict(reversed, driven(2));
+  EXPECT_FALSE(said.usable);
+  EXPECT_THAT(said.reason, HasSubstr("is set by 'y'"));
+}
+
+// The recording is without noise: what its residuals show is a trace of its means.
+TEST(ArxVerdict, ATraceInResidualsIsNoEffect) {
+  const Recording clean = made(600, 7, [](double y, double, double before, double) { return 0.9 * y + 0.5 * before; });
+  EXPECT_TRUE(verdict(clean, driven(1)).usable) << verdict(clean, driven(1)).reason;
+}
+
 TEST(ArxVerdict, TenRowsAreTooFew) {
   const Recording brief = made(10, 5, [](double y, double, double u, double e) { return 0.5 * y + u + 0.01 * e; });
   const auto said = verdict(brief, driven(1));

@@ -114,6 +114,22 @@ TEST(Predict, AnEstimatedStartIsTheOneThatFitsBest) {
   EXPECT_GT(error(InitialState::kZero), 1e-4);
 }
 
+// What the inputs of the first rows do is part of a simulation from rest.
+TEST(Predict, FromRestBeginsAtTheFirstRow) {
+  ArxModel model = made_system();
+  model.output_mean.assign(model.output_mean.size(), 0), model.input_mean.assign(model.input_mean.size(), 0);
+  Recording recording = record_system(model, 300, 5, 0);
+  const auto whole = predict(model, recording, kChannels, {.steps = kFreeRun, .initial = InitialState::kZero});
+  ASSERT_TRUE(whole);
+  EXPECT_FALSE(std::isnan((*whole)[0][0]));
+  // Preceded by rows at rest it is the same.
+  for (Channel& channel : recording.channels) channel.samples.insert(channel.samples.begin(), 20, 0.0);
+  for (RowFlag& flag : recording.flags) flag.rows.insert(flag.rows.begin(), 20, std::uint8_t{0});
+  const auto rested = predict(model, recording, kChannels, {.steps = kFreeRun, .initial = InitialState::kZero});
+  ASSERT_TRUE(rested);
+  for (std::size_t t = 0; t < 300; ++t) EXPECT_NEAR((*rested)[0][t + 20], (*whole)[0][t], 1e-9) << t;
+}
+
 TEST(Predict, AnEstimatedStartBeatsANoisyMeasuredOne) {
   const ArxModel model = made_system();
   Recording recording = slice(record_system(model, 300, 6, 0), 100, 160);
