@@ -31,7 +31,6 @@ enum class Kind {
   kSamples,        ///< a range A:B of samples, 1-based, inclusive
 };
 
-/// A flag of a command.
 struct Flag {
   std::string name;  ///< name without the dashes
   Kind kind = Kind::kSwitch;
@@ -51,13 +50,11 @@ struct Flag {
 /// A flag with a numeric range, which its help states.
 Flag ranged(Flag flag, double lowest, double highest);
 
-/// Words with a separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
 /// The flag's help; for a choice also the accepted words, unless the name of its value lists them.
 std::string help_of(const Flag& flag);
 
-/// A positional argument.
 struct Positional {
   std::string name;
   std::string help;
@@ -123,7 +120,6 @@ struct Command {
 /// All commands, in the order of the help and the manual.
 const std::vector<Command>& commands();
 
-/// Flags common to all commands.
 const std::vector<Flag>& common_flags();
 
 /// The program's manual, generated from the table, in the form `markdown` (docs/reference/cli.md), `man`, `bash`, `zsh`

@@ -123,7 +123,6 @@ class CandleScene {
   }
   void set_noise(bool on) { bank_.set_noise(on ? 1.0F : 0.0F); }
 
-  /// Advances the scene by `time`.
   void advance(std::chrono::nanoseconds time) {
     const float seconds = std::chrono::duration<float>(time).count();
     wake_.advance(seconds);
@@ -175,7 +174,6 @@ class CandleScene {
         std::count_if(candles_.begin(), candles_.end(), [&](const auto& c) { return state_of(c).lit; }));
   }
 
-  /// Returns whether the model has extinction.
   bool goes_out() const { return bank_.extinction() != nullptr; }
 
   /// Returns the x of the first candle's tip relative to its base, in flame heights; 0 if it is out.

@@ -18,7 +18,6 @@
 
 namespace wisp::window {
 
-/// Keys with a function.
 enum class Key {
   kLeft,
   kRight,
@@ -60,7 +59,6 @@ struct PointerTurned {
   bool down = true;
 };
 
-/// A file was dropped onto the window.
 struct FileDropped {
   std::string path;
 };
@@ -68,7 +66,6 @@ struct FileDropped {
 /// The microphone was lost: unplugged, or taken by the system.
 struct MicrophoneLost {};
 
-/// The window was requested to close.
 struct Closed {};
 
 using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, FileDropped, MicrophoneLost, Closed>;
@@ -115,7 +112,6 @@ class KeyWind {
 /// The wind behind a moving pointer: the pointer's own speed, decaying when it rests. Lengths are in the scene's unit.
 class PointerWake {
  public:
-  /// Moves the pointer to `at`.
   void move(Point at) {
     if (last_) moved_ = {moved_.x + at.x - last_->x, moved_.y + at.y - last_->y};
     last_ = at;
@@ -148,7 +144,6 @@ class PointerWake {
   Point speed_{};
 };
 
-/// State of the sound input.
 enum class EarState {
   kOff,  ///< not switched on, or switched off again
   kListening,

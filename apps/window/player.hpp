@@ -25,7 +25,6 @@ namespace wisp::window {
 /// The scene, for models that can be shown in several.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
-/// Options of a player.
 struct PlayerOptions {
   std::vector<std::filesystem::path> models;  ///< Tab cycles through them; at least one
   std::optional<SceneKind> scene{};           ///< unset: by the first model's view
@@ -35,7 +34,6 @@ struct PlayerOptions {
   bool hints = true;  ///< show a line for beginners at the start
 };
 
-/// Counts of a run.
 struct PlayerFigures {
   int frames = 0;
   int went_out = 0;  ///< number of extinctions
@@ -93,7 +91,6 @@ class Player {
   /// Returns the ear. The sound source opens, feeds and closes it.
   Ear& ear() { return ear_; }
 
-  /// Handles user input.
   void handle(const Event& event) {
     std::visit(Overloaded{
                    [&](const KeyTurned& turned) {
@@ -169,7 +166,6 @@ class Player {
     notice_until_ = seconds_ + kNoticeSeconds;
   }
 
-  /// Returns the last notice.
   const std::string& said() const { return notice_; }
 
   bool closed() const { return closed_; }

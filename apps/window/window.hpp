@@ -14,7 +14,6 @@
 
 namespace wisp::window {
 
-/// A saved picture.
 struct KeptPicture {
   std::string name;
   int frame = 0;      ///< counted from 1
@@ -31,7 +30,6 @@ struct PlayOptions {
   const volatile int* interrupted = nullptr;  ///< not 0: end after the current frame
 };
 
-/// The result of a run.
 struct PlayReport {
   PlayerFigures figures{};
   std::vector<KeptPicture> pictures{};
@@ -42,7 +40,6 @@ struct PlayReport {
   std::string renderer{};           ///< renderer of the window; empty without one
   std::string state{};              ///< state at the end
 
-  /// Records the cost of a frame.
   void add_frame(double milliseconds) {
     draw_ms += (milliseconds - draw_ms) / ++drawn;
     if (drawn > 10) worst_draw_ms = std::max(worst_draw_ms, milliseconds);

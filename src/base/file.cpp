@@ -34,7 +34,6 @@ std::FILE* open_file(const std::filesystem::path& path, const char* mode) {
   return ::_wfopen(path.c_str(), *mode == 'r' ? L"rb" : L"wb");
 }
 
-// Returns the number of this process.
 long process_number() { return ::_getpid(); }
 
 // Returns whether files can be created in a folder; errno has the reason if not.

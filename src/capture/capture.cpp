@@ -28,7 +28,6 @@ Result<void> check_frames(const std::filesystem::path& path, const std::optional
                " reach beyond its end, frame " + std::to_string(last)};
 }
 
-// Times of the captured rows.
 ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   ClipTimes times = reader.times();
   const auto skipped = static_cast<std::size_t>(options.frames ? options.frames->first - 1 : 0);

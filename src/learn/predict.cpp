@@ -100,7 +100,6 @@ Result<Recording> predict_modes(const Model& model, const Recording& recording, 
   return table_of(recording, channels, *predicted, {});
 }
 
-// Predictions of an outline in the recording's pixels.
 Result<Recording> predict_outline(const Model& model, const Recording& recording, const PredictionOptions& options) {
   if (options.initial != InitialState::kMeasured) {
     return Error{model.name + ": is a model of an outline, whose free run starts from measured samples only"};

@@ -129,8 +129,6 @@ void add_series(std::span<const NamedModel> models, const Recording& recording, 
   }
 }
 
-// ---- Several recordings ----
-
 constexpr double kBadlyFitted = 30;  // percentage points of fit below the median over recordings
 
 // Joins the same table of several reports, with the recording's name first in each row.
@@ -222,7 +220,6 @@ Result<Report> compare(std::span<const NamedModel> models, std::span<const Recor
 
 namespace {
 
-// Validates on a recording after preparing it as in training.
 Result<Report> validate_prepared(const Model& model, const Recording& recording, const ValidationOptions& options,
                                  const Progress& progress) {
   const auto prepared = prepare(recording, model.training.preparation);

@@ -28,7 +28,6 @@ std::vector<std::byte> write_payload(const Model& model);
 /// Errors: not a valid FlatBuffer of this schema, or a matrix whose size does not fit its shape.
 Result<Model> read_payload(std::span<const std::byte> payload);
 
-/// Writes a chain.
 wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBuilder& builder,
                                                   const ChainModel& chain);
 

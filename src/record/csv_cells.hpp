@@ -35,7 +35,6 @@ std::size_t quoted_length(std::string_view line, char separator);
 /// Returns the cell of trimmed text.
 Cell cell_of(std::string_view text);
 
-/// Calls visit(cell) for every cell of a line.
 template <class Visit>
 void for_each_cell(std::string_view line, char separator, Visit visit) {
   if (separator == kBlanks) line = trimmed(line);

@@ -161,7 +161,6 @@ std::string as_named(const std::string& name) {
 // Returns whether a mean time step between whole numbers is typical of milliseconds, and not of seconds.
 bool counts_milliseconds(double step) { return step >= 2 && step <= 1000 && std::fmod(step, 15) != 0; }
 
-// Lists the first names to choose from.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMax = 40;
   std::string text;
@@ -191,7 +190,6 @@ Result<void> CsvReader::State::read_rate(const CsvOptions& options) {
   return Error{lines.name() + ": the rate is " + std::to_string(header.rate_hz) + " Hz, expected above 0"};
 }
 
-// Parses one comment line.
 Result<void> CsvReader::State::read_attribute() {
   const std::string_view line = csv::trimmed(csv::trimmed(lines.text()).substr(1));
   const std::size_t space = line.find_first_of(" \t");
@@ -261,7 +259,6 @@ Result<std::vector<std::string>> CsvReader::State::read_names(const CsvOptions& 
                       std::to_string(names.size()) + " columns with --columns, such as --columns " + example);
 }
 
-// Adds one column, by its name.
 Result<void> CsvReader::State::add_column(const std::string& text, const CsvOptions& options) {
   const ColumnName column = split_name(text);
   const bool episode = column.role.empty() && column.name == "episode";
@@ -313,7 +310,6 @@ Result<void> CsvReader::State::check_columns(const std::vector<std::string>& nam
                                      ") state no roles; name them with --inputs and --outputs");
 }
 
-// Finds the first time column.
 void CsvReader::State::find_time(const std::vector<std::string>& names) {
   for (std::size_t k = 0; !own_form && k < names.size(); ++k) {
     const ColumnName column = split_name(names[k]);

@@ -73,7 +73,6 @@ struct CsvReader::State {
     std::size_t index = 0;  // index of the channel or flag
   };
 
-  // A time column.
   struct Time {
     std::size_t place = 0;  // index among all columns
     std::string name;

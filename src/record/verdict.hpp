@@ -23,7 +23,6 @@ std::optional<RecordingVerdict> verdict_of(const Recording& recording);
 /// well it plays. Nothing if none was.
 std::optional<std::string> refused_by_capture(std::span<const Recording> recordings);
 
-/// Sets the verdict attributes.
 void set_verdict(Recording& recording, bool usable, const std::string& reason);
 
 /// Returns the deviation of a flame filmed by several cameras from rotational symmetry (attribute `symmetry`, percent

@@ -8,7 +8,6 @@
 
 namespace wisp::flow {
 
-/// Returns the word at index `count` of a stream.
 inline std::uint64_t random_word(std::uint64_t seed, std::uint64_t stream, std::uint64_t count) {
   std::uint64_t x = seed * 0x9e3779b97f4a7c15U + stream * 0xd1342543de82ef95U + count * 0xa0761d6478bd642fU;
   for (int round = 0; round < 2; ++round) {

@@ -74,7 +74,6 @@ inline float from_pcm16(std::int16_t x) { return static_cast<float>(x) * (1.0F /
 /// Formats a number without trailing zeros.
 std::string decimal(double x);
 
-/// Computes the design for a validated format and options.
 Design design(const SoundFormat& format, const WindOptions& options);
 
 /// Checks format and options. Errors name the value, what was found and what is allowed.

@@ -77,7 +77,6 @@ struct BandSums {
   }
 };
 
-/// Filters of one channel.
 template <class T>
 class Bands {
  public:

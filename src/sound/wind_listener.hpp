@@ -16,7 +16,6 @@ class Listener {
     kernel_.begin_unknown();
   }
 
-  /// Takes one sample of every channel.
   void push(const float* samples) {
     if (!kernel_.push(samples)) return;
     background_.end_hop(kernel_.features().loudness_db, kernel_.began_suddenly(),

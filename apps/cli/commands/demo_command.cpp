@@ -92,7 +92,6 @@ Result<void> run(const Step& step, Terminal& terminal) {
 // Flags of capture accepted by the demo.
 constexpr std::array kCaptureFlags{"points", "channel", "flame", "region", "frames", "rate"};
 
-// The clip to learn from and the one to validate on.
 struct Clips {
   std::string learn;
   std::string validate;

@@ -40,7 +40,6 @@ void fade_edges(float room, Image& image) {
   }
 }
 
-// Frames of a take in a flipbook, and their size.
 struct Pages {
   std::vector<std::size_t> frames;  // indices of frames in the take
   int height = 0, width = 0;        // size of a frame; width 0: the maximum width of flame and halo

@@ -12,7 +12,6 @@
 namespace wisp::cli {
 namespace {
 
-// Plots every channel over time.
 Result<void> plot_channels(const std::string& path, const Report& report, Terminal& terminal) {
   PlotSheet sheet{.columns = 1, .plot_width = 800};
   for (const ReportSeries& series : report.sections.front().series) {

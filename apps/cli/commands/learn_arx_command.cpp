@@ -59,7 +59,6 @@ Result<void> take(const std::string& path, const TableShare& share, const Argume
   return part.add(std::filesystem::path(path), *options, share);
 }
 
-// Flags --partial, --part, --merge and --expect.
 std::vector<Flag> arx_part_flags() {
   std::vector<Flag> flags{
       {"partial", Kind::kOutput, "P", "",
@@ -191,7 +190,6 @@ Result<ArxSearch> parse_grid(const Arguments& arguments) {
   return search;
 }
 
-// Flags --search, --by, --validate and --steps.
 std::vector<Flag> search_flags() {
   std::vector<Flag> flags{
       {"search", Kind::kNames, "GRID", "",

@@ -45,7 +45,6 @@ Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   return hand_over(*fit, path, terminal);
 }
 
-// Properties in which the presets differ.
 struct Preset {
   const char* extinction;
   const char* flame;

@@ -101,7 +101,6 @@ class Player {
  public:
   Player(const Play& play, Bank& bank) : play_(play), bank_(bank), burnt_(bank.size(), true) {}
 
-  // Steps the bank. Returns the inputs of the step.
   std::vector<float> step() {
     ExtinctionFacet* extinction = bank_.extinction();
     if (extinction && std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
@@ -246,7 +245,6 @@ Result<void> write_run(const Play& play, const Bank& bank, Player& player, const
   return write_film(play, bank, player, path, terminal);
 }
 
-// Frames of --relight.
 Result<std::vector<std::size_t>> relit_frames(const Model& model, const Arguments& arguments) {
   std::vector<std::size_t> frames;
   if (!arguments.has("relight")) return frames;

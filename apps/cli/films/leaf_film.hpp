@@ -29,7 +29,6 @@ Result<void> check_film_name(const std::string& path);
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
                              const LeafFilmOptions& options, Terminal& terminal);
 
-/// One panel of a film.
 struct LeafPanel {
   const Recording* recording = nullptr;
   std::string caption{};  ///< empty: none

@@ -27,7 +27,6 @@ std::vector<Point> enlarged(const Outline& outline, int times) {
   return points;
 }
 
-// Layout of an overlay.
 struct Layout {
   int times = 1;  // enlargement of the clip
   Corner legend = Corner::kTopLeft;

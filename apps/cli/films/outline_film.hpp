@@ -12,7 +12,6 @@
 
 namespace wisp::cli {
 
-/// Outlines of an overlay, per row.
 struct OverlayContent {
   const OutlineRows& captured;
   const OutlineRows& simulated;

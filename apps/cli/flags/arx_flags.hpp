@@ -9,7 +9,6 @@
 
 namespace wisp::cli {
 
-/// Additions to the help of the order flags.
 struct OrderHelp {
   const char* fallback;    ///< default of --na and --nb
   const char* of_a = "";   ///< appended to "order of A" in the help of --na

@@ -10,7 +10,6 @@
 
 namespace wisp::cli {
 
-/// Flags --position and --orientation.
 std::vector<Flag> motion_flags();
 
 /// Returns the columns that --position names, then those that --orientation names; none for a flag that is not given.

@@ -90,7 +90,6 @@ std::vector<Flag> recipe_flags(const Recipe& defaults) {
   return flags;
 }
 
-/// The flag with that name.
 inline Flag& flag_named(std::vector<Flag>& flags, std::string_view name) {
   return *std::find_if(flags.begin(), flags.end(), [&](const Flag& flag) { return flag.name == name; });
 }

@@ -164,7 +164,6 @@ ReportSection outline_section(const CaptureReport& picture) {
   return section;
 }
 
-// Section with the facts behind the verdict.
 ReportSection facts_section(const CaptureReport& picture) {
   ReportSection section{"Facts"};
   section.entries = {{"likely.flame", picture.likely_flame, "", ""}, {"likely.right", picture.likely_right, "", ""}};

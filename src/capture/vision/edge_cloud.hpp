@@ -22,7 +22,6 @@
 
 namespace wisp {
 
-/// A point on the outline.
 struct EdgePoint {
   double x = 0;  ///< pixels; pixel centres have integer coordinates
   double y = 0;
@@ -58,7 +57,6 @@ std::vector<double> even_pace();
 /// Curve parameter at a position of the cloud, 0 to 1.
 double at_pace(std::span<const double> pace, double place);
 
-/// Edge points of one outline.
 struct EdgeCloud {
   std::vector<EdgePoint> points;  ///< from the base's left over the tip to its right; first and last are its ends
   std::vector<double> s;          ///< curve parameter assigned to each point, 0 to 1, ascending

@@ -15,7 +15,6 @@ constexpr double kJumpRatio = 2.2;   // … as does a height that changes by thi
 constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; gaps in films last 0.13 at most
 constexpr int kCurvePoints = 64;
 
-// The outline of one row.
 struct OutlineRow {
   std::size_t row = 0;
   std::vector<CurvePoint> curve;

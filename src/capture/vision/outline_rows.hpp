@@ -11,7 +11,6 @@
 
 namespace wisp {
 
-/// Findings in one frame.
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;

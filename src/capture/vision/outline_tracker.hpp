@@ -41,7 +41,6 @@ struct OutlineEstimate {
   int gated = 0;                   ///< number of outliers excluded
 };
 
-/// Tracks one outline from frame to frame.
 class OutlineTracker {
  public:
   /// Precondition: valid_knots(knots).

@@ -18,7 +18,6 @@
 
 namespace wisp {
 
-/// A bright region.
 struct BrightRegion {
   Region box;             ///< bounding box
   std::int64_t area = 0;  ///< number of bright pixels, without holes

@@ -67,7 +67,6 @@ class SplineTable {
   /// Point of the curve at s. `controls` holds x and y of each control point, alternating.
   CurvePoint at(std::span<const double> controls, double s) const;
 
-  /// Derivative of the curve at s.
   CurvePoint slope(std::span<const double> controls, double s) const;
 
   /// Builds the curve's pieces, which refer to the table and must not outlive it.

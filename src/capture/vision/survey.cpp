@@ -118,7 +118,6 @@ LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
   return lit;
 }
 
-// Finds candidates of one channel at all levels.
 std::vector<Candidate> scan_levels(const PictureGrid& grid, const PictureGrid& luma, PixelChannel channel,
                                    const Picture& format, const Evidence& evidence) {
   std::vector<std::vector<Candidate>> levels;

@@ -73,7 +73,6 @@ struct Candidate {
   double score = 0;          ///< likeness combined with evidence from movement
 };
 
-/// Finds all candidates in one channel at one level.
 std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGrid& luma, int level,
                                        const Evidence& evidence);
 
@@ -95,7 +94,6 @@ double shared_share(const Region& a, const Region& b);
 /// Precondition: step >= 1.
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step);
 
-/// Options of survey_scene().
 struct SurveyOptions {
   std::optional<PixelChannel> channel;  ///< channel to use; empty: all are tried
   bool dark = false;                    ///< whether the object is dark on a light background
@@ -103,7 +101,6 @@ struct SurveyOptions {
   int flame = 1;                        ///< index of the flame by size, from 1; 0: any moving object
 };
 
-/// Result of a survey.
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;               ///< pixels whose value (inverted for dark objects) is above this belong to the object

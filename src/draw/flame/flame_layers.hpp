@@ -117,7 +117,6 @@ struct FlameShape {
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
                        int height);
 
-/// Brightness and colour of a whole flame.
 struct FlameMood {
   float brightness = 1;
   float soot = 1;  ///< 0: blue gas only (re-ignition, decay, tiny), 1: a full yellow flame

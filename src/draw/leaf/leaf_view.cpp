@@ -103,7 +103,6 @@ std::optional<LeafPlace> place_at(float x, float y, float slim) {
   return LeafPlace{-s, v};
 }
 
-// Colours of a leaf in linear light.
 struct LeafColours {
   Light upper, margin, under, vein;
 

@@ -63,7 +63,6 @@ class Turn {
   Vec3 x_, y_, z_;
 };
 
-/// A projected point in the picture.
 struct Projected {
   float x = 0, y = 0;  ///< pixels
   float depth = 0;     ///< metres from the eye along the view direction; invisible where <= kNear

@@ -157,7 +157,6 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
   judge_use(evidence, summary);
 }
 
-// Learns from recordings after preparation, and records the preparation in the model.
 Result<Fit> learn_prepared(std::span<const Recording> recordings, ArxRecipe recipe, const Progress& progress) {
   const Preparation preparation = std::exchange(recipe.preparation, {});
   auto ready = prepare_all(recordings, preparation);

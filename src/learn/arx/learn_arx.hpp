@@ -29,7 +29,6 @@ Result<Report> validate_arx(const Model& model, const Recording& recording, cons
 
 namespace arx {
 
-/// Options of fit_arx() from the recipe.
 ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders);
 
 /// Returns the number of poles at 1 per output, 0 to 2; empty where no output has any. Coupled outputs have none. A

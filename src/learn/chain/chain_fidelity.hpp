@@ -43,7 +43,6 @@ struct ChainFidelityOptions {
   std::uint64_t seed = 1;
 };
 
-/// Summary figures of a set of falls.
 struct FallFigures {
   double descent_speed = 0;     ///< metres a second
   double lateral_spread = 0;    ///< root-mean-square horizontal distance between start and end of a fall, metres

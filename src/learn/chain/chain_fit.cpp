@@ -27,7 +27,6 @@ struct Way {
   double height = 0;
 };
 
-// A possible successor of a segment.
 struct Next {
   std::size_t segment;
   double probability;
@@ -190,7 +189,6 @@ ChainDrift drift_of(const ChainModel& chain, double rate_hz) {
 constexpr int kModesWithoutOrientation = 6;
 constexpr std::size_t kMinSegments = 30;  // with fewer, transition counts are not reliable
 
-// Motion cut into segments.
 struct Cut {
   Motion motion;
   Segmentation segmentation;

@@ -30,7 +30,6 @@ Result<Report> validate_chain(const Model& model, std::span<const Recording> rec
 
 namespace chain {
 
-/// Whether all inputs of a recording are 0 throughout.
 bool is_calm(const Recording& recording);
 
 /// Recordings split by the attribute `pair`, whose value is shared by recordings that differ only in their wind.

@@ -55,7 +55,6 @@ int chosen_delay(const std::vector<double>& squares, double rows, int nb) {
   return chosen;
 }
 
-// Estimates delays from 0 to `most` samples.
 Result<Delays> delays_up_to(int most, const Signals& signals, const DelayOptions& options) {
   constexpr double kChance = 1e-3;  // probability of finding any delay between unrelated channels
   const LagLayout layout = all_lags(signals, options, most);

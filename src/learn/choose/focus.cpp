@@ -47,7 +47,6 @@ ArxOrders kernel_orders(ArxOrders orders, int lags) {
   return orders;
 }
 
-// Options of one candidate for all outputs.
 ArxOptions options_of(const ArxOptions& given, const FocusCandidate& candidate) {
   ArxOptions out = given;
   if (candidate.decoupled) out.orders = decoupled_orders(std::move(out.orders));
@@ -154,7 +153,6 @@ class Chooser {
     return std::any_of(blocks_.begin(), blocks_.end(), [](const Block& one) { return one.choice.chosen > 0; });
   }
 
-  /// Options of the chosen model.
   ArxOptions chosen(const ArxOptions& given) const {
     ArxOptions out = given;
     for (const Block& block : blocks_) {

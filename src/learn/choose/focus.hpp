@@ -28,14 +28,12 @@ struct FocusCandidate {
   double measured_error = 0;   ///< the same ratio, from measured initial samples
 };
 
-/// The choice for a block of coupled outputs.
 struct FocusChoice {
   std::vector<int> outputs;
   std::size_t chosen = 0;
   std::vector<FocusCandidate> candidates{};  ///< least squares at the given orders first; empty: it was not judged
 };
 
-/// The outcome of the choice, with its reason.
 struct FocusOutcome {
   bool changed = false;  ///< whether the model differs from least squares at the given orders
   std::string reason{};  ///< one sentence

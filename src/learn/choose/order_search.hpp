@@ -61,7 +61,6 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
 /// Indices of the best candidates by a criterion over all outputs together, at most `count`, best first.
 std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriterion by, std::size_t count);
 
-/// Options of estimate_delays.
 struct DelayOptions {
   std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled while a pair has no
                               ///< supported delay or one above 3/4 of it, as rows allow, up to 640 / inputs

@@ -46,7 +46,6 @@ struct CandidateFit {
   bool determined = true;
 };
 
-/// Fits a candidate within the window that starts at `first_sample`.
 CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLayout& layout,
                            const std::vector<SharedRows>& rows);
 

@@ -15,7 +15,6 @@
 
 namespace wisp {
 
-/// Options of fidelity().
 struct FidelityOptions {
   std::vector<std::string> channels;  ///< channels to compare; empty: all outputs of the first real recording
   std::size_t welch_samples = 64;     ///< even, at least 16; reduced to the longest stretch of each half and of play
@@ -23,14 +22,12 @@ struct FidelityOptions {
   std::uint64_t seed = 1;
 };
 
-/// A measure with its two bounds.
 struct Bounded {
   double value = 0;    ///< real against synthesized
   double floor = 0;    ///< real against real: one half of the recordings, or of a single one's time, against the other
   double ceiling = 0;  ///< real against its own frames in random order
 };
 
-/// Fidelity of one channel.
 struct ChannelFidelity {
   std::string name;
   double sd_real = 0;

@@ -28,7 +28,6 @@ double distance(std::span<const double> a, std::span<const double> b) {
   return std::sqrt(sum);
 }
 
-// Mean distance over all pairs of windows.
 double mean_distance(const FeatureWindows& x, const FeatureWindows& y) {
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {

@@ -42,10 +42,8 @@ struct Stretch {
 /// Errors: a channel missing from the recording.
 Result<std::vector<Stretch>> stretches_of(const Recording& recording, std::span<const std::string> channels);
 
-/// Samples of one channel, stretch by stretch.
 std::vector<std::vector<double>> channel_of(std::span<const Stretch> stretches, std::size_t channel);
 
-/// Total number of rows of all stretches.
 std::size_t total_rows(std::span<const Stretch> stretches);
 
 /// Cuts longer stretches into pieces of `max_rows` rows; a shorter remainder is kept.

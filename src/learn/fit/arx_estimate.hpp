@@ -16,7 +16,6 @@
 
 namespace wisp {
 
-/// A regressor that depends linearly on regressors before it.
 struct DependentColumn {
   int column = 0;       ///< index among the rows' regressors
   std::vector<int> of;  ///< positions of the regressors that it depends on; empty: the column is zero
@@ -81,7 +80,6 @@ Eigen::MatrixXd kernel_factor(const RegressionProducts& products, const std::vec
 
 }  // namespace arx
 
-/// Options of estimate_from_data.
 struct EstimateOptions {
   bool joint = false;                   ///< also compute products of regressors across groups of rows
   ArxKernel kernel = ArxKernel::kNone;  ///< prior; with one, every group has one output

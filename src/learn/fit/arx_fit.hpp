@@ -19,7 +19,6 @@
 
 namespace wisp {
 
-/// How to fit.
 struct ArxOptions {
   ArxOrders orders;                     ///< see make_orders
   ArxOffset offset = ArxOffset::kMean;  ///< subtracted operating point, as the model is linear in deviations from it
@@ -42,7 +41,6 @@ struct RankProblem {
   std::string reason;  ///< one sentence that names the channels and lags it depends on
 };
 
-/// Result of the stability check.
 struct ArxStability {
   double radius = 0;       ///< spectral radius of the returned model, rounded to single precision
   bool changed = false;    ///< whether the estimate had to be changed
@@ -78,7 +76,6 @@ struct ArxSummary : Criteria, RowCounts {
   Usable usable;
 };
 
-/// A model and the quality of its fit.
 struct ArxFit {
   ArxModel model;
   ArxSummary summary;

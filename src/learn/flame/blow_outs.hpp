@@ -13,7 +13,6 @@
 
 namespace wisp {
 
-/// A stretch without an outline.
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with an outline again; the number of rows where there is none

@@ -48,7 +48,6 @@ struct ExtinctionAgreement {
 /// Precondition: rates are positive, and `evidence` has the result of find_blow_outs() for its recordings.
 ExtinctionAgreement agreement(const Extinction& rule, std::span<const ExtinctionEvidence> evidence);
 
-/// A learned rule and its uncertainty.
 struct ExtinctionFit {
   Extinction rule;                      ///< level in the model's units
   std::array<double, 2> level_range{};  ///< range over all equally good rules

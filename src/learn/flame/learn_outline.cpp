@@ -29,7 +29,6 @@ bool driven_by_nothing(const OutlineSummary& summary) {
   return !summary.inputs.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
 }
 
-// Whether all inputs of all recordings are 0 throughout.
 bool are_silent(std::span<const Recording> recordings) {
   const auto is_zero = [](double u) { return !(std::abs(u) > 0); };
   for (const Recording& recording : recordings) {

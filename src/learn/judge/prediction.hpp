@@ -25,7 +25,6 @@ namespace wisp {
 /// Receives simulated deviations of all outputs, row by row, from row `first` of the recording on.
 using SimulatedRows = std::function<void(std::size_t first, std::size_t rows, const double* values)>;
 
-/// Start of a simulation.
 struct FreeRunStart {
   InitialState initial = InitialState::kMeasured;
   int first_sample = 0;    ///< first row of an episode, at least the model's history
@@ -39,7 +38,6 @@ struct FreeRunStart {
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit);
 
-/// Options of predict.
 struct PredictOptions {
   int steps = 1;                                   ///< 1 … 100000, or kFreeRun
   InitialState initial = InitialState::kMeasured;  ///< initial state of a free simulation (kFreeRun)
@@ -62,7 +60,6 @@ struct PredictionFigures {
   std::vector<double> j;  ///< J_k: mean absolute error per output, its unit
 };
 
-/// Options of prediction_figures.
 struct FigureOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};
   InitialState initial = InitialState::kMeasured;
@@ -95,7 +92,6 @@ class Tally {
   /// Adds errors: one column per output, one row per sample; none may be NaN.
   void add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors);
 
-  /// Adds measured deviations of output i.
   void add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations);
 
   /// Adds the errors of simulated rows [first, first + rows) of a recording: `values` are the simulated deviations, row

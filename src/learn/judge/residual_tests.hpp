@@ -15,13 +15,11 @@
 
 namespace wisp {
 
-/// Options of test_residuals.
 struct ResidualTestOptions {
   int lags = 25;                 ///< largest lag of auto- and cross-correlations, 1 to 10000
   bool learned_from_it = false;  ///< the recordings are the training data: the fit has taken degrees of freedom
 };
 
-/// Number of lags of the tests in a report.
 inline constexpr int kReportedLags = 20;
 
 /// Whiteness test of one output's residual.

@@ -49,7 +49,6 @@ VectorXd min_variance(const Rows& rows) {
   return (factor.rowwise().squaredNorm() * kSmallResidual * kSmallResidual).cwiseMax(1e-300);
 }
 
-// Maximisation step: modes and chain for the given weights.
 void maximise(const Rows& rows, const VectorXd& least, const MatrixXd& steps, State& state) {
   state.chain.modes.clear();
   for (Index k = 0; k < state.weights.cols(); ++k) {

@@ -118,7 +118,6 @@ std::vector<double> means_of(const Signals& signals) {
 
 MatrixXd residuals(const Rows& rows, const MatrixXd& theta) { return rows.y - rows.phi * theta; }
 
-// Lower Cholesky factor of the weighted covariance.
 MatrixXd residual_factor(const MatrixXd& residual, const VectorXd& weights, const VectorXd& min_variance) {
   MatrixXd covariance = residual.transpose() * weights.asDiagonal() * residual / std::max(weights.sum(), 1e-9);
   for (Index i = 0; i < min_variance.size(); ++i) {

@@ -5,7 +5,6 @@
 
 namespace wisp {
 
-/// Value of a missing sample.
 inline constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 /// Half width of the central 95 % of a normal distribution, in standard deviations.

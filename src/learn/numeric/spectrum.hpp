@@ -10,7 +10,6 @@
 
 namespace wisp {
 
-/// Stretches of consecutive samples of one channel.
 using Samples = std::span<const std::vector<double>>;
 
 /// All samples, stretch after stretch.
@@ -19,7 +18,6 @@ std::vector<double> joined(Samples stretches);
 /// Runs of consecutive values that are not NaN.
 std::vector<std::vector<double>> whole_stretches(std::span<const double> values);
 
-/// Power spectral density.
 struct Spectrum {
   std::vector<double> frequency_hz;  ///< 0 … rate/2
   std::vector<double> power;         ///< one-sided, squared unit per hertz; integrates over frequency to the variance

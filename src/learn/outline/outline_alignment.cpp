@@ -200,7 +200,6 @@ Alignment found_or_reason(const Recording& recording, const std::vector<double>&
   return found ? *std::move(found) : Alignment{.reason = found.error().message};
 }
 
-// Ratio of the correlation to its chance level.
 double clarity(const Alignment& alignment) {
   return alignment.chance > 0 ? std::abs(alignment.correlation) / alignment.chance : 0;
 }

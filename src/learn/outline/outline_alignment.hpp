@@ -15,13 +15,11 @@
 
 namespace wisp {
 
-/// Options of align_offset().
 struct AlignmentOptions {
   double rate_hz = 60;     ///< sampling rate of both series, > 0
   double max_seconds = 1;  ///< range of offsets searched, ±, > 0
 };
 
-/// Lag of the motion behind the wind.
 struct Alignment {
   double offset_seconds = 0;  ///< motion(t) corresponds to wind(t − offset): positive where the motion is later
   double low_seconds = 0;     ///< ends of its 95 % interval
@@ -41,7 +39,6 @@ struct Alignment {
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});
 
-/// Alignment of one input of one recording.
 struct InputAlignment {
   std::string source;        ///< name of the recording
   std::string input;         ///< name of its input channel

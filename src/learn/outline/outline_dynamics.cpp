@@ -77,7 +77,6 @@ struct Components {
     power = found.values.reverse();
     vectors = found.vectors.rowwise().reverse();
   }
-  // Number of components with at least the power `least`.
   std::size_t count(double least) const { return static_cast<std::size_t>((power.array() >= least).count()); }
 
   void append(std::size_t taken, std::vector<double>& basis) const {

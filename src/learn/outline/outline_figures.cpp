@@ -41,7 +41,6 @@ struct Shapes {
   }
 };
 
-// Adds every `stride`-th row.
 void add_shapes(const OutlineCurve& curve, const Recording& recording, const OutlineLayout& layout,
                 const Predicted& predicted, std::size_t stride, Shapes& shapes) {
   for (std::size_t row = 0; row < recording.rows(); row += stride) {

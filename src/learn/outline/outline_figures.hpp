@@ -16,7 +16,6 @@ namespace wisp {
 /// Default numbers of steps that are judged; kFreeRun is the free simulation.
 inline const std::vector<int> kJudgedSteps{1, 5, 15, kFreeRun};
 
-/// Figures of one channel.
 struct OutlineChannelFigures {
   std::string name;
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖), per number of steps

@@ -247,7 +247,6 @@ Input input_of(const OutlineInput& input, bool powers) {
           powers ? InputShape::kEvenOdd : InputShape::kLinear};
 }
 
-// The model, learned from all rows.
 Result<Model> model_of(const PreparedOutlines& prepared, const OutlineRecipe& recipe, OutlineSummary& summary) {
   auto dynamics = fit_dynamics(prepared.recordings, prepared, recipe.paper);
   if (!dynamics) return dynamics.error();

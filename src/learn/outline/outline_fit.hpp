@@ -33,7 +33,6 @@ struct OutlineTrial {
   std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
 };
 
-/// Quality of the model.
 struct OutlineSummary {
   double rate_hz = 0;
   std::vector<OutlineInput> inputs;
@@ -54,7 +53,6 @@ struct OutlineSummary {
   std::string code{};  ///< code of the criterion that was missed
 };
 
-/// A model of an outline with its summary.
 struct OutlineFit {
   Model model;
   OutlineSummary summary;

@@ -36,7 +36,6 @@ Result<Recording> at_trained_gain(const Model& model, Recording recording);
 /// Share of an input's 99th percentile below which it counts as calm: sensors never read exactly 0.
 inline constexpr double kCalmShare = 0.1;
 
-/// Scale and range of one input of an outline.
 struct OutlineInput {
   std::string name;
   std::string unit;    ///< unit in the recording

@@ -24,7 +24,6 @@ struct PredictedOutlines {
                         ///< knots (attribute `knots`); NaN where none
 };
 
-/// Result of judge_outline().
 struct OutlineJudgement {
   OutlineFigures figures;
   bool driven = false;                       ///< whether the model has inputs

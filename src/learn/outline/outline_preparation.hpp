@@ -13,7 +13,6 @@
 
 namespace wisp {
 
-/// A recording converted to other knots.
 struct Reknotted {
   Recording recording;  ///< the recording with new outputs and attribute `knots`
   double rms = 0;       ///< RMS distance between old and new curves at equal parameters, in the outputs' unit; 0 where
@@ -26,7 +25,6 @@ struct Reknotted {
 /// Precondition: layout is the recording's; `knots` has as many values as its own and is valid (valid_knots).
 Reknotted with_knots(const Recording& recording, const OutlineLayout& layout, std::span<const double> knots);
 
-/// Options of prepare_outlines().
 struct PreparationOptions {
   std::optional<std::vector<std::string>> inputs;  ///< unset: all inputs of the first recording
   RegressorShape shape{.powers = true};

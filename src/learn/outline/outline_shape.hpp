@@ -8,7 +8,6 @@
 
 namespace wisp {
 
-/// A point of an outline: x, y.
 using OutlinePoint = std::array<double, 2>;
 
 /// The outline curve at equally spaced parameters, with precomputed weights.

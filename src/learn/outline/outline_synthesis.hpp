@@ -10,7 +10,6 @@
 
 namespace wisp {
 
-/// Options of synthesize().
 struct SynthesisOptions {
   std::size_t rows = 0;              ///< number of samples to keep; 0: as many as `input` has
   double warm_up_seconds = 10;       ///< ≥ 0, played first and discarded, to remove the start's transient

@@ -16,7 +16,6 @@
 
 namespace wisp {
 
-/// Layout of a recording of an outline.
 struct OutlineLayout {
   std::size_t points = 0;            ///< number of control points, at least 4
   std::vector<double> knots;         ///< full clamped cubic knot vector, points + 4 values
@@ -36,7 +35,6 @@ Result<OutlineLayout> common_layout(std::span<const Recording> recordings);
 /// Names of an outline's outputs: p0.x, p0.y, p1.x, …
 std::vector<std::string> outline_outputs(std::size_t points);
 
-/// Names of the inputs.
 std::vector<std::string> input_names(const Recording& recording);
 
 /// Samples of the channel of that name. Precondition: the recording has it.

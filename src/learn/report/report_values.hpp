@@ -16,7 +16,6 @@ namespace wisp::arx {
 void add(ReportSection& section, std::string id, ReportValue value, std::string label = {}, std::string unit = {},
          std::string meaning = {});
 
-/// Adds a line for people.
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
 /// Adds a column with value(row) to the rows that a table has.
@@ -29,7 +28,6 @@ void add_column(ReportTable& table, ReportColumn column, Value value) {
 /// Adds for programs `na`, `nb` and `nk`, with `prefix` before their ids.
 void add_orders(const ArxOrders& orders, const std::string& prefix, ReportSection& section);
 
-/// Matrix as a list of rows.
 ReportList list_of(const OrderMatrix& orders);
 ReportList matrix_of(std::span<const double> values, std::size_t rows);
 

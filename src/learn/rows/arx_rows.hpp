@@ -97,7 +97,6 @@ struct RowRun {
   std::size_t end = 0;
 };
 
-/// Numbers of rows and episodes in a regression.
 struct RowCounts {
   std::size_t rows = 0;  ///< n: rows in the regression
   int first_sample = 0;  ///< first row of an episode that is predicted, 0-based
@@ -106,7 +105,6 @@ struct RowCounts {
   std::size_t rows_left_out = 0;     ///< rows skipped because a sample in them or in their history is missing
 };
 
-/// All target rows of the regression.
 struct RowPlan : RowCounts {
   std::vector<RowRun> runs;
 };

@@ -180,7 +180,6 @@ class ArxStepper : public ChannelHistory<N> {
 
   using Choice = typename Modes::Choice;
 
-  // Data common to the blocks of a step.
   template <int kBlocks>
   struct Step {
     const float* coefficients;

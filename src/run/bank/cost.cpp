@@ -13,7 +13,6 @@
 namespace wisp {
 namespace {
 
-// Counts the operations of `work`.
 template <class Work>
 OperationCount count(Work work) {
   operation_count = {};

@@ -203,7 +203,6 @@ void Bank::State::live_block(int block, const float* newest, std::uint64_t momen
   }
 }
 
-// Begins a random recorded event.
 void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, std::uint64_t at) {
   constexpr std::uint32_t kGroup = 0xffff;  // group of random words beyond those of the dynamics
   Words<LiveNumbers> counters[4], words[4];
@@ -293,7 +292,6 @@ void Bank::State::read_block(int block, float* rows_of_all) const {
   }
 }
 
-// Returns whether every instance of a block is alive.
 bool Bank::State::lives_whole(int block) const {
   const auto* lane = alive.data() + block * kLanes;
   return (block + 1) * kLanes <= rows && std::all_of(lane, lane + kLanes, [](std::uint8_t one) { return one != 0; });

@@ -123,7 +123,6 @@ class ChainBlock {
     }
   }
 
-  /// Displays one lane where it was placed.
   void show_only(int lane) {
     const float row = value_of(played_.row[lane]);
     const bool faded = row < value_of(segments_.quiet_from[lane]) || row > value_of(segments_.quiet_to[lane]);

@@ -14,7 +14,6 @@ struct ChainWords {
   std::uint32_t segment = 0;
 };
 
-/// Selects one of `count` by a word.
 inline std::uint32_t share_of(std::uint32_t word, std::uint32_t count) {
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word) * count >> 32);
 }

@@ -152,7 +152,6 @@ class ChainStepper : private ChainLives<N> {
   /// Returns the progress of coming to rest on the ground: below 0 it falls, from 1 on it lies.
   Real settled(int block, int lane) const { return played_of(block).settled[lane]; }
 
-  /// Returns a lane's position in the chain.
   ChainPlace place_of(int block, int lane) const {
     const Played& played = played_of(block);
     const std::uint32_t segment = Mover::index(played.segment[lane], program_.segments());
@@ -436,7 +435,6 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Returns whether the wind is calm in every lane.
   bool is_calm(int block) {
     const Real* wind = regressors(block);
     auto most = magnitude(load<Reals<N>>(wind));
@@ -484,7 +482,6 @@ class ChainStepper : private ChainLives<N> {
     put(block, lane, life);
   }
 
-  // Returns whether a position was clamped.
   static bool is_far(const Real* shown) {
     for (int axis = 0; axis < 3; ++axis) {
       const Real& at = shown[axis * kLanes];

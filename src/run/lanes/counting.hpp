@@ -92,7 +92,6 @@ inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t
 
 inline std::uint32_t value_of(CountingWord word) { return word.value; }
 
-/// Counting number types, with one lane.
 struct CountingNumbers {
   using Real = CountingReal;
   using Word = CountingWord;

@@ -151,7 +151,6 @@ inline LongWords product(LongWords a, std::uint32_t b) {
 #endif
 #endif
 
-/// Number types of a live bank.
 struct LiveNumbers {
   using Real = float;
   using Word = std::uint32_t;
@@ -242,7 +241,6 @@ inline auto operator<<(const Pack<Part, kParts>& a, int bits) {
   return each([bits](const Part& x) { return x << bits; }, a);
 }
 
-/// Returns one value in every lane.
 template <class Packed, class Value>
 inline Packed all(Value value) {
   Packed out;
@@ -304,7 +302,6 @@ inline auto next_of(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return next_part(x); }, reals);
 }
 
-/// Arithmetic shift to the right.
 template <int bits, class Part, int kParts>
 inline auto signed_shift(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return signed_shift_part<bits>(x); }, words);
@@ -316,7 +313,6 @@ inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
 }
 
-/// Absolute values.
 template <class Part, int kParts>
 inline auto magnitude(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return magnitude_part(x); }, reals);

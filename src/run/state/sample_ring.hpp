@@ -41,7 +41,6 @@ class SampleRing {
 #endif
   }
 
-  /// Bytes of all blocks.
   std::size_t bytes() const { return values_.size_bytes(); }
 
   /// Distance, in numbers, from a sample of one block to the same sample of the next.

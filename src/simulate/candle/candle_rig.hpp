@@ -35,7 +35,6 @@ struct CandleBody {
 /// Returns the number of simulation steps per frame.
 int steps_per_frame(const CandleRigOptions& options);
 
-/// Results of one step.
 struct FlowStep {
   double burnt = 0;  ///< m²/s of cold fuel burnt
   PressureSolve pressure;
@@ -146,7 +145,6 @@ class CandleRig {
   CandleState state() const;
   const CandleRigOptions& options() const { return options_; }
 
-  /// Returns the light of the last frame.
   const RigLight& light_of_frame() const { return light_; }
 
  private:

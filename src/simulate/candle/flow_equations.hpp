@@ -93,7 +93,6 @@ struct Combustion {
   Plane glow_;  // table over temperature
 };
 
-/// Result of a solve.
 struct PressureSolve {
   int iterations = 0;
   float residual = 0;  ///< root mean square over cells, in the unit of the right side

@@ -44,7 +44,6 @@ struct Thing {
   double bottom = 0;    ///<
 };
 
-/// Objects seen in a frame.
 struct Seen {
   std::vector<Thing> things{};  ///< objects that touch no border of the picture
   bool at_border = false;       ///< whether another object touches the border
@@ -86,7 +85,6 @@ struct Falls {
 /// the picture's height.
 Falls falls_in(std::span<const Seen> frames, const Scale& scale);
 
-/// Summary of all falls.
 struct Facts {
   std::size_t rows = 0;
   std::size_t filled = 0;  ///< number of rows interpolated between frames in which it was seen

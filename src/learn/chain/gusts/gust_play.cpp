@@ -179,7 +179,6 @@ struct Angles {
   GustDirection direction() const { return {median(all), mean(all), mean(clear)}; }
 };
 
-// Sums of squares for the fit percentage.
 struct FitSums {
   double error = 0, size = 0;
 
@@ -198,7 +197,6 @@ double degrees_between(const Triple& a, const Triple& b) {
   return std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0);
 }
 
-// Sums over all gusts.
 struct Tally {
   FitSums displacement, velocity, halves;
   Angles angles, half_angles;

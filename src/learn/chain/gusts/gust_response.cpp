@@ -60,7 +60,6 @@ constexpr double kMuchBetter = 0.8;
 using Axis = GustResponse::Axis;
 using Ensemble = GustEnsemble;
 
-// Simulated change of velocity caused by a gust.
 std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response) {
   std::vector<Triple> change(gust.wind.size());
   for (std::size_t row = 0; row < change.size(); ++row) {

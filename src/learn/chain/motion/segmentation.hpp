@@ -28,7 +28,6 @@ struct Segment {
   int steps = 1;  ///< duration in whole rows; segments of a piece add up to the rows between its events
 };
 
-/// Segmentation options from a recipe.
 inline SegmentationOptions segmentation_of(const ChainRecipe& recipe) {
   return {recipe.event, recipe.min_seconds, recipe.debounce};
 }

@@ -64,7 +64,6 @@ ModeChain counted_chain(const ModeSequences& sequences, int modes, int history);
 /// A probability of 0 counts as 1e-6. NaN without transitions.
 double log_likelihood(const ModeChain& chain, const ModeSequences& sequences);
 
-/// Segments of motion, sorted into modes.
 struct SortedSegments {
   const Motion& motion;
   std::span<const Segment> segments;

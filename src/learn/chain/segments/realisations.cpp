@@ -20,8 +20,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// ---- Splines ----
-
 constexpr int kControlPoints = 8;
 constexpr long kComponents = 12;
 constexpr double kStiffness = 1e-3;  // weight of the control points' second differences against the misfit
@@ -120,8 +118,6 @@ void smooth_mode(std::span<MotionPiece* const> pieces, std::map<int, MatrixXd>& 
     put_numbers(rows, *pieces[k]);
   }
 }
-
-// ---- Systems ----
 
 constexpr double kRidge = 1e-6;     // share of a term's mean square: regularises collinear terms
 constexpr double kMinRidge = 1e-9;  // share of all terms' mean square: regularises terms that are always 0

@@ -233,7 +233,6 @@ std::vector<std::size_t> kept_segments(const SortedSegments& from, const Segment
   return kept;
 }
 
-// Stores the heights at which segments begin.
 void put_heights(const Motion& motion, std::span<const Segment> segments, SegmentStore& store) {
   std::vector<double> heights;
   for (std::size_t source : store.source) {
