@@ -417,7 +417,7 @@ test('every call of every shipped model takes its own number of values, and says
 
 test('a bank for which there is no memory is told so, and the module goes on', async () => {
   const model = wisp.model(flameBytes);
-  assert.throws(() => model.bank({ capacity: 2 ** 20 }), wrong(Status.badArgument, /no memory for a bank of \d+ bytes/));
+  assert.throws(() => model.bank({ capacity: 2 ** 20 }), wrong(Status.noMemory, /no memory for a bank of \d+ bytes/));
   model.bank({ capacity: 1 }).free();
   model.free();
 });
