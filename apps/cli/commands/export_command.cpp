@@ -199,11 +199,11 @@ Result<void> check_flags(const Arguments& arguments, std::string extension, bool
   if (extension != ".png") {
     if (auto ok = refuse(arguments, {"columns"}, nothing + "is no atlas"); !ok) return ok;
   }
-  if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop") || arguments.has("seconds"))) {
-    return Error{
-        "--input does not go with --columns, with --seconds, since its length is the input's, or with --loop, "
-        "which is a steady play"};
+  if (arguments.has("input") && (arguments.has("columns") || arguments.has("loop"))) {
+    return Error{"--input does not go with --columns, or with --loop, which is a steady play"};
   }
+  const auto whole = refuse(arguments, {"seconds"}, "does nothing beside --input, which is played whole");
+  if (arguments.has("input") && !whole) return whole;
   if (extension == ".glb" || extension == ".vat.png" || extension == ".json") {
     if (auto ok = refuse(arguments, {"frames"}, nothing + "holds every frame"); !ok) return ok;
   }
