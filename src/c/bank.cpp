@@ -132,7 +132,7 @@ wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* o
       return fail(WISP_BAD_ARGUMENT, needed.error());
     }
     auto made = wisp::Bank::create(model->model, *known);
-    if (!made) return fail(known->memory.empty() ? WISP_NO_MEMORY : WISP_BAD_ARGUMENT, made.error());
+    if (!made) return fail(known->memory.data() ? WISP_BAD_ARGUMENT : WISP_NO_MEMORY, made.error());
     *bank = new wisp_bank{std::move(made).value()};
     return WISP_OK;
   });
