@@ -302,9 +302,10 @@ class ChainMover {
     return turn_between(quaternion(row_of(segment, 0)), body.orientation);
   }
 
-  /// Returns a segment's displacement from beginning to end, in its own axes, metres.
-  Vector3<Real> way_of(std::uint32_t segment) const {
-    return scaled(vector(row_of(segment, program_.steps(segment))), Real(program_.position_scale));
+  /// Returns where a row of the lane's segment lies, moved by `more`, in stored units, times `share`.
+  Vector3<Real> place_at(const Lane& lane, std::uint32_t row, const std::int16_t* more, Real share) const {
+    const auto at = vector(row_of(index(lane.segment, program_.segments()), row));
+    return placed(lane, added(at, scaled(vector(more), share)));
   }
 
   /// Converts a whole number that is stored as a real one; returns bound − 1 for any that is not below the bound.

@@ -62,6 +62,22 @@ class ChainSteering {
     return drawn.segment;
   }
 
+  /// Returns where a lane's body is expected at the target time: on its segment, or beyond the segment's end by the
+  /// lead of that segment and the mean drift.
+  static Vector3<Real> expected(const Mover& mover, const ChainProgram& program, const Lane& lane) {
+    const std::uint32_t segment = Mover::index(lane.segment, program.segments()), steps = program.steps(segment);
+    const std::uint32_t row = Mover::index(lane.row, steps + 1);
+    const Real beyond = lane.left - Real(static_cast<float>(steps - row));
+    const bool ends = beyond > Real(0.0f);
+    const Real left = ends ? beyond * Real(program.step_seconds) : Real(0.0f);
+    const Real kept = left / (left + Real(program.memory) + Real(program.step_seconds));
+    auto at = mover.place_at(lane, ends ? steps : row + Mover::index(lane.left, steps - row + 1),
+                             program.lead.data() + std::size_t{3} * segment,
+                             kept * Real(program.lead_scale / program.position_scale));
+    for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = at[axis] + Real(program.drift[axis]) * left;
+    return at;
+  }
+
  private:
   struct Candidate {
     std::uint32_t segment = 0;
@@ -88,21 +104,11 @@ class ChainSteering {
   // Computes a candidate's expected miss at the target time. Its probability to lead to the target is about e^−miss.
   static Candidate aim(const Mover& mover, const ChainProgram& program, const Lane& lane, const Body& body,
                        std::uint32_t segment, const Bell& bell) {
-    const Real zero(0.0f), one(1.0f);
     const HalfTurn<Real> half = mover.turn_to(segment, body);
-    const Real cos = half.cos * half.cos - half.sin * half.sin, product = half.cos * half.sin;
-    const Real own = Real(static_cast<float>(program.steps(segment)));
-    const Real beyond = lane.left - own;
-    const Real left = beyond > zero ? beyond * Real(program.step_seconds) : zero;
-    // Share of the segment that is played before the target time.
-    const Real played = beyond > zero ? one : lane.left / own;
-    const Real kept = left / (left + Real(program.memory) + Real(program.step_seconds));
-    const std::int16_t* lead = program.lead.data() + std::size_t{3} * segment;
-    const Real scale = kept * Real(program.lead_scale);
-    auto way = scaled(mover.way_of(segment), played);
-    for (std::size_t axis = 0; axis < 3; ++axis) way[axis] = way[axis] + scale * Real(static_cast<float>(lead[axis]));
-    auto miss = taken(lane.target, added(body.position, turned<Real>(cos, product + product, way)));
-    for (std::size_t axis = 0; axis < 3; ++axis) miss[axis] = miss[axis] - Real(program.drift[axis]) * left;
+    Lane there;
+    mover.place(there, segment, body.position, half.cos, half.sin);
+    there.left = lane.left;
+    const auto miss = taken(lane.target, expected(mover, program, there));
     Candidate out;
     out.segment = segment;
     out.miss = (miss[0] * miss[0] + miss[1] * miss[1]) * bell.ground + miss[2] * miss[2] * bell.height;

@@ -223,7 +223,7 @@ class ChainStepper : private ChainLives<N> {
       visit_difference(*numbers, visit);
     visit(life.settled, -1.0f, 2.0f);
     visit(life.left, 0.0f, kMaxSlip, 1.0f);
-    steered_ |= life.left > Real(0.0f);
+    steered_ |= can_steer() && life.left > Real(0.0f);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
     visit(life.near, 0.0f, kFarthest);
     for (Real& x : life.touched) visit(x, -kLongest, kLongest);
@@ -405,18 +405,14 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // In the last second of steering, moves a segment by a share of the expected miss, given the mean drift of bodies:
-  // the miss decreases as the square of the time left.
+  // In the last second of steering, moves a segment by a share of the expected miss, which decreases as the square of
+  // the time left.
   void carry(int block, int lane) {
     const Real left = played_of(block).left[lane], all(kCarrySeconds / program_.step_seconds), one(1.0f);
     if (!falls(block, lane) || !(left > Real(0.0f)) || !(left < all)) return;
     const Real share = (one - left / all) * Real(2.0f) / left, gain = left > one && share < one ? share : one;
-    Vector3<Real> miss;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Real drifts(program_.drift[k] * program_.step_seconds);
-      miss[k] =
-          plan_of(block, lane).target[k] - newest(block)[k * kLanes + static_cast<std::size_t>(lane)] - drifts * left;
-    }
+    const Lane life = lane_of(block, lane);
+    const auto miss = taken(life.target, ChainSteering<Real>::expected(Mover(program_), program_, life));
     const auto way = Mover::bounded(scaled(miss, gain), program_.speed_unit * program_.step_seconds);
     for (std::size_t k = 0; k < 3; ++k) played_of(block).base[k][lane] = played_of(block).base[k][lane] + way[k];
   }

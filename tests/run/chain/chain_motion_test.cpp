@@ -115,5 +115,33 @@ TEST(ChainSteering, EndsWhereItIsAsked) {
               quantile(misses, 0.9), fastest, usual);
 }
 
+// Where steering ends, velocities change by more than they do anyway, since a join in the last tenth of a second moves
+// the expected end by centimetres.
+TEST(ChainSteering, LetsGoWithoutAGreatKick) {
+  constexpr int kFalls = 64;
+  Bank other = leaves(kFalls, 4), bank = leaves(kFalls, 5);
+  const auto steps = static_cast<int>(std::lround(4 / seconds_of(bank)));
+  for (int k = 0; k < steps; ++k) other.step();
+  for (int k = 0; k < kFalls; ++k) {
+    const Pose end = pose_of(other, k);
+    ASSERT_TRUE(bank.chain()->steer(bank.at(k), {{end[0], end[1], end[2]}, std::chrono::seconds(4)}));
+  }
+  std::vector<double> usual, kicks;
+  std::array<std::array<float, 3>, kFalls> before{};
+  for (int k = 0; k < steps + 2; ++k) {
+    bank.step();
+    for (std::size_t slot = 0; slot < kFalls; ++slot) {
+      const auto v = bank.chain()->place_of(bank.at(static_cast<int>(slot)))->velocity;
+      const double change = std::hypot(v[0] - before[slot][0], v[1] - before[slot][1], v[2] - before[slot][2]);
+      if (k > 1) (k < steps - 60 ? usual : kicks).push_back(k < steps - 60 || k >= steps ? change : 0);
+      std::copy_n(v.begin(), 3, before[slot].begin());
+    }
+  }
+  std::erase(kicks, 0.0);
+  std::printf("velocities change by %.3f m/s a step, at the end of steering by %.3f; at most %.2f and %.2f\n",
+              quantile(usual, 0.9), quantile(kicks, 0.9), quantile(usual, 0.999), quantile(kicks, 0.999));
+  EXPECT_LT(quantile(kicks, 0.9), 2.75 * quantile(usual, 0.9));
+}
+
 }  // namespace
 }  // namespace wisp::chain_motion_test
