@@ -73,10 +73,11 @@ class Depths {
   std::vector<float> crossings_;  // x at which the outline crosses the row
 };
 
-// Position of a pixel relative to an outline.
+// Position of a pixel relative to an outline; depths in mean flame heights, positive inside.
 struct FlamePlace {
   float height = 0;  // 0 at the base, 1 at the outline's top
-  float depth = 0;   // distance inside the outline, mean flame heights
+  float depth = 0;   // by the nearest point of the outline
+  float colour = 0;  // the same below the outline's top; above it sideways alone, since what leaves a tip stays narrow
 };
 
 // Positions of the pixels of one row.
@@ -90,13 +91,15 @@ class Places {
     const float top = std::ranges::min_element(outline, {}, &Point::y)->y;
     const float middle = static_cast<float>(y) + 0.5F, tall = std::max(0.2F * view.unit, view.base.y - top);
     height_ = std::max(0.0F, (view.base.y - middle) / tall);
+    over_ = std::max(0.0F, (top - middle) / view.unit);
     above_ = middle < view.base.y - tall - reach_;
   }
 
   FlamePlace at(int x) const {
     const float middle = static_cast<float>(x) + 0.5F;
-    if (above_ || middle < left_ || middle > right_) return {height_, kOutside};
-    return {height_, depths_.at(middle) / view_.unit};
+    if (above_ || middle < left_ || middle > right_) return {height_, kOutside, kOutside};
+    const float depth = depths_.at(middle) / view_.unit;
+    return {height_, depth, over_ > 0 ? -std::sqrt(std::max(0.0F, square(depth) - square(over_))) : depth};
   }
 
  private:
@@ -104,6 +107,7 @@ class Places {
   float reach_;
   Depths depths_;
   float left_ = 0, right_ = 0, height_ = 0;
+  float over_ = 0;      // height above the outline's top, mean flame heights
   bool above_ = false;  // whether the row is far above the flame
 };
 
@@ -188,9 +192,9 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
       squares_[pixel] += square(light_of(row[x]));
       // Weighted by the distance to the flame, with a minimum for pixels that the flame never left.
       if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
-      if (place.height <= 0) continue;
+      if (place.height <= 0 || (place.depth <= kOutside && place.colour > kOutside)) continue;
       const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));
-      const auto j = static_cast<std::size_t>(std::lround(depth_index(place.depth)));
+      const auto j = static_cast<std::size_t>(std::lround(depth_index(place.colour)));
       add(flame_[i * kDepths + j], row[x]);
     }
   }
@@ -248,10 +252,10 @@ Image FilmLook::draw(std::span<const Point> outline, float light) const {
     if (outline.size() >= 3) places.emplace(view_, outline, y);
     for (int x = 0; x < view_.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
-      const FlamePlace place = places ? places->at(x) : FlamePlace{0, kOutside};
+      const FlamePlace place = places ? places->at(x) : FlamePlace{0, kOutside, kOutside};
       Sum colour = mix(unlit_[pixel], plate_[pixel], light);
       if (const float share = smooth(kGlowEnds, kGlowWhole, place.depth); share > 0) {
-        colour = mix(colour, bilinear(colours_, height_index(place.height), depth_index(place.depth)), share);
+        colour = mix(colour, bilinear(colours_, height_index(place.height), depth_index(place.colour)), share);
       }
       if (over_[pixel] > 0) colour = mix(colour, mix(unlit_[pixel], foot_[pixel], light), over_[pixel]);
       std::uint32_t code = 0xFF000000U;
