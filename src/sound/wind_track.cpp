@@ -266,29 +266,15 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const 
   }
 }
 
-Result<void> check_times(std::span<const double> times) {
-  if (times.size() < 2)
-    return Error{"wind track: " + std::to_string(times.size()) + " frame times, expected at least 2"};
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const bool fine = std::isfinite(times[i]) && times[i] >= 0 && (i == 0 || times[i] > times[i - 1]);
-    if (fine) continue;
-    return Error{"wind track: frame time " + std::to_string(i) + " is " + wind::decimal(times[i]) +
-                 " s, expected finite, not negative and later than the one before"};
-  }
-  return {};
-}
-
 }  // namespace
 
 struct WindTracker::State {
-  State(const SoundFormat& sound, const WindOptions& given, std::span<const double> frame_times)
+  State(const SoundFormat& sound, const WindOptions& given)
       : format(sound),
         options(given),
         design(wind::design(sound, given)),
         kernel(design),
-        times(frame_times.begin(), frame_times.end()),
         bands(static_cast<std::size_t>(sound.channels)) {
-    skip = times.empty() ? 0 : sample_at(times.front());
     next_frame_at = sample_at(end_seconds());
   }
 
@@ -297,25 +283,16 @@ struct WindTracker::State {
   /// End of the current frame, seconds.
   double end_seconds() const { return seconds_at(seen.size() + 1); }
 
-  bool wants_more() const { return times.empty() || seen.size() + 1 < times.size(); }
-
-  template <class Sample, class Load>
-  void feed(std::span<const Sample> samples, Load load) {
-    const std::size_t channels = static_cast<std::size_t>(format.channels);
-    float one[wind::kMaxChannels];
-    for (std::size_t i = 0; i + channels <= samples.size(); i += channels) {
-      for (std::size_t c = 0; c < channels; ++c) one[c] = load(samples[i + c]);
-      hear(one);
-    }
+  void feed(std::span<const float> samples) {
+    const std::size_t channels = bands.size();
+    for (std::size_t i = 0; i + channels <= samples.size(); i += channels) hear(samples.data() + i);
   }
 
   void hear(const float* one) {
     if (kernel.push(one)) keep_hop();
-    ++position;
-    if (position == skip) (void)kernel.end_frame();
-    if (!wants_more() || position < next_frame_at) return;
+    if (++position < next_frame_at) return;
     seen.push_back(kernel.end_frame());
-    if (wants_more()) next_frame_at = sample_at(end_seconds());
+    next_frame_at = sample_at(end_seconds());
   }
 
   void keep_hop() {
@@ -326,16 +303,12 @@ struct WindTracker::State {
   }
 
   /// Beginning of frame k, which is the end of frame k − 1.
-  double seconds_at(std::size_t k) const {
-    return times.empty() ? static_cast<double>(k) / options.frame_rate_hz : times[k];
-  }
+  double seconds_at(std::size_t k) const { return static_cast<double>(k) / options.frame_rate_hz; }
 
   Spectra spectra() const {
     std::vector<double> middles;
-    for (std::size_t k = 0; k < seen.size(); ++k) {
-      const double at = static_cast<double>(k);
-      middles.push_back(times.empty() ? (at + 0.5) / options.frame_rate_hz : (times[k] + times[k + 1]) / 2);
-    }
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      middles.push_back((static_cast<double>(k) + 0.5) / options.frame_rate_hz);
     return {bands, design.analysis_rate_hz / design.voice_step, middles};
   }
 
@@ -343,11 +316,9 @@ struct WindTracker::State {
   WindOptions options;
   wind::Design design;
   wind::Kernel<float> kernel;
-  std::vector<double> times;
   std::vector<std::vector<float>> bands;  ///< differenced voice band of each channel at about 4 kHz, for Spectra
   Seen seen;
   std::int64_t position = 0;
-  std::int64_t skip = 0;  ///< number of samples before the first frame
   std::int64_t next_frame_at = 0;
 };
 
@@ -358,21 +329,10 @@ WindTracker::~WindTracker() = default;
 
 Result<WindTracker> WindTracker::create(const SoundFormat& format, const WindOptions& options) {
   if (auto ok = wind::check(format, options); !ok) return ok.error();
-  return WindTracker(std::make_unique<State>(format, options, std::span<const double>()));
+  return WindTracker(std::make_unique<State>(format, options));
 }
 
-Result<WindTracker> WindTracker::create(const SoundFormat& format, std::span<const double> frame_seconds,
-                                        const WindOptions& options) {
-  if (auto ok = wind::check(format, options); !ok) return ok.error();
-  if (auto ok = check_times(frame_seconds); !ok) return ok.error();
-  return WindTracker(std::make_unique<State>(format, options, frame_seconds));
-}
-
-void WindTracker::feed(std::span<const float> samples) {
-  state_->feed(samples, [](float x) { return x; });
-}
-
-void WindTracker::feed(std::span<const std::int16_t> samples) { state_->feed(samples, wind::from_pcm16); }
+void WindTracker::feed(std::span<const float> samples) { state_->feed(samples); }
 
 Result<WindTrack> WindTracker::finish() const {
   const Seen& seen = state_->seen;

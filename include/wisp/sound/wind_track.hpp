@@ -33,21 +33,14 @@ class WindTracker {
   /// For video at a fixed frame rate (options.frame_rate_hz). Errors: those of WindLevel::create().
   static Result<WindTracker> create(const SoundFormat& format, const WindOptions& options = {});
 
-  /// For video whose frames come at uneven times: frame k covers the sound from frame_seconds[k] to
-  /// frame_seconds[k + 1], so there is one frame fewer than times.
-  /// Errors: those of WindLevel::create(); fewer than 2 times; one not finite, negative or not ascending (by index).
-  static Result<WindTracker> create(const SoundFormat& format, std::span<const double> frame_seconds,
-                                    const WindOptions& options = {});
-
   WindTracker(WindTracker&&) noexcept;
   WindTracker& operator=(WindTracker&&) noexcept;
   ~WindTracker();
 
-  /// Takes interleaved samples, full scale ±1 (or 16-bit).
+  /// Takes interleaved samples, full scale ±1.
   ///
   /// Precondition: samples.size() is a multiple of the channels.
   void feed(std::span<const float> samples);
-  void feed(std::span<const std::int16_t> samples);
 
   /// Returns the wind of all sound fed so far. Errors: the sound is shorter than one frame.
   Result<WindTrack> finish() const;

@@ -21,27 +21,12 @@ WindFrame missing_frame(std::size_t index) {
 }  // namespace
 
 std::string wind_channel_name(WindMeasure measure) {
-  switch (measure) {
-    case WindMeasure::kSpeed:
-      return "wind";
-    case WindMeasure::kHeard:
-      return "wind.heard";
-    case WindMeasure::kRms:
-      return "wind.rms";
-  }
-  return "";
+  return measure == WindMeasure::kSpeed ? "wind" : measure == WindMeasure::kHeard ? "wind.heard" : "wind.rms";
 }
 
 double wind_value(const WindFrame& frame, WindMeasure measure) {
-  switch (measure) {
-    case WindMeasure::kSpeed:
-      return frame.wind;
-    case WindMeasure::kHeard:
-      return frame.speed;
-    case WindMeasure::kRms:
-      return frame.rms_clean;
-  }
-  return 0;
+  if (measure == WindMeasure::kRms) return frame.rms_clean;
+  return measure == WindMeasure::kSpeed ? frame.wind : frame.speed;
 }
 
 Result<ClipEar> ClipEar::create(const SoundFormat& format, double rate_hz) {

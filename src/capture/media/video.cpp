@@ -8,8 +8,7 @@ namespace wisp {
 
 class VideoReader::Source {
  public:
-  explicit Source(VideoFile file) : held(std::move(file)) {}
-  explicit Source(ImageFolder folder) : held(std::move(folder)) {}
+  explicit Source(auto clip) : held(std::move(clip)) {}
   std::variant<VideoFile, ImageFolder> held;
 };
 

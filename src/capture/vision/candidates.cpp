@@ -82,33 +82,36 @@ struct Shape {
   double base_across = 0;
 };
 
-// Mean centre of the rows [from, to).
-double across(const Profile& profile, std::size_t from, std::size_t to) {
+double row_centre(const ProfileRow& row) { return 0.5 * (row.low + row.high); }
+double row_width(const ProfileRow& row) { return row.width(); }
+
+// Mean of a measure of the rows [from, to).
+double mean_rows(double measure(const ProfileRow&), const Profile& profile, std::size_t from, std::size_t to) {
   double sum = 0;
-  for (std::size_t k = from; k < to; ++k) sum += 0.5 * (profile.rows[k].low + profile.rows[k].high);
+  for (std::size_t k = from; k < to; ++k) sum += measure(profile.rows[k]);
   return sum / static_cast<double>(std::max<std::size_t>(to - from, 1));
 }
 
-double mean_width(const Profile& profile, std::size_t from, std::size_t to) {
-  double sum = 0;
-  for (std::size_t k = from; k < to; ++k) sum += profile.rows[k].width();
-  return sum / static_cast<double>(std::max<std::size_t>(to - from, 1));
+template <class Measure>
+double median_of(const std::vector<Shape>& shapes, Measure measure) {
+  std::vector<double> values;
+  for (const Shape& shape : shapes) values.push_back(measure(shape));
+  return median(std::move(values));
 }
 
 void measure(Shape& shape) {
   shape.area = shape.middle_across = shape.middle_row = 0;
   const auto& rows = shape.profile.rows;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const double width = rows[k].width();
-    shape.area += width;
-    shape.middle_across += width * 0.5 * (rows[k].low + rows[k].high);
-    shape.middle_row += width * static_cast<double>(k);
+    shape.area += row_width(rows[k]);
+    shape.middle_across += row_width(rows[k]) * row_centre(rows[k]);
+    shape.middle_row += row_width(rows[k]) * static_cast<double>(k);
   }
   shape.middle_across /= shape.area;
   shape.middle_row /= shape.area;
   const std::size_t quarter = std::max<std::size_t>(1, rows.size() / 4);
-  shape.tip_across = across(shape.profile, 0, quarter);
-  shape.base_across = across(shape.profile, rows.size() - quarter, rows.size());
+  shape.tip_across = mean_rows(row_centre, shape.profile, 0, quarter);
+  shape.base_across = mean_rows(row_centre, shape.profile, rows.size() - quarter, rows.size());
 }
 
 std::vector<Shape> shapes_of(const PictureGrid& grid, int level, const Track& track, BaseSide base) {
@@ -161,24 +164,20 @@ double change_of(const std::vector<Shape>& shapes) {
   return median(std::move(changes));
 }
 
-double taper_of(const std::vector<Shape>& shapes) {
-  std::vector<double> tapers;
-  for (const Shape& shape : shapes) {
-    const std::size_t rows = shape.profile.rows.size();
-    const double tip = mean_width(shape.profile, 0, std::max<std::size_t>(1, rows / 4));
-    const double body = mean_width(shape.profile, 2 * rows / 5, std::max(2 * rows / 5 + 1, 4 * rows / 5));
-    tapers.push_back(std::max(0.0, 1 - tip / body));
-  }
-  return median(std::move(tapers));
+double narrowing_of(const Shape& shape) {
+  const std::size_t rows = shape.profile.rows.size();
+  const double tip = mean_rows(row_width, shape.profile, 0, std::max<std::size_t>(1, rows / 4));
+  const double body = mean_rows(row_width, shape.profile, 2 * rows / 5, std::max(2 * rows / 5 + 1, 4 * rows / 5));
+  return std::max(0.0, 1 - tip / body);
 }
 
 // Area of a shape, straightened, over its convex hull's: a flame that leans or bends has no notches. The hull of a
 // symmetric shape has the least concave majorant of its widths.
-double solidity_of(const Profile& profile) {
+double solidity_of(const Shape& shape) {
   std::vector<std::size_t> hull;
-  const auto width = [&](std::size_t k) { return static_cast<double>(profile.rows[k].width()); };
+  const auto width = [&](std::size_t k) { return static_cast<double>(shape.profile.rows[k].width()); };
   double area = 0, hull_area = 0;
-  for (std::size_t k = 0; k < profile.rows.size(); ++k) {
+  for (std::size_t k = 0; k < shape.profile.rows.size(); ++k) {
     if (k > 0) area += 0.5 * (width(k) + width(k - 1));
     const auto below = [&](std::size_t a, std::size_t b) {  // b, between a and k, is inside the hull
       const double run = static_cast<double>(k - a), part = static_cast<double>(b - a);
@@ -191,13 +190,6 @@ double solidity_of(const Profile& profile) {
     hull_area += 0.5 * (width(hull[k]) + width(hull[k - 1])) * static_cast<double>(hull[k] - hull[k - 1]);
   }
   return area / std::max(hull_area, 1e-9);
-}
-
-double solidity_of(const std::vector<Shape>& shapes) {
-  std::vector<double> values;
-  values.reserve(shapes.size());
-  for (const Shape& shape : shapes) values.push_back(solidity_of(shape.profile));
-  return median(std::move(values));
 }
 
 double steadiness_of(const std::vector<Shape>& shapes) {
@@ -217,24 +209,16 @@ double steadiness_of(const std::vector<Shape>& shapes) {
 // Median luma of the shape: a rim is dimmer, and a lower level includes more of it.
 double light_of(const PictureGrid& grid, const PictureGrid& luma, int level, const Shape& shape, BaseSide base) {
   const bool rows = base == BaseSide::kBottom || base == BaseSide::kTop;
-  std::array<std::uint32_t, 256> counts{};
-  std::uint32_t count = 0;
+  std::vector<std::uint8_t> values;
   const ImageView view = grid.view(shape.picture), lumas = luma.view(shape.picture);
   for (std::size_t k = 0; k < shape.profile.rows.size(); ++k) {
     const int at = depth_of(shape.profile.first + static_cast<int>(k), base);
     for (int v = shape.profile.rows[k].low; v <= shape.profile.rows[k].high; ++v) {
       const int x = rows ? v : at, y = rows ? at : v;
-      if (view.at(x, y) <= level) continue;
-      ++counts[lumas.at(x, y)];
-      ++count;
+      if (view.at(x, y) > level) values.push_back(lumas.at(x, y));
     }
   }
-  std::uint32_t below = 0;
-  for (std::size_t value = 0; value < counts.size(); ++value) {
-    below += counts[value];
-    if (below > count / 2) return static_cast<double>(value);
-  }
-  return 0;
+  return median(std::move(values));
 }
 
 Region box_of(const Profile& profile, BaseSide base) {
@@ -329,8 +313,8 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
     c.area = median(areas);
     if (!light.empty()) c.light = std::min(1.0, median(light));
     c.change = change_of(shapes);
-    c.taper = taper_of(shapes);
-    c.solidity = solidity_of(shapes);
+    c.taper = median_of(shapes, narrowing_of);
+    c.solidity = median_of(shapes, solidity_of);
     c.steadiness = steadiness_of(shapes);
     found.push_back(std::move(c));
   }

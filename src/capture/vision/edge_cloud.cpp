@@ -61,17 +61,9 @@ struct Axes {
 };
 
 Axes picture_axes(BaseSide side) {
-  switch (side) {
-    case BaseSide::kLeft:
-      return {0, 1};
-    case BaseSide::kTop:
-      return {-1, 0};
-    case BaseSide::kRight:
-      return {0, -1};
-    case BaseSide::kBottom:
-      break;
-  }
-  return {1, 0};
+  if (side == BaseSide::kLeft) return {0, 1};
+  if (side == BaseSide::kTop) return {-1, 0};
+  return side == BaseSide::kRight ? Axes{0, -1} : Axes{1, 0};
 }
 
 struct Stretch {

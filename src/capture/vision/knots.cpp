@@ -66,11 +66,6 @@ constexpr int kPaceRounds = 3;
 // intersect itself even more.
 constexpr double kFolded = 1;
 
-bool folds(const SplineTable& table, std::span<const double> controls) {
-  constexpr int kFoldPoints = 100;
-  return crosses_itself(curve_polyline(table, controls, kFoldPoints));
-}
-
 double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   double area = cloud.left_out;
   for (std::size_t k = 1; k < residuals.size(); ++k) {
@@ -126,7 +121,9 @@ CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> k
       for (double& s : paced.s) s = at_pace(pace, s);
       tracker.forget();
       const OutlineEstimate& outline = tracker.update(paced);
-      misfits.push_back(folds(tracker.table(), outline.mean) ? kFolded : misfit(cloud, tracker.residuals()));
+      misfits.push_back(crosses_itself(curve_polyline(tracker.table(), outline.mean, 100))
+                            ? kFolded
+                            : misfit(cloud, tracker.residuals()));
       mean += misfits.back() / static_cast<double>(clouds.size());
       measure.add(cloud.s, tracker.places());
     }

@@ -148,32 +148,17 @@ void follow_boundary(const ImageView& image, int level, PixelPosition seed, std:
 int depth_of(int edge, BaseSide side) { return towards_base(side) * edge; }
 
 int base_edge(const Region& box, BaseSide side) {
-  switch (side) {
-    case BaseSide::kLeft:
-      return box.x;
-    case BaseSide::kTop:
-      return box.y;
-    case BaseSide::kRight:
-      return box.right() - 1;
-    case BaseSide::kBottom:
-      break;
-  }
-  return box.bottom() - 1;
+  if (side == BaseSide::kLeft) return box.x;
+  if (side == BaseSide::kTop) return box.y;
+  return (side == BaseSide::kRight ? box.right() : box.bottom()) - 1;
 }
 
 int deeper(int edge, int other, BaseSide side) { return (edge - other) * towards_base(side); }
 
 Region above_edge(const Region& place, int edge, BaseSide side) {
-  switch (side) {
-    case BaseSide::kLeft:
-      return {edge, place.y, place.right() - edge, place.height};
-    case BaseSide::kTop:
-      return {place.x, edge, place.width, place.bottom() - edge};
-    case BaseSide::kRight:
-      return {place.x, place.y, edge + 1 - place.x, place.height};
-    case BaseSide::kBottom:
-      break;
-  }
+  if (side == BaseSide::kLeft) return {edge, place.y, place.right() - edge, place.height};
+  if (side == BaseSide::kTop) return {place.x, edge, place.width, place.bottom() - edge};
+  if (side == BaseSide::kRight) return {place.x, place.y, edge + 1 - place.x, place.height};
   return {place.x, place.y, place.width, edge + 1 - place.y};
 }
 

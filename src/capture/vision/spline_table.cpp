@@ -11,6 +11,15 @@ double side(const CurvePoint& a, const CurvePoint& b, const CurvePoint& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
+CurvePoint combine(const BasisWeights& weights, std::span<const double> controls) {
+  CurvePoint out;
+  for (int r = 0; r < 4; ++r) {
+    out.x += weights.weight[r] * controls[2 * (weights.first + r)];
+    out.y += weights.weight[r] * controls[2 * (weights.first + r) + 1];
+  }
+  return out;
+}
+
 }  // namespace
 
 SplineTable::SplineTable(std::span<const double> knots) : knots_(knots.begin(), knots.end()) {
@@ -71,17 +80,6 @@ BasisWeights SplineTable::derivatives(double s) const {
   }
   return out;
 }
-
-namespace {
-CurvePoint combine(const BasisWeights& weights, std::span<const double> controls) {
-  CurvePoint out;
-  for (int r = 0; r < 4; ++r) {
-    out.x += weights.weight[r] * controls[2 * (weights.first + r)];
-    out.y += weights.weight[r] * controls[2 * (weights.first + r) + 1];
-  }
-  return out;
-}
-}  // namespace
 
 CurvePoint SplineTable::at(std::span<const double> controls, double s) const { return combine(weights(s), controls); }
 

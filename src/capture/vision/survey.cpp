@@ -292,18 +292,7 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
 }
 
 Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {
-  Survey out;
-  out.channel = thing.channel;
-  out.level = thing.level;
-  out.home = thing.home;
-  out.seen = thing.seen;
-  out.stands = thing.stands;
-  out.change = thing.change;
-  out.steadiness = thing.steadiness;
-  out.taper = thing.taper;
-  out.area = thing.area;
-  out.light = thing.light;
-  out.contrast = thing.contrast;
+  Survey out{thing};
   out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid& grid = *grids.of(thing.channel);
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
@@ -328,6 +317,21 @@ Error nothing_found(bool dark) {
                (dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
 }
 
+// For an object that is mostly wider than high: the end that moves less, where it is held.
+BaseSide steady_end(const Survey& survey) {
+  constexpr double kLying = 1.5;
+  std::vector<double> left, right;
+  double width = 0, height = 0;
+  for (const Region& box : survey.seen) {
+    left.push_back(box.x);
+    right.push_back(box.right());
+    width += box.width;
+    height += box.height;
+  }
+  if (width < kLying * height || deviation(left) == deviation(right)) return BaseSide::kBottom;
+  return deviation(left) < deviation(right) ? BaseSide::kLeft : BaseSide::kRight;
+}
+
 }  // namespace
 
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
@@ -349,12 +353,8 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
   Grids grids = sample_all(pictures, area, kGrid, options);
   if (!has_contrast(grids, pictures.front(), options)) return nothing_found(options.dark);
   const bool flame = options.flame > 0 && !options.dark;
-  LitPictures lit;
-  if (options.dark) {
-    lit.pictures.assign(pictures.begin(), pictures.end());
-  } else {
-    lit = lit_pictures(pictures, grids);
-  }
+  const LitPictures lit =
+      options.dark ? LitPictures{{pictures.begin(), pictures.end()}, {}} : lit_pictures(pictures, grids);
   const Evidence evidence{.flame = flame, .base = BaseSide::kBottom, .brightest = lit.brightest};
   const std::vector<Candidate> all = scan(grids, pictures.front(), options, evidence);
   if (all.empty()) return nothing_found(options.dark);
@@ -370,25 +370,6 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
   }
   return survey;
 }
-
-namespace {
-
-// For an object that is mostly wider than high: the end that moves less, where it is held.
-BaseSide steady_end(const Survey& survey) {
-  constexpr double kLying = 1.5;
-  std::vector<double> left, right;
-  double width = 0, height = 0;
-  for (const Region& box : survey.seen) {
-    left.push_back(box.x);
-    right.push_back(box.right());
-    width += box.width;
-    height += box.height;
-  }
-  if (width < kLying * height || deviation(left) == deviation(right)) return BaseSide::kBottom;
-  return deviation(left) < deviation(right) ? BaseSide::kLeft : BaseSide::kRight;
-}
-
-}  // namespace
 
 BaseSide base_side(const Survey& survey, const Region& area) {
   constexpr double kMaxPictures = 0.5, kNearlyAll = 0.95;

@@ -101,20 +101,10 @@ struct SurveyOptions {
   int flame = 1;                        ///< index of the flame by size, from 1; 0: any moving object
 };
 
-struct Survey {
-  PixelChannel channel = PixelChannel::kLuma;
-  int level = 0;               ///< pixels whose value (inverted for dark objects) is above this belong to the object
+/// The object, at the level above which pixels (inverted for dark objects) belong to it, and the scene.
+struct Survey : Candidate {
   Histogram histogram{};       ///< of the stored channel (inverted for dark objects), over the pictures that count
-  Region home;                 ///< union of all places where the object was seen
-  std::vector<Region> seen;    ///< box of the object in each picture with it
-  bool stands = false;         ///< whether it has mostly merged with its stand at that level
-  double area = 0;             ///< median, pixels
-  double change = 0;           ///< share of its shape that changes between pictures: 0 still
-  double steadiness = 0;       ///< reduction of motion from tip to base: 1 only the tip moves
-  double taper = 0;            ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
-  double light = 1;            ///< its luma divided by the brightest region's
-  double contrast = 255;       ///< its brightness minus that of its surroundings, levels
-  double clipped = 0;          ///< share of it that is saturated in every channel
+  double clipped = 0;          ///< share of the object that is saturated in every channel
   int flames = 0;              ///< number of flames; 0 where any object was requested
   std::vector<Region> others;  ///< median boxes of the other flames
 };

@@ -69,18 +69,9 @@ std::string cut_sentence(const std::array<std::size_t, 5>& count) {
 }
 
 const char* cut_text(Cut cut) {
-  switch (cut) {
-    case Cut::kNo:
-      return "yes";
-    case Cut::kSide:
-      return "no: cut by the picture's side";
-    case Cut::kLost:
-      return "no: lost from view";
-    case Cut::kPasses:
-    case Cut::kQuick:
-      break;  // belong to missed falls
-  }
-  return "";
+  if (cut == Cut::kNo) return "yes";
+  if (cut == Cut::kSide) return "no: cut by the picture's side";
+  return cut == Cut::kLost ? "no: lost from view" : "";  // the others belong to missed falls
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
+#include "base/statistics.hpp"
 #include "capture/vision/film_look.hpp"
 
 namespace wisp::fall {
@@ -21,13 +23,6 @@ constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond 
 constexpr double kTypical = 0.9;  // quantile of an object's differences that represents it; its edge differs less
 constexpr double kShadow = 0.35;  // share of that below which a pixel is shadow or blur
 constexpr double kPixelVariance = 1.0 / 12;
-
-template <class T>
-T quantile(std::vector<T>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 // Brightness of the wall in a frame relative to the film: cameras adapt their exposure.
 float gain_of(const Frame& frame, const std::vector<float>& brightness) {
@@ -49,19 +44,21 @@ std::vector<const Frame*> samples_of(std::span<const Frame> frames) {
   return out;
 }
 
+// Calls `take` for the pixels within one row and column of another, itself included.
+template <class Take>
+void for_neighbours(int p, const Wall& wall, Take take) {
+  const int x = p % wall.width, y = p / wall.width;
+  for (int v = std::max(0, y - 1); v <= std::min(wall.height - 1, y + 1); ++v) {
+    for (int u = std::max(0, x - 1); u <= std::min(wall.width - 1, x + 1); ++u) take(v * wall.width + u);
+  }
+}
+
 // Pixels beyond the tolerance and their neighbours, so that an object with a centre as bright as the wall stays whole.
 std::vector<std::uint8_t> mask_of(const std::vector<float>& difference, const Wall& wall) {
   std::vector<std::uint8_t> mask(difference.size(), 0);
-  for (int y = 0; y < wall.height; ++y) {
-    for (int x = 0; x < wall.width; ++x) {
-      const auto p = static_cast<std::size_t>(y) * wall.width + x;
-      if (std::abs(difference[p]) <= wall.tolerance[p]) continue;
-      for (int v = std::max(0, y - 1); v <= std::min(wall.height - 1, y + 1); ++v) {
-        for (int u = std::max(0, x - 1); u <= std::min(wall.width - 1, x + 1); ++u) {
-          mask[static_cast<std::size_t>(v) * wall.width + u] = 1;
-        }
-      }
-    }
+  for (std::size_t p = 0; p < mask.size(); ++p) {
+    if (std::abs(difference[p]) <= wall.tolerance[p]) continue;
+    for_neighbours(static_cast<int>(p), wall, [&](int near) { mask[static_cast<std::size_t>(near)] = 1; });
   }
   return mask;
 }
@@ -71,15 +68,9 @@ std::vector<int> component_at(int seed, std::vector<std::uint8_t>& mask, const W
   std::vector<int> pixels{seed};
   mask[static_cast<std::size_t>(seed)] = 0;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
-    const int x = pixels[k] % wall.width, y = pixels[k] / wall.width;
-    for (int v = std::max(0, y - 1); v <= std::min(wall.height - 1, y + 1); ++v) {
-      for (int u = std::max(0, x - 1); u <= std::min(wall.width - 1, x + 1); ++u) {
-        const int p = v * wall.width + u;
-        if (mask[static_cast<std::size_t>(p)] == 0) continue;
-        mask[static_cast<std::size_t>(p)] = 0;
-        pixels.push_back(p);
-      }
-    }
+    for_neighbours(pixels[k], wall, [&](int p) {
+      if (std::exchange(mask[static_cast<std::size_t>(p)], 0) != 0) pixels.push_back(p);
+    });
   }
   return pixels;
 }
@@ -158,8 +149,7 @@ Wall wall_of(std::span<const Frame> frames, int width, int height) {
     sigmas[p] = kMadToSigma * quantile(values, 0.5);
     unsteady += quantile(values, kMoments) > kUnsteady;
   }
-  std::vector<float> sorted = sigmas;
-  const float noise = quantile(sorted, 0.5);
+  const float noise = quantile(sigmas, 0.5);
   for (const float sigma : sigmas) {
     wall.tolerance.push_back(std::max(kMinDifference, kSigmas * std::max(sigma, noise)));
   }
