@@ -173,7 +173,8 @@ void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
   findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
 }
 
-// Discards half of the held frames, as they contain no flame yet, and the glimpses, in which none was found either.
+// Discards half of the held frames, as they contain no flame yet. From then on glimpses, in which none was found
+// either, are no longer surveyed, but still sampled for the shape of the flame that is lit later.
 void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
   if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
@@ -182,7 +183,6 @@ void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
     if (held_[k]) held_bytes_ -= held_[k]->bytes();
   }
   held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(half));
-  glimpses_.clear();
   waited_ = true;
 }
 
@@ -193,7 +193,9 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   }
   cloud_options_.max_points = std::max(kMinEdgePoints, kEdgePointsEach * options_.points);
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
-  for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
+  for (const OwnedPicture& glimpse : glimpses_) {
+    if (!waited_) seen.push_back(glimpse.picture());
+  }
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
   const bool flame = options_.flame > 0 && !options_.dark;
   // A flame lit halfway through the held frames appears in too few of them, so the next ones are awaited.

@@ -151,9 +151,12 @@ std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width
   return out;
 }
 
-// Row after the last outline, where the absence is long enough and the film does not fade out.
+bool repeats(const DroppedFrame& one) { return one.reason == "duplicate"; }
+
+// Row after the last outline, where the absence is long enough and the film does not fade out or end in one picture.
 std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
   const std::size_t dark = report.frames - 1 - last;
+  if (!report.dropped.empty() && repeats(report.dropped.back())) return std::nullopt;
   if (report.facts.fades_out || static_cast<double>(dark) < kOutSeconds * report.rate_hz) return std::nullopt;
   return last + 1;
 }
@@ -162,22 +165,21 @@ std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last)
 
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report) {
   std::vector<OutlineRow> shapes;
-  std::vector<double> heights, tapers, widths, leans;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (std::isnan(recording.channels.front().samples[row])) continue;
     shapes.push_back(shape_of(recording, table, row));
-    const OutlineRow& shape = shapes.back();
-    heights.push_back(shape.height);
-    tapers.push_back(taper_of(shape));
-    widths.push_back(full_width(shape));
-    leans.push_back(lean_of(shape));
   }
   if (shapes.empty()) return false;
   OutlineFacts& facts = report.facts;
-  facts.height = std::max(median(heights), 1e-9);
-  facts.taper = median(tapers);
-  facts.width = median(widths);
-  facts.lean = median(leans);
+  const auto usual = [&](double measure(const OutlineRow&)) {
+    std::vector<double> values;
+    for (const OutlineRow& shape : shapes) values.push_back(measure(shape));
+    return median(std::move(values));
+  };
+  facts.height = std::max(usual([](const OutlineRow& shape) { return shape.height; }), 1e-9);
+  facts.taper = usual(taper_of);
+  facts.width = usual(full_width);
+  facts.lean = usual(lean_of);
   gather_motion(shapes, facts);
   facts.misfit = report.residual / facts.height;
   facts.jumps = jumps_of(shapes, facts.height);
@@ -187,7 +189,7 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
   facts.rows = last - first + 1;
   facts.absent = facts.rows - shapes.size();
   for (const DroppedFrame& one : report.dropped)
-    facts.absent -= one.reason == "duplicate" && one.frame > first && one.frame < last ? 1 : 0;
+    facts.absent -= repeats(one) && one.frame > first && one.frame < last ? 1 : 0;
   report.out_at = out_at(report, last);
   return true;
 }

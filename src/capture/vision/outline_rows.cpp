@@ -18,7 +18,9 @@ constexpr double kDimShare = 0.92;
 constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below which a frame is a duplicate
 constexpr double kDuplicateMost = 0.5;    // … and at most this many grey levels, as new frames have new noise
-constexpr std::size_t kNeighbours = 4;    // on each side
+constexpr std::size_t kNeighbours = 4;    // on each side, and the fewest frames in which a film stands still
+constexpr double kFrozenMost = 0.1;       // grey levels of change in such a stretch, at most …
+constexpr double kFrozenUsual = 0.02;     // … and at the median: coding corrects a repeated picture once or twice
 constexpr double kGlintSeconds = 0.2;     // maximum duration of a glint
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -91,6 +93,25 @@ std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness, 
   return fate;
 }
 
+// Marks stretches in which the film stands still: there the neighbours of a repeated frame are repeated too. Returns
+// their number of rows.
+std::size_t mark_frozen(const FrameFindings& findings, std::vector<Fate>& fate) {
+  std::size_t rows = 0;
+  std::vector<float> changes;
+  for (std::size_t row = 1; row <= fate.size(); ++row) {
+    const bool same = row < fate.size() && findings.frames[row].kind == FrameFinding::Kind::kTracked &&
+                      findings.frames[row].change < kFrozenMost;
+    if (same) changes.push_back(findings.frames[row].change);
+    if (same) continue;
+    if (changes.size() >= kNeighbours && median(changes) < kFrozenUsual) {
+      std::fill_n(fate.begin() + static_cast<std::ptrdiff_t>(row - changes.size()), changes.size(), Fate::kDuplicate);
+      rows += changes.size();
+    }
+    changes.clear();
+  }
+  return rows;
+}
+
 // Removes brief appearances between longer absences: they are glints, not the object.
 void leave_out_glints(std::vector<Fate>& fate, double rate_hz) {
   struct Span {
@@ -150,16 +171,10 @@ void fill_gaps(std::vector<Fate>& fate, const Stands& stands, std::vector<double
 }
 
 const char* reason(Fate fate, bool elsewhere) {
-  switch (fate) {
-    case Fate::kDuplicate:
-      return "duplicate";
-    case Fate::kFade:
-      return "fade";
-    case Fate::kLost:
-      return "lost";
-    default:
-      return elsewhere ? "elsewhere" : "nothing there";
-  }
+  if (fate == Fate::kDuplicate) return "duplicate";
+  if (fate == Fate::kFade) return "fade";
+  if (fate == Fate::kLost) return "lost";
+  return elsewhere ? "elsewhere" : "nothing there";
 }
 
 bool present(Fate fate) { return fate == Fate::kKept || fate == Fate::kFilled; }
@@ -245,6 +260,7 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   const Stands stands = find_stands(findings);
   report.facts.stands = static_cast<int>(stands.times);
   std::vector<Fate> fate = judge(findings, usual_brightness, stands);
+  report.facts.frozen = mark_frozen(findings, fate);
   const auto times = [&](Fate one) { return static_cast<std::size_t>(std::count(fate.begin(), fate.end(), one)); };
   report.duplicates = times(Fate::kDuplicate);
   report.facts.repeated = static_cast<double>(report.duplicates) / static_cast<double>(fate.size());

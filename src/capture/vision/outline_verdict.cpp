@@ -30,6 +30,8 @@ constexpr const char* kShape =
 constexpr const char* kGlare =
     "it is clipped flat, {clipped} of it as bright as the camera shows anything, and its shape is not a flame's; lower "
     "the exposure";
+constexpr const char* kFrozen =
+    "the film stands still, {%} of its frames repeat the one before; give a part in which it moves throughout";
 constexpr double kIrregular = 0.15;    // share of lost frames above which they are the cause of other faults
 constexpr double kClippedShape = 0.5;  // share of clipped area above which a shape counts as overexposed
 
@@ -60,7 +62,7 @@ constexpr std::array<FactRow, 19> kFacts{{
     {"tracked", Of::kFilm, "an outline was found in {} frames only; give a longer clip"},
 }};
 static_assert(kVerdictCurves.size() == kFacts.size());
-constexpr std::size_t kLost = 11;
+constexpr std::size_t kLost = 11, kRepeated = 12;
 
 // Share of rows without an outline, among rows in which the flame burns and that have their own frame.
 double missing_share(R r) {
@@ -121,7 +123,8 @@ std::string sentence_of(std::size_t fact, R r) {
       {"{clipped}", percent(f.clipped)},
   }};
   const bool flat = kFacts[fact].sentence == kShape && f.clipped > kClippedShape;
-  std::string out = flat ? kGlare : kFacts[fact].sentence;
+  const bool frozen = fact == kRepeated && 2 * f.frozen > r.duplicates && f.stands < 2;
+  std::string out = flat ? kGlare : frozen ? kFrozen : kFacts[fact].sentence;
   for (const auto& [name, text] : names) {
     const auto at = out.find(name);
     if (at != std::string::npos) out.replace(at, std::char_traits<char>::length(name), text);

@@ -126,6 +126,24 @@ TEST(OutlineCapture, FourDuplicatesInARowEndTheEpisode) {
   EXPECT_EQ(episodes(captured->recording).size(), 2u);
 }
 
+TEST(OutlineCapture, AFilmThatStandsStillEveryOtherSecondIsNotUsable) {
+  const auto captured = capture(240, [](int k) { return noisy_flame(k / 30 % 2 == 0 ? k : k / 30 * 30 - 1); });
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_EQ(captured->report.duplicates, 120u);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("the film stands still, 50 % of its frames repeat the one before"));
+}
+
+TEST(OutlineCapture, APictureThatStandsAtTheEndIsNoEvidenceAndNoFlameThatWentOut) {
+  const auto captured = capture(150, [](int k) { return noisy_flame(std::min(k, 119)); });
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  EXPECT_EQ(captured->report.tracked, 120u);
+  EXPECT_TRUE(missing(*captured, 120) && missing(*captured, 149));
+  EXPECT_TRUE(is_flagged(captured->recording, kLostRows, 130));
+  EXPECT_EQ(captured->report.out_at, std::nullopt);
+}
+
 // Nothing is missing in slow motion, whether its repeats are exact or each has a little grain of its own.
 TEST(OutlineCapture, SlowMotionIsNamedAndNothingIsMissing) {
   for (const int times : {2, 3, 6}) {

@@ -159,6 +159,29 @@ TEST(OutlineCapture, AFlameThatIsLitLaterIsWaitedFor) {
   EXPECT_NEAR(captured->recording.channels[16].samples[100], 80, 1);
 }
 
+// An editor's black of two seconds: the first frames after it show a small round flame, the glimpses a
+// slender one that leans.
+TEST(OutlineCapture, GlimpsesOfAFlameThatIsLitLaterStillShapeItsCurve) {
+  const auto picture = [](int k) {
+    Flame flame = support::swaying(k);
+    const double sway = std::sin(0.35 * k);
+    const bool lively = k >= 110;
+    flame.base_x = 110, flame.lean = (lively ? 50 : 1) * sway;
+    flame.half_width = lively ? 9 : 34, flame.height = lively ? 140 + 3 * sway : 60;
+    Plane plane = k < 60 ? Plane(220, 180, 8) : support::flame_picture(flame, 220);
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  };
+  const auto residual = [&](const std::vector<int>& glimpses) {
+    OutlineCapture capturing(options_for());
+    for (const int k : glimpses) capturing.glimpse(grey_picture(picture(k).view()));
+    for (int k = 0; k < 240; ++k) EXPECT_TRUE(capturing.feed(grey_picture(picture(k).view())));
+    return capturing.finish()->report.residual;
+  };
+  const double calm = residual({}), lively = residual({125, 140, 160, 183});
+  EXPECT_LT(lively, 0.8 * calm) << calm;
+}
+
 // A flame that burns from the 71st frame on, beside what is painted before it.
 void expect_that_the_flame_is_found(const std::function<Plane(int)>& before,
                                     const std::function<Flame(int)>& flame_at) {

@@ -58,6 +58,7 @@ struct OutlineFacts {
   bool fades_out = false;          ///< the object dims before the last outline, as in a fade to black
   double lost = 0;                 ///< share of the clip's rows without a frame, filled or not
   double repeated = 0;             ///< share of the clip's rows whose frame repeats the previous one
+  std::size_t frozen = 0;          ///< number of these rows in stretches in which the film stands still
   double jumps = 0;                ///< share of steps in which base or height change more than a flame's can
   std::array<double, 4> border{};  ///< share of rows that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< root-mean-square motion of the shape relative to its base, over median height
