@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.hpp"
 #include "capture/capture_clip.hpp"
 #include "capture/clip/clip_ear.hpp"
 #include "capture/clip/views/view_join.hpp"
@@ -35,20 +36,18 @@ ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   return times;
 }
 
-// Passes a clip's sound to `hear`. Returns the sound's facts; empty where there is none.
+// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty where there is none.
 template <class Hear>
-Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, Hear hear) {
+Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, double speed, Hear hear) {
   Result<void> heard;
   auto info = stream_sound(path, [&](const SoundInfo& sound, std::span<const float> samples) {
-    heard = hear(SoundFormat{.rate_hz = sound.rate_hz, .channels = sound.channels}, sound.begin, samples);
+    heard =
+        hear(SoundFormat{.rate_hz = speed * sound.rate_hz, .channels = sound.channels}, sound.begin / speed, samples);
     return static_cast<bool>(heard);
   });
   if (!heard) return heard.error();
   return info;
 }
-
-// Inverts the camera's transfer function (ITU-R BT.709-6, item 1.2).
-double linear_light(double value) { return value < 0.081 ? value / 4.5 : std::pow((value + 0.099) / 1.099, 1 / 0.45); }
 
 // Mean linear light of a region: black 0, white 1.
 double light_of(const Picture& picture, const Region& region, std::vector<std::uint8_t>& pixels) {
@@ -64,25 +63,19 @@ double light_of(const Picture& picture, const Region& region, std::vector<std::u
   return sum / static_cast<double>(pixels.size());
 }
 
-struct Look {
-  bool sound = true;
-  int turn = 0;               // rotation in quarter turns, clockwise
-  FilmFacts* film = nullptr;  // receives the film's facts
-};
-
-Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, const Look& look,
+// Captures a clip that is rotated by quarter turns, clockwise. `film` receives the film's facts.
+Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, int turn, FilmFacts& film,
                          const Progress& progress) {
-  auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames, .turn = look.turn});
+  auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames, .turn = turn});
   if (!reader) return reader.error();
   const VideoInfo& info = reader->info();
-  auto live = LiveCapture::create(
-      {.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images || !look.sound}, options);
+  auto live = LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images}, options);
   if (!live) return live.error();
   if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
-  if (look.film) *look.film = live->picture().film();
-  if (look.sound && !info.images) {
-    const auto heard = hear_sound(path, [&](const SoundFormat& format, double begin, std::span<const float> samples) {
-      return live->hear(format, begin - reader->info().begin, samples);
+  film = live->picture().film();
+  if (!info.images) {
+    const auto heard = hear_sound(path, info.speed, [&](const auto& format, double begin, const auto& samples) {
+      return live->hear(format, begin - info.begin / info.speed, samples);
     });
     if (!heard) return heard.error();
   }
@@ -120,42 +113,63 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // frames tried in each rotation; a mere glow is seldom certain to 0.8
+  constexpr std::int64_t kEnoughFrames = 120;  // frames tried first; a mere glow is seldom certain to 0.8
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
   if (options.flame == 0 || options.dark || film_reason(film)) return {};
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
-    const auto captured = look_at(path, other, {.sound = false, .turn = turn}, progress);
+    FilmFacts ignored;
+    const auto captured = look_at(path, other, turn, ignored, progress);
     return captured && captured->report.verdict->usable &&
            (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > 0.8);
   };
-  const auto frames = [](const FrameRange& of) { return std::to_string(of.first) + ":" + std::to_string(of.last); };
   const std::int64_t first = options.frames ? options.frames->first : 1;
-  ClipCapture other = options;
   if (refused) {
-    const Recording& recording = refused->recording;
-    const std::vector<double>& outline = recording.channels[*find_channel(recording, "p0.x")].samples;
-    other.frames = longest_part(
-        recording, first, [&](std::size_t row) { return std::binary_search(film.cuts.begin(), film.cuts.end(), row); });
-    if (!film.cuts.empty() && other.frames && usable(other))
-      return {"the film is cut; give one scene of it: --frames " + frames(*other.frames), ""};
-    other.frames = longest_part(recording, first, [&](std::size_t row) { return std::isnan(outline[row]); });
-    if (other.frames && usable(other)) return {"", "; a part of it is usable: --frames " + frames(*other.frames)};
+    const auto& channels = refused->recording.channels;
+    const auto cut = [&](std::int64_t frame) {
+      return std::binary_search(film.cuts.begin(), film.cuts.end(), static_cast<std::size_t>(frame - first));
+    };
+    ClipCapture part = options;
+    part.frames = longest_part(refused->recording, first, [&](std::size_t row) {
+      const auto missing = [&](const Channel& channel) { return std::isnan(channel.samples[row]); };
+      return cut(first + static_cast<std::int64_t>(row)) || std::any_of(channels.begin(), channels.end(), missing);
+    });
+    if (part.frames && usable(part)) {
+      const auto [begin, end] = *part.frames;
+      const std::string frames = " --frames " + std::to_string(begin) + ":" + std::to_string(end);
+      if (!cut(begin - 1) && !cut(end + 1)) return {"", "; a part of it is usable:" + frames};
+      return {"the film is cut; give one scene of it:" + frames, ""};
+    }
   }
-  other.frames = {first, first - 1 + std::min(kEnoughFrames, static_cast<std::int64_t>(film.pictures))};
+  const std::int64_t few = std::min(kEnoughFrames, static_cast<std::int64_t>(film.pictures));
+  const auto cures = [&](int flame, int turn) {
+    ClipCapture other = options;
+    other.flame = flame;
+    other.frames = {first, first - 1 + few};
+    if (!usable(other, turn)) return false;
+    other.frames = options.frames;
+    return usable(other, turn);
+  };
   for (const int turn : {2, 1, 3}) {
-    if (usable(other, turn)) return {kTurned[turn], ""};
+    if (cures(options.flame, turn)) return {kTurned[turn], ""};
   }
-  other.flame = 0;
-  return {"", usable(other) ? "; something that moves can be followed, flame or not: --flame 0" : ""};
+  return {"", cures(0, 0) ? "; something that moves can be followed, flame or not: --flame 0" : ""};
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none;
+  if (!is_regular_file(a, none) || !is_regular_file(b, none)) return equivalent(a, b, none);
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
 }
 
 }  // namespace
 
 Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress) {
   FilmFacts film;
-  auto captured = look_at(path, options, {.film = &film}, progress);
+  auto captured = look_at(path, options, 0, film, progress);
   if (captured ? captured->report.verdict->usable : captured.error().message.find("no flame") == std::string::npos)
     return captured;
   const Cure cure = cure_of(path, options, captured, film, progress);
@@ -174,7 +188,9 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   const auto unusable = [&](const Error& why) {
     return Error{path.string() + ": its sound cannot be used: " + why.message};
   };
-  const auto heard = hear_sound(path, [&](const SoundFormat& format, double begin, std::span<const float> samples) {
+  const auto film = VideoReader::open(path, {.rate_hz = frames ? rate_hz : 0, .frames = {}});
+  const double speed = film ? film->info().speed : 1;
+  const auto heard = hear_sound(path, speed, [&](const SoundFormat& format, double begin, const auto& samples) {
     if (!ear) {
       auto made = ClipEar::create(format, rate_hz);
       if (!made) return Result<void>(unusable(made.error()));
@@ -198,18 +214,6 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   return wind;
 }
 
-namespace {
-
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code none;
-  if (!is_regular_file(a, none) || !is_regular_file(b, none)) return equivalent(a, b, none);
-  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
-  using Bytes = std::istreambuf_iterator<char>;
-  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
-}
-
-}  // namespace
-
 Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
                                ClipCapture options, const Progress& progress) {
   if (auto ok = check_azimuths(azimuths, std::vector<std::string>(films.begin(), films.end())); !ok) return ok.error();
@@ -227,7 +231,8 @@ Result<Captured> capture_views(std::span<const std::filesystem::path> films, std
     FilmedView view{azimuths[k], std::move(film->recording), {}, 0};
     const auto reader = VideoReader::open(films[k], {.rate_hz = options.rate_hz, .frames = {}});
     if (reader && !reader->info().images) {
-      const auto heard = hear_wind(films[k], view.recording.rate_hz);
+      const auto rows = options.rate_hz > 0 ? std::optional(view.recording.rows()) : std::nullopt;
+      const auto heard = hear_wind(films[k], view.recording.rate_hz, rows);
       if (!heard) return heard.error();
       view.heard_from = -reader->info().begin;
       for (const WindFrame& frame : heard->frames) view.loudness.push_back(static_cast<double>(frame.rms));
@@ -269,14 +274,9 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     const double done = static_cast<double>(channel.samples.size()) / frames;
     if (progress && !progress("measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
   }
-  double sum = 0, rows = 0;
-  for (const double value : channel.samples) {
-    if (std::isnan(value)) continue;
-    sum += value;
-    rows += 1;
-  }
-  if (!(sum > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
-  for (double& value : channel.samples) value /= sum / rows;
+  const double usual = mean(present(channel.samples));
+  if (!(usual > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
+  for (double& value : channel.samples) value /= usual;
   Recording recording{.source = path.string(), .rate_hz = reader->info().rate_hz};
   recording.channels.push_back(std::move(channel));
   return recording;

@@ -137,12 +137,14 @@ TEST_F(Clip, AFilmStripShowsTheLearnedFlameInTheClipsOwnLightAndCrop) {
 
 TEST_F(Clip, AFlameIsDrawnOnTheCandleOfItsFilm) {
   constexpr std::uint32_t kWax = 0xFF208040U;  // greener than any that Wisp would draw
+  fs::create_directories(at("frames"));
   auto film = VideoWriter::create(at("clip.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30});
   ASSERT_TRUE(film);
   for (int k = 0; k < kFrames; ++k) {
     Image image = flame_frame(k, {80, 155}, 0.4);
     for (int y = 160; y < kHeight; ++y) std::ranges::fill(image.row(y).subspan(60, 40), kWax);
     ASSERT_TRUE(film->write(image));
+    ASSERT_TRUE(write_png(at("frames/" + std::to_string(k) + ".png"), image));
   }
   ASSERT_TRUE(film->finish());
   ASSERT_EQ(wisp("capture flame " + at("clip.mp4") + " --frames 11:90 -o " + at("rec.csv")).status, 0);
@@ -150,7 +152,7 @@ TEST_F(Clip, AFlameIsDrawnOnTheCandleOfItsFilm) {
   ASSERT_EQ(wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp")).status, 0);
   const std::string run = "run " + at("m.wisp") + " --frames 40";
   fs::create_directories(at("pictures"));
-  for (const char* name : {"rec.csv", "clip.mp4"}) {
+  for (const char* name : {"rec.csv", "clip.mp4", "frames"}) {
     const Said said = wisp(run + " --clip " + at(name) + " -o " + at("pictures/1.png"));
     ASSERT_EQ(said.status, 0) << said.err;
     auto reader = VideoReader::open(at("pictures"), {.rate_hz = 1});

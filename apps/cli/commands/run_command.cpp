@@ -358,7 +358,8 @@ Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& pl
   if (!curve) return curve.error();
   const auto captured_from = [&]() -> Result<Recording> {
     if (is_table(path)) return read_csv(path);
-    auto captured = capture(path, {.flame = 1, .curve = *curve}, terminal.progress());
+    const double rate_hz = std::filesystem::is_directory(path) ? play.model.rate_hz : 0;
+    auto captured = capture(path, {.flame = 1, .rate_hz = rate_hz, .curve = *curve}, terminal.progress());
     if (!captured) return captured.error();
     const ReportVerdict& verdict = *captured->report.verdict;
     if (!verdict.usable) return Error{path + ": its flame is not found: " + verdict.reason};

@@ -1,7 +1,10 @@
 #include "capture/media/video_sources.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "capture/media/wide_colours.hpp"
 
 namespace wisp {
 namespace {
@@ -21,9 +24,10 @@ bool plain_bytes(const AVPixFmtDescriptor& format) {
   return true;
 }
 
-bool old_full_range(AVPixelFormat format) {
-  return format == AV_PIX_FMT_YUVJ420P || format == AV_PIX_FMT_YUVJ422P || format == AV_PIX_FMT_YUVJ444P ||
-         format == AV_PIX_FMT_YUVJ440P || format == AV_PIX_FMT_YUVJ411P;
+bool full_range(const AVFrame& frame) {
+  const int format = frame.format;
+  return frame.color_range == AVCOL_RANGE_JPEG || format == AV_PIX_FMT_YUVJ420P || format == AV_PIX_FMT_YUVJ422P ||
+         format == AV_PIX_FMT_YUVJ444P || format == AV_PIX_FMT_YUVJ440P || format == AV_PIX_FMT_YUVJ411P;
 }
 
 Picture borrowed(const AVFrame& frame) {
@@ -40,9 +44,7 @@ Picture borrowed(const AVFrame& frame) {
   out.chroma_shift_x = format.log2_chroma_w;
   out.chroma_shift_y = format.log2_chroma_h;
   out.bt709 = frame.colorspace == AVCOL_SPC_BT709;
-  out.full_range = rgb || frame.color_range == AVCOL_RANGE_JPEG ||
-                   old_full_range(static_cast<AVPixelFormat>(frame.format)) ||
-                   (grey && frame.color_range != AVCOL_RANGE_MPEG);
+  out.full_range = rgb || full_range(frame) || (grey && frame.color_range != AVCOL_RANGE_MPEG);
   return out;
 }
 
@@ -90,21 +92,27 @@ std::pair<int, int> FramePictures::shown(int width, int height) const {
 Result<const AVFrame*> FramePictures::plain(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = *descriptor(frame);
   const auto size = stretched(frame.width, frame.height);
-  const bool square = size == std::pair(frame.width, frame.height);
-  if (plain_bytes(format) && square) return &frame;
+  const bool square = size == std::pair(frame.width, frame.height), wide = has_wide_colours(frame);
+  if (plain_bytes(format) && square && !wide) return &frame;
   const bool rgb = (format.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
-  const AVPixelFormat target = format.nb_components < 3 && !rgb ? AV_PIX_FMT_GRAY8
-                               : rgb                            ? AV_PIX_FMT_RGB24
-                                                                : AV_PIX_FMT_YUV444P;
+  const AVPixelFormat target = wide                               ? AV_PIX_FMT_RGB48
+                               : format.nb_components < 3 && !rgb ? AV_PIX_FMT_GRAY8
+                               : rgb                              ? AV_PIX_FMT_RGB24
+                                                                  : AV_PIX_FMT_YUV444P;
   if (!take_frame(plain_, size, target)) return Error{"not enough memory for a frame"};
   to_plain_.reset(sws_getCachedContext(to_plain_.release(), frame.width, frame.height,
                                        static_cast<AVPixelFormat>(frame.format), size.first, size.second, target,
                                        square ? SWS_POINT : SWS_BILINEAR, nullptr, nullptr, nullptr));
   if (!to_plain_) return Error{std::string("pixel format ") + format.name + " cannot be converted"};
+  const int* matrix = sws_getCoefficients(frame.colorspace == AVCOL_SPC_BT709 ? SWS_CS_ITU709 : SWS_CS_BT2020);
+  if (wide) sws_setColorspaceDetails(to_plain_.get(), matrix, full_range(frame), matrix, 1, 0, 1 << 16, 1 << 16);
   sws_scale(to_plain_.get(), frame.data, frame.linesize, 0, frame.height, plain_->data, plain_->linesize);
   plain_->colorspace = frame.colorspace;
   plain_->color_range = frame.color_range;
-  return plain_.get();
+  if (!wide) return plain_.get();
+  if (!take_frame(narrow_, size, AV_PIX_FMT_RGB24)) return Error{"not enough memory for a frame"};
+  narrow_colours(frame, *plain_, *narrow_);
+  return narrow_.get();
 }
 
 Picture FramePictures::turned(const Picture& picture) {
@@ -136,36 +144,20 @@ Result<Picture> FramePictures::view(const AVFrame& frame) {
 }
 
 RgbImage FramePictures::rgb(const AVFrame& frame) {
-  const auto size = stretched(frame.width, frame.height);
-  RgbImage out{size.first, size.second, {}};
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(out.width);
-  out.pixels.resize(row_bytes * static_cast<std::size_t>(out.height));
-  to_rgb_.reset(sws_getCachedContext(to_rgb_.release(), frame.width, frame.height,
-                                     static_cast<AVPixelFormat>(frame.format), out.width, out.height, AV_PIX_FMT_RGB24,
-                                     SWS_BILINEAR, nullptr, nullptr, nullptr));
-  if (!to_rgb_ || !take_frame(rgb_, size, AV_PIX_FMT_RGB24)) return out;
-  if (frame.colorspace == AVCOL_SPC_BT709) {
-    const int* matrix = sws_getCoefficients(SWS_CS_ITU709);
-    sws_setColorspaceDetails(to_rgb_.get(), matrix, frame.color_range == AVCOL_RANGE_JPEG, matrix, 1, 0, 1 << 16,
-                             1 << 16);
+  const auto [width, height] = shown(frame.width, frame.height);
+  std::vector<std::uint8_t> plane(static_cast<std::size_t>(width) * height);
+  RgbImage out{width, height, std::vector<std::uint8_t>(3 * plane.size())};
+  const auto picture = view(frame);
+  if (!picture) return out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto colour = static_cast<PixelChannel>(static_cast<std::size_t>(PixelChannel::kRed) + k);
+    const PixelChannel channel = has_channel(*picture, colour) ? colour : PixelChannel::kLuma;
+    std::array<std::uint8_t, 256> level{};
+    for (int v = 0; v < 256; ++v) level[v] = static_cast<std::uint8_t>(std::lround(brightness(*picture, channel, v)));
+    extract_channel(*picture, channel, picture->frame(), plane.data());
+    for (std::size_t i = 0; i < plane.size(); ++i) out.pixels[3 * i + k] = level[plane[i]];
   }
-  // The scaler writes whole vectors beyond a row's end: it needs an output frame with padding, copied row by row.
-  sws_scale(to_rgb_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
-  for (int y = 0; y < out.height; ++y) {
-    std::copy_n(rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0], row_bytes,
-                out.pixels.data() + static_cast<std::size_t>(y) * row_bytes);
-  }
-  if (quarter_turns_ == 0) return out;
-  RgbImage shown{
-      quarter_turns_ % 2 == 0 ? out.width : out.height, quarter_turns_ % 2 == 0 ? out.height : out.width, {}};
-  shown.pixels.resize(out.pixels.size());
-  std::vector<std::uint8_t> plane(out.pixels.size() / 3);
-  for (int k = 0; k < 3; ++k) {
-    turn_plane({out.pixels.data() + k, static_cast<std::ptrdiff_t>(row_bytes), 3}, out.width, out.height,
-               quarter_turns_, plane.data());
-    for (std::size_t i = 0; i < plane.size(); ++i) shown.pixels[3 * i + k] = plane[i];
-  }
-  return shown;
+  return out;
 }
 
 }  // namespace wisp

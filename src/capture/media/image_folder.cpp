@@ -49,15 +49,25 @@ AVCodecID codec_of(const std::filesystem::path& path) {
   return AV_CODEC_ID_NONE;
 }
 
-// The last group of digits in the file's name.
-std::string digits_in(const std::filesystem::path& path) {
-  const std::string stem = path.stem().string();
-  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  std::size_t end = stem.size();
-  while (end > 0 && !digit(stem[end - 1])) --end;
-  std::size_t begin = end;
-  while (begin > 0 && digit(stem[begin - 1])) --begin;
-  return stem.substr(begin, end - begin);
+// A group of digits in the file's name, counted from the last one; empty where there are fewer.
+std::string digits_in(const std::filesystem::path& path, int group = 0) {
+  constexpr const char* kDigits = "0123456789";
+  std::string stem = path.stem().string();
+  for (;; --group) {
+    stem.resize(stem.find_last_of(kDigits) + 1);  // npos + 1 is 0
+    const std::size_t begin = stem.find_last_not_of(kDigits) + 1;
+    if (group == 0 || stem.empty()) return stem.substr(begin);
+    stem.resize(begin);
+  }
+}
+
+// The last group of digits in which images' names differ: others state a size, or how many there are.
+int counting_group(const std::vector<std::filesystem::path>& images) {
+  for (int group = 0; !digits_in(images.front(), group).empty(); ++group) {
+    const auto differs = [&](const auto& path) { return digits_in(path, group) != digits_in(images.front(), group); };
+    if (std::any_of(images.begin(), images.end(), differs)) return group;
+  }
+  return 0;
 }
 
 // Whether a PNG or JPEG file is truncated: decoders fill the missing part with grey.
@@ -80,26 +90,29 @@ bool ImageFolder::reads(const std::filesystem::path& path) {
 }
 
 Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::filesystem::path& path) {
-  std::vector<NumberedImage> images;
+  std::vector<std::filesystem::path> paths;
   std::error_code code;
   for (const auto& entry : std::filesystem::directory_iterator(path, code)) {
-    if (!reads(entry.path())) continue;
-    const std::string digits = digits_in(entry.path());
-    if (digits.size() > kMaxDigits) {
-      return Error{entry.path().string() + ": its number has " + std::to_string(digits.size()) +
-                   " digits, expected at most 18; number the images by frames"};
-    }
-    std::error_code ignored;
-    if (!entry.is_regular_file(ignored)) {
-      return Error{entry.path().string() + ": is no plain file, expected an image; remove it from the folder"};
-    }
-    images.push_back({entry.path(), std::stoll(digits), 0});
+    if (reads(entry.path())) paths.push_back(entry.path());
   }
   if (code) return Error{path.string() + ": the folder cannot be read (" + code.message() + ")"};
-  if (images.empty()) {
+  if (paths.empty()) {
     return Error{path.string() +
                  ": found no numbered images in the folder, expected PNG, JPEG, PGM, PPM, BMP or TIFF " +
                  "such as 000.png"};
+  }
+  std::vector<NumberedImage> images;
+  for (const int group = counting_group(paths); const auto& image : paths) {
+    const std::string digits = digits_in(image, group);
+    if (digits.empty() || digits.size() > kMaxDigits) {
+      return Error{image.string() + ": its number has " + std::to_string(digits.size()) +
+                   " digits, expected 1 to 18; number the images by frames"};
+    }
+    std::error_code ignored;
+    if (!is_regular_file(image, ignored)) {
+      return Error{image.string() + ": is no plain file, expected an image; remove it from the folder"};
+    }
+    images.push_back({image, std::stoll(digits), 0});
   }
   std::sort(images.begin(), images.end(), [](const NumberedImage& a, const NumberedImage& b) {
     return a.number != b.number ? a.number < b.number : a.path < b.path;

@@ -1,5 +1,7 @@
 #include "capture/media/libav.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <vector>
 
@@ -75,6 +77,25 @@ Result<FormatOwner> open_media(const std::filesystem::path& path) {
   code = look_at_tracks(*format);
   if (code < 0) return Error{name + ": no track can be read (" + libav_message(code) + "); give a file that plays"};
   return format;
+}
+
+double stated_seconds(const AVFormatContext& format) {
+  if (format.duration == AV_NOPTS_VALUE || format.duration_estimation_method == AVFMT_DURATION_FROM_BITRATE) return 0;
+  // Matroska's duration counts from 0, whatever the time of the first frame.
+  const bool from_zero = std::strstr(format.iformat->name, "matroska") != nullptr;
+  const std::int64_t before = from_zero && format.start_time != AV_NOPTS_VALUE ? format.start_time : 0;
+  return std::max(0.0, static_cast<double>(format.duration - before) / AV_TIME_BASE);
+}
+
+double end_of(const AVFormatContext& format, const AVPacket& packet) {
+  const double start = format.start_time == AV_NOPTS_VALUE ? 0 : static_cast<double>(format.start_time) / AV_TIME_BASE;
+  const double tick = av_q2d(format.streams[packet.stream_index]->time_base);
+  return packet.pts == AV_NOPTS_VALUE ? 0 : static_cast<double>(packet.pts + packet.duration) * tick - start;
+}
+
+bool is_truncated(const AVFormatContext& format, double end) {
+  constexpr double kExact = 0.95, kSlack = 0.1;  // a duration is not exact to the frame; seconds
+  return end < kExact * stated_seconds(format) - kSlack;
 }
 
 Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads) {

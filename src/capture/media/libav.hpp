@@ -79,6 +79,15 @@ std::string libav_message(int code);
 /// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
+/// Duration that a file's header states, of its longest track, in seconds; 0: none is stated.
+double stated_seconds(const AVFormatContext& format);
+
+/// End of a packet, in seconds after the file's beginning; 0 where its time is unknown.
+double end_of(const AVFormatContext& format, const AVPacket& packet);
+
+/// Whether the packets of a file, of all tracks, end at `end`, earlier than its header states: it is truncated.
+bool is_truncated(const AVFormatContext& format, double end);
+
 /// Opens a decoder with `threads` threads for one track.
 /// Errors: a codec that FFmpeg cannot decode.
 Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads);

@@ -86,7 +86,9 @@ bool drain(SoundTrack& track, const SoundBlock& block) {
 }
 
 void decode_all(SoundTrack& track, const SoundBlock& block) {
+  double end = 0;
   while (with_memory(av_read_frame, track.format.get(), track.packet.get()) >= 0) {
+    end = std::max(end, end_of(*track.format, *track.packet));
     if (track.packet->stream_index == track.track) {
       track.info.cut = (track.packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
       with_memory(avcodec_send_packet, track.codec.get(), track.packet.get());
@@ -94,6 +96,7 @@ void decode_all(SoundTrack& track, const SoundBlock& block) {
     av_packet_unref(track.packet.get());
     if (!drain(track, block)) return;
   }
+  track.info.cut = track.info.cut || is_truncated(*track.format, end);
   with_memory(avcodec_send_packet, track.codec.get(), nullptr);
   drain(track, block);
 }
@@ -107,9 +110,6 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
   track.format = std::move(format).value();
   track.track = av_find_best_stream(track.format.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
   if (track.track < 0) return std::optional<SoundInfo>();
-  for (unsigned k = 0; k < track.format->nb_streams; ++k) {
-    if (static_cast<int>(k) != track.track) track.format->streams[k]->discard = AVDISCARD_ALL;
-  }
   const AVStream& sound = *track.format->streams[track.track];
   auto codec = open_decoder(path, sound, 1);
   if (!codec) return codec.error();

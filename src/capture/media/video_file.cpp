@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/statistics.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -33,27 +34,21 @@ std::vector<double> frame_times(const std::filesystem::path& path, int track) {
 }
 
 // Most common frame rate of an irregular film. Times are often rounded to milliseconds.
-double usual_rate(const std::vector<double>& times, double nominal, double mean) {
+double usual_rate(const std::vector<double>& times, double nominal, double average) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < times.size(); ++k) {
     if (times[k] > times[k - 1]) steps.push_back(times[k] - times[k - 1]);
   }
-  if (steps.empty()) return mean > 0 ? mean : nominal;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  if (steps.empty()) return average > 0 ? average : nominal;
   // Jitter has either sign; lost frames and a reduced rate in the dark double the interval.
-  const double median = steps[steps.size() / 2];
-  double sum = 0, count = 0;
-  for (const double one : steps) {
-    if (one < 0.4 * median || one > 1.6 * median) continue;
-    sum += one;
-    count += 1;
-  }
-  const double step = sum / count;
+  const double usual = median(steps);
+  std::erase_if(steps, [&](double one) { return one < 0.4 * usual || one > 1.6 * usual; });
+  const double step = mean(steps);
   const auto near = [&](double rate, double share) { return rate > 0 && std::abs(rate * step - 1) < share; };
   for (int part = 1; part <= 8; ++part) {
     if (nominal < kHighestRate && near(nominal / part, 0.01)) return nominal / part;
   }
-  if (near(mean, 0.01)) return mean;
+  if (near(average, 0.01)) return average;
   for (const double rate : {24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0, 240.0}) {
     if (near(rate, 0.05)) return rate;
   }
@@ -93,9 +88,11 @@ int quarter_turns(const AVStream& track) {
   return static_cast<int>(std::lround(degrees / 90) % 4 + 4) % 4;
 }
 
+bool is_mov(const AVFormatContext& format) { return std::strstr(format.iformat->name, "mov") != nullptr; }
+
 // Number of frames in the file that are not displayed: a phone trims a film by an edit list and keeps all frames.
 std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
-  if (std::strstr(format.iformat->name, "mov") == nullptr) return 0;
+  if (!is_mov(format)) return 0;
   auto& indexed = const_cast<AVStream&>(track);
   const int listed = avformat_index_get_entries_count(&track);
   std::int64_t shown = 0;
@@ -107,14 +104,8 @@ std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
 
 std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track, double rate) {
   if (track.nb_frames > 0) return track.nb_frames - cut_out(format, track);
-  if (track.duration != AV_NOPTS_VALUE) {
-    return std::llround(static_cast<double>(track.duration) * av_q2d(track.time_base) * rate);
-  }
-  if (format.duration == AV_NOPTS_VALUE) return 0;
-  // Matroska's duration counts from 0, whatever the time of the first frame.
-  const bool from_zero = std::strstr(format.iformat->name, "matroska") != nullptr;
-  const std::int64_t before = from_zero && format.start_time != AV_NOPTS_VALUE ? format.start_time : 0;
-  return std::max<std::int64_t>(0, std::llround(static_cast<double>(format.duration - before) / AV_TIME_BASE * rate));
+  const double seconds = static_cast<double>(track.duration) * av_q2d(track.time_base);
+  return std::llround((track.duration != AV_NOPTS_VALUE ? seconds : stated_seconds(format)) * rate);
 }
 
 }  // namespace
@@ -134,7 +125,9 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   file.codec_ = std::move(codec).value();
   file.seconds_per_tick_ = av_q2d(track.time_base);
   VideoInfo& info = file.info_;
-  info.rate_hz = options.rate_hz > 0 ? options.rate_hz : grid_rate(path, track);
+  const double own_rate = grid_rate(path, track);
+  info.rate_hz = options.rate_hz > 0 ? options.rate_hz : own_rate;
+  if (own_rate > 0) info.speed = info.rate_hz / own_rate;
   if (!(info.rate_hz > 0)) return Error{path.string() + ": states no frame rate; give it as --rate"};
   const int turns = (quarter_turns(track) + options.turn) % 4;
   const auto aspect = pixel_aspect(path, *file.format_, *file.format_->streams[file.track_]);
@@ -145,13 +138,10 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   const auto [width, height] = file.pictures_.shown(track.codecpar->width, track.codecpar->height);
   info.width = width;
   info.height = height;
-  info.frames = stated_frames(*file.format_, track, info.rate_hz);
+  info.frames = stated_frames(*file.format_, track, info.rate_hz / info.speed);
   info.has_sound = av_find_best_stream(file.format_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0) >= 0;
   file.packet_.reset(av_packet_alloc());
   file.frame_.reset(av_frame_alloc());
-  for (unsigned k = 0; k < file.format_->nb_streams; ++k) {
-    if (static_cast<int>(k) != file.track_) file.format_->streams[k]->discard = AVDISCARD_ALL;
-  }
   return file;
 }
 
@@ -164,6 +154,7 @@ bool VideoFile::send_packet() {
       with_memory(avcodec_send_packet, codec_.get(), nullptr);
       return false;
     }
+    end_ = std::max(end_, end_of(*format_, *packet_));
     const bool ours = packet_->stream_index == track_;
     const bool whole = (packet_->flags & AV_PKT_FLAG_CORRUPT) == 0;
     if (ours && !whole) ++broken_;
@@ -267,11 +258,12 @@ std::vector<std::string> VideoFile::warnings() const {
   if (broken_ > 0)
     out.push_back(name + ": " + std::to_string(broken_) +
                   (broken_ == 1 ? " broken frame was left out" : " broken frames were left out"));
-  // A duration is not exact to the frame; a frame count is.
+  // Only MP4 counts frames exactly: AVI also counts those that were dropped while it was recorded.
+  const bool exact = is_mov(*format_);
+  const std::int64_t least = exact ? info_.frames : info_.frames - info_.frames / 20 - 2;
   const bool counted = format_->streams[track_]->nb_frames > 0;
-  const std::int64_t least = counted ? info_.frames : info_.frames - info_.frames / 20 - 2;
-  const std::int64_t found = counted ? decoded_ + broken_ : grid_->last() + 1;
-  if (to_the_end && (read_error_ || found < least)) {
+  const bool lacks = counted ? (exact ? decoded_ + broken_ : grid_->last() + 1) < least : is_truncated(*format_, end_);
+  if (to_the_end && (read_error_ || lacks)) {
     out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(info_.frames) +
                   " stated; what is there is used");
   }

@@ -38,9 +38,8 @@ class FramePictures {
   int quarter_turns_ = 0;
   double aspect_ = 1;
   ScalerOwner to_plain_;
-  ScalerOwner to_rgb_;
   FrameOwner plain_;
-  FrameOwner rgb_;
+  FrameOwner narrow_;
   std::vector<std::uint8_t> turned_;
 };
 
@@ -107,6 +106,7 @@ class VideoFile {
   bool ended_ = false;
   bool read_error_ = false;
   std::int64_t decoded_ = 0;
+  double end_ = 0;  // of the packets read, of all tracks, seconds after the file's beginning
   std::optional<FrameGrid> grid_;
   std::int64_t broken_ = 0;
 };

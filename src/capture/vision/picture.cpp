@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "wisp/capture/vision/image.hpp"
 
@@ -256,6 +257,10 @@ double brightness(const Picture& picture, PixelChannel channel, double stored) {
   return std::clamp((stored - 16) * (255.0 / 219.0), 0.0, 255.0);
 }
 
+double linear_light(double signal) {
+  return signal < 0.081 ? signal / 4.5 : std::pow((signal + 0.099) / 1.099, 1 / 0.45);
+}
+
 OwnedPicture::OwnedPicture(const Picture& picture) : picture_(picture) {
   const int planes = picture.layout == PictureLayout::kGrey ? 1 : 3;
   std::array<std::array<int, 2>, 3> size{};
@@ -297,9 +302,7 @@ ImageView crop(const ImageView& image, const Region& region) {
   return {image.row(region.y) + region.x, region.width, region.height, image.stride};
 }
 
-namespace {
 constexpr std::array<std::string_view, 4> kChannelNames{"luma", "red", "green", "blue"};
-}  // namespace
 
 std::string_view channel_name(PixelChannel channel) { return kChannelNames[static_cast<std::size_t>(channel)]; }
 

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 
@@ -58,8 +60,9 @@ class FilmTimes : public testing::Test {
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
   }
 
-  Captured captured(const std::string& name) {
+  Captured captured(const std::string& name, double rate_hz = 0) {
     FlameCapture options;
+    options.rate_hz = rate_hz;
     options.wind = WindMeasure::kRms;
     auto clip = capture(folder_ / name, options);
     EXPECT_TRUE(clip) << (clip ? "" : clip.error().message);
@@ -111,6 +114,51 @@ TEST_F(FilmTimes, AFilmMostlyWithoutItsSoundIsNotUsable) {
   EXPECT_THAT(clip.report.verdict->reason, HasSubstr("its sound is missing for 7"));
 }
 
+std::optional<FrameRange> advised(const std::string& reason) {
+  FrameRange range;
+  const std::size_t at = reason.find("--frames ");
+  if (at == std::string::npos) return {};
+  const int found = std::sscanf(reason.c_str() + at, "--frames %" SCNd64 ":%" SCNd64, &range.first, &range.last);
+  return found == 2 ? std::optional(range) : std::nullopt;
+}
+
+TEST_F(FilmTimes, TheAdviceOnAFilmMostlyWithoutItsSoundHelpsWhenItIsFollowed) {
+  film("flame.y4m");
+  sound("puff.wav", 0.3, 0.6, 1.9);
+  made("-i flame.y4m -i puff.wav -c:a aac -pix_fmt yuv420p short.mp4");
+  const std::string reason = captured("short.mp4").report.verdict->reason;
+  EXPECT_THAT(reason, HasSubstr("its sound is missing for 5"));
+  EXPECT_THAT(reason, Not(HasSubstr("--flame")));
+  const auto part = advised(reason);
+  ASSERT_TRUE(part) << reason;
+  FlameCapture options;
+  options.frames = *part;
+  const auto clip = capture(folder_ / "short.mp4", options);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_TRUE(clip->report.verdict->usable) << clip->report.verdict->reason;
+}
+
+TEST_F(FilmTimes, NoAdviceIsGivenWhereNothingHelpsAgainstMissingSound) {
+  film("flame.y4m");
+  sound("puff.wav", 0.3, 0.6, 1);
+  made("-i flame.y4m -i puff.wav -c:a aac -pix_fmt yuv420p short.mp4");
+  EXPECT_THAT(captured("short.mp4").report.verdict->reason, Not(HasSubstr("--f")));
+}
+
+TEST_F(FilmTimes, AFilmTakenAtAnotherRateKeepsItsSoundBesideIt) {
+  film("flame.y4m");
+  sound("puff.wav", 2, 2.6);
+  made("-i flame.y4m -i puff.wav -c:a aac -pix_fmt yuv420p film.mp4");
+  EXPECT_NEAR(static_cast<double>(first_wind(captured("film.mp4"))), 2 * kRate, 2);
+  for (const double rate : {2.0 * kRate, 0.5 * kRate}) {
+    EXPECT_NEAR(static_cast<double>(first_wind(captured("film.mp4", rate))), 2 * kRate, 2) << rate;
+    const auto wind = hear_wind(folder_ / "film.mp4", rate, kFrames);
+    ASSERT_TRUE(wind) << wind.error().message;
+    EXPECT_EQ(wind->uncovered, 0u) << rate;
+    EXPECT_LT(wind->frames[2 * kRate - 4].rms, 0.1 * wind->frames[2 * kRate + 4].rms) << rate;
+  }
+}
+
 // A phone lowers its rate in the dark: 30 frames a second, then 12. The sound does not.
 TEST_F(FilmTimes, FramesAndSoundArePlacedByTheirTimesWhereTheRateChanges) {
   film("flame.y4m", 80);
@@ -152,6 +200,37 @@ TEST_F(FilmTimes, AFilmThatBeginsLateIsNotCutOff) {
   EXPECT_NEAR(static_cast<double>(reader->info().frames), kFrames, 2);
   EXPECT_EQ(places(*reader).size(), static_cast<std::size_t>(kFrames));
   EXPECT_THAT(reader->warnings(), IsEmpty());
+}
+
+// Browsers and phones stop the sound after the picture, and some containers state the longer length alone.
+TEST_F(FilmTimes, AFilmWhoseSoundIsLongerIsCutOffOnlyWhereItIsHalved) {
+  film("flame.y4m");
+  sound("puff.wav", 0.3, 0.6, 6);
+  for (const std::string name : {"film.mkv", "film.avi", "film.mov"}) {
+    made("-i flame.y4m -i puff.wav -c:v mjpeg -c:a pcm_s16le -pix_fmt yuvj420p -movflags +faststart " + name);
+    const auto warnings = [&] {
+      auto reader = VideoReader::open(folder_ / name);
+      EXPECT_TRUE(reader) << name;
+      places(*reader);
+      return reader->warnings();
+    };
+    EXPECT_THAT(warnings(), IsEmpty()) << name;
+    std::filesystem::resize_file(folder_ / name, std::filesystem::file_size(folder_ / name) / 2);
+    EXPECT_THAT(warnings(), Contains(HasSubstr("cut off"))) << name;
+  }
+}
+
+TEST_F(FilmTimes, AHalvedSoundFileIsNamedInEveryContainerThatStatesItsLength) {
+  sound("puff.wav", 0.3, 0.6, 6);
+  for (const std::string name : {"half.flac", "half.mka", "half.m4a", "half.aiff", "half.caf", "half.au", "half.w64"}) {
+    made("-i puff.wav " + std::string(name == "half.m4a" ? "-c:a aac -movflags +faststart " : "") + name);
+    const auto whole = hear_wind(folder_ / name, kRate);
+    EXPECT_TRUE(whole) << whole.error().message;
+    std::filesystem::resize_file(folder_ / name, std::filesystem::file_size(folder_ / name) / 2);
+    const auto half = hear_wind(folder_ / name, kRate);
+    ASSERT_FALSE(half) << name;
+    EXPECT_THAT(half.error().message, HasSubstr("it was cut off after")) << name;
+  }
 }
 
 TEST_F(FilmTimes, PixelsThatAreNotSquareAreStretched) {

@@ -102,11 +102,23 @@ TEST(ImageFolder, ALongHoleInTheNumbersIsTakenAsTwoSeconds) {
   }
 }
 
+// Names may also state how many there are, or the picture's height.
+TEST(ImageFolder, ImagesAreNumberedByTheDigitsInWhichTheyDiffer) {
+  ScratchFolder folder("of");
+  for (const int number : {2, 10, 1, 9}) {
+    write_pgm(folder / ("flame_" + std::to_string(number) + "_of_20_720p.pgm"),
+              Plane(16, 12, static_cast<std::uint8_t>(number)));
+  }
+  auto reader = VideoReader::open(folder.path(), kThirty);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(see(*reader).pixel, (std::vector<int>{1, 2, 9, 10}));
+}
+
 TEST(ImageFolder, ANumberThatNoCounterHoldsIsNamed) {
   ScratchFolder folder("digits");
   write_pgm(folder / "1.pgm", Plane(16, 12));
   write_pgm(folder / "9999999999999999999.pgm", Plane(16, 12));
-  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("its number has 19 digits, expected at most 18"));
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("its number has 19 digits, expected 1 to 18"));
 }
 
 TEST(ImageFolder, APipeAmongTheImagesIsNamedAndNotWaitedFor) {

@@ -17,7 +17,7 @@ struct SoundInfo {
   std::size_t samples = 0;  ///< samples per channel decoded so far
   double begin = 0;         ///< start of the track, or of a block, seconds after the clip's first frame; may be < 0
   float peak = 0;           ///< largest absolute sample, full scale 1
-  bool cut = false;         ///< the last block is incomplete: the file is truncated
+  bool cut = false;         ///< the file is truncated: its last block is incomplete, or its header states more
 
   /// Returns whether nothing can be heard: peak below −80 dB of full scale.
   bool silent() const { return peak < 1e-4F; }

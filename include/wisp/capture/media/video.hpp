@@ -34,6 +34,7 @@ struct VideoInfo {
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< the clip has a sound track (it may be silent)
   double begin = 0;         ///< time of the first frame read, seconds after the track's first
+  double speed = 1;         ///< rate_hz over the file's own rate, by which its sound is faster too
 };
 
 /// One decoded frame; its picture is valid until the reader's next call.

@@ -68,6 +68,9 @@ void sample_channel(const Picture& picture, PixelChannel channel, const Region& 
 /// Converts a stored value of `channel` to brightness from 0 (black) to 255 (white).
 double brightness(const Picture& picture, PixelChannel channel, double stored);
 
+/// Inverts a camera's transfer function (ITU-R BT.709-6, item 1.2): signal to light, white 1.
+double linear_light(double signal);
+
 /// A picture that owns its planes.
 class OwnedPicture {
  public:

@@ -1,0 +1,15 @@
+#pragma once
+// Pictures in the colours of BT.2020, or of high dynamic range (ITU-R BT.2100), as a camera of BT.709 takes them.
+
+#include "capture/media/libav.hpp"
+
+namespace wisp {
+
+/// Whether a frame has the matrix of BT.2020, or is coded by hybrid log-gamma or perceptual quantisation.
+bool has_wide_colours(const AVFrame& frame);
+
+/// Converts such a frame, given as RGB of 16 bits a channel by its own matrix, to RGB of 8 bits. HDR reference white
+/// becomes white; brighter light is clipped.
+void narrow_colours(const AVFrame& frame, const AVFrame& rgb48, AVFrame& rgb24);
+
+}  // namespace wisp
