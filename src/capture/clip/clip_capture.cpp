@@ -236,7 +236,10 @@ Result<LiveCapture> LiveCapture::create(const ClipSource& source, const ClipCapt
 Result<void> LiveCapture::hear(const SoundFormat& format, double begin, std::span<const float> samples) {
   if (!ear_) {
     auto ear = ClipEar::create(format, source_.rate_hz);
-    if (!ear) return Error{source_.name + ": its sound cannot be used: " + ear.error().message};
+    if (!ear) {
+      return Error{source_.name + ": its sound cannot be used: " + ear.error().message +
+                   "; give the film without it, as by ffmpeg -i IN -c copy -an OUT"};
+    }
     ear_ = std::make_unique<ClipEar>(std::move(*ear));
   }
   ear_->feed(begin, samples);

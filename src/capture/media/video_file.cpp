@@ -236,7 +236,7 @@ std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   VideoFile& file = *opened;
   const AVStream& track = *file.format_->streams[file.track_];
   const std::int64_t begin = track.start_time == AV_NOPTS_VALUE ? 0 : track.start_time;
-  const double ticks_per_frame = 1 / (file.seconds_per_tick_ * file.info_.rate_hz);
+  const double ticks_per_frame = file.info_.speed / (file.seconds_per_tick_ * file.info_.rate_hz);
   const std::int64_t first = options_.frames ? options_.frames->first - 1 : 0;
   const std::int64_t last = options_.frames ? std::min(options_.frames->last, info_.frames) : info_.frames;
   std::int64_t before = begin;  // the first frames are read anyway

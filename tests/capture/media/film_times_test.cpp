@@ -159,6 +159,30 @@ TEST_F(FilmTimes, AFilmTakenAtAnotherRateKeepsItsSoundBesideIt) {
   }
 }
 
+TEST_F(FilmTimes, SoundThatAnotherRateMakesTooFastIsRefusedWithWhatToDo) {
+  film("flame.y4m");
+  sound("puff.wav", 2, 2.6);
+  made("-i flame.y4m -i puff.wav -c:a pcm_s16le -pix_fmt yuv420p film.mov");
+  FlameCapture options;
+  options.rate_hz = 13 * kRate;
+  const auto clip = capture(folder_ / "film.mov", options);
+  ASSERT_FALSE(clip);
+  EXPECT_THAT(clip.error().message,
+              HasSubstr("the sound's rate is 208000 Hz, expected 8000 to 192000 Hz; give the film "
+                        "without it"));
+}
+
+// With another rate, too, glimpses are spread over the whole film: key frames at 0, 1, 2 and 3 s.
+TEST_F(FilmTimes, AnotherRateLeavesGlimpsesWhereTheyAre) {
+  film("flame.y4m");
+  made("-i flame.y4m -g 25 -keyint_min 25 -sc_threshold 0 -pix_fmt yuv420p film.mkv");
+  for (const double rate : {0.0, 12.5, 50.0}) {
+    auto reader = VideoReader::open(folder_ / "film.mkv", {.rate_hz = rate, .frames = {}});
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_EQ(reader->glimpses(4).size(), 3u) << rate;
+  }
+}
+
 // A phone lowers its rate in the dark: 30 frames a second, then 12. The sound does not.
 TEST_F(FilmTimes, FramesAndSoundArePlacedByTheirTimesWhereTheRateChanges) {
   film("flame.y4m", 80);
