@@ -14,6 +14,7 @@ namespace wisp {
 namespace {
 
 using arx::add;
+using arx::add_all;
 using arx::element;
 
 std::string shape_text(InputShape shape) {
@@ -79,25 +80,16 @@ void add_shape(const ShapeComponents& shape, ReportSection& section) {
     for (const ValueRange& range : ranges) list.push_back(ReportList{range.lowest, range.highest});
     return list;
   };
-  add(section, "view.shape.symmetric", shape.symmetric);
-  add(section, "view.shape.antisymmetric", shape.antisymmetric);
-  add(section, "view.shape.across", shape.across);
-  add(section, "view.shape.rest", shape.rest);
-  add(section, "view.shape.basis", shape.basis);
-  add(section, "view.shape.coordinates", ends(shape.coordinates));
-  add(section, "view.shape.components", ends(shape.components));
+  add_all(section, "view.shape.", "symmetric", shape.symmetric, "antisymmetric", shape.antisymmetric, "across",
+          shape.across, "rest", shape.rest, "basis", shape.basis, "coordinates", ends(shape.coordinates), "components",
+          ends(shape.components));
 }
 
 void add_dynamics(const ChainModel& chain, ReportSection& section) {
-  add(section, "dynamics.kind", "chain");
-  add(section, "dynamics.segments", chain.segments.size());
-  add(section, "dynamics.modes", chain.modes);
-  add(section, "dynamics.history", chain.history);
-  add(section, "dynamics.heading_free", chain.heading_free);
-  add(section, "dynamics.best_of", chain.segments.breadth);
-  add(section, "dynamics.blend_steps", chain.blend_steps);
-  add(section, "dynamics.initial", chain.initial);
-  add(section, "dynamics.transitions", arx::matrix_of(chain.transitions(), static_cast<std::size_t>(chain.modes)));
+  add_all(section, "dynamics.", "kind", "chain", "segments", chain.segments.size(), "modes", chain.modes, "history",
+          chain.history, "heading_free", chain.heading_free, "best_of", chain.segments.breadth, "blend_steps",
+          chain.blend_steps, "initial", chain.initial, "transitions",
+          arx::matrix_of(chain.transitions(), static_cast<std::size_t>(chain.modes)));
   add(section, "",
       "chain of " + std::to_string(chain.segments.size()) + " segments" +
           (chain.modes > 1
@@ -114,8 +106,7 @@ struct ViewFields {
   void operator()(const PlainView&) const { kind("plain"); }
   void operator()(const PoseView& pose) const {
     kind("pose");
-    add(section, "view.half_width", pose.half_width);
-    add(section, "view.half_length", pose.half_length);
+    add_all(section, "view.", "half_width", pose.half_width, "half_length", pose.half_length);
   }
   void operator()(const PositionView& position) const {
     kind("position");
@@ -123,15 +114,13 @@ struct ViewFields {
   }
   void operator()(const OutlineView& outline) const {
     kind("outline");
-    add(section, "view.points", model.outputs.size() / 2);
-    add(section, "view.knots", outline.knots);
+    add_all(section, "view.", "points", model.outputs.size() / 2, "knots", outline.knots);
     add_shape(outline.shape, section);
     add(section, "view.in_the_round", is_in_the_round(model) ? "recorded" : in_the_round(model) ? "symmetry" : "no");
     if (!is_in_the_round(model) && in_the_round(model)) {
       add(section, "", "a body by the assumption of rotational symmetry", "in the round");
     }
-    add(section, "view.metres_per_unit", outline.metres_per_unit);
-    add(section, "view.pixels_per_unit", outline.pixels_per_unit);
+    add_all(section, "view.", "metres_per_unit", outline.metres_per_unit, "pixels_per_unit", outline.pixels_per_unit);
   }
 };
 
@@ -172,70 +161,49 @@ void add_noise(const ResidualNoise& noise, ReportSection& section) {
   const std::string id = "dynamics.noise.";
   ReportList intervals;
   for (const auto& interval : noise.sd_ci95) intervals.push_back(list(interval));
-  add(section, id + "sd", noise.sd);
-  add(section, id + "sd_ci95", std::move(intervals));
+  add_all(section, id, "sd", noise.sd, "sd_ci95", std::move(intervals));
   const ResampledResiduals& resampled = noise.resampled;
   if (resampled.empty()) return add(section, id + "resampled", {});
   const std::string to = id + "resampled.";
-  add(section, to + "scale", resampled.scale);
-  add(section, to + "rows", rows(resampled.rows, resampled.scale.size()));
-  add(section, to + "ends", list(resampled.ends));
-  add(section, to + "wind_scale", resampled.wind_scale);
-  add(section, to + "winds", list(resampled.winds));
-  add(section, to + "toward", resampled.toward);
-  add(section, to + "lags", list(resampled.lags));
-  add(section, to + "tolerance", resampled.tolerance);
-  add(section, to + "margin", resampled.margin);
-  add(section, to + "longest", resampled.longest);
-  add(section, to + "mirror", list(resampled.mirror));
-  add(section, to + "across", resampled.across);
+  add_all(section, to, "scale", resampled.scale, "rows", rows(resampled.rows, resampled.scale.size()), "ends",
+          list(resampled.ends), "wind_scale", resampled.wind_scale, "winds", list(resampled.winds), "toward",
+          resampled.toward, "lags", list(resampled.lags), "tolerance", resampled.tolerance, "margin", resampled.margin,
+          "longest", resampled.longest, "mirror", list(resampled.mirror), "across", resampled.across);
 }
 
 void add_contents(const ArxModel& arx, ReportSection& section) {
-  add(section, "dynamics.constant", arx.constant);
-  add(section, "dynamics.output_mean", arx.output_mean);
-  add(section, "dynamics.input_mean", arx.input_mean);
+  add_all(section, "dynamics.", "constant", arx.constant, "output_mean", arx.output_mean, "input_mean", arx.input_mean);
   add_noise(arx.noise, section);
 }
 
 void add_contents(const SwitchedArxModel& switched, ReportSection& section) {
-  add(section, "dynamics.output_mean", switched.output_mean);
-  add(section, "dynamics.input_mean", switched.input_mean);
+  add_all(section, "dynamics.", "output_mean", switched.output_mean, "input_mean", switched.input_mean);
 }
 
 void add_gust(const GustResponse& gust, ReportSection& section) {
   const auto add_axis = [&](const std::string& id, const GustResponse::Axis& axis) {
-    add(section, id + ".change", axis.change);
-    add(section, id + ".wind", axis.wind);
-    add(section, id + ".press", axis.press);
+    add_all(section, id + ".", "change", axis.change, "wind", axis.wind, "press", axis.press);
   };
   add_axis("dynamics.gust.ground", gust.ground);
   add_axis("dynamics.gust.vertical", gust.vertical);
 }
 
 void add_drift(const ChainDrift& drift, ReportSection& section) {
-  add(section, "dynamics.drift.lead", rows(drift.lead, 3));
-  add(section, "dynamics.drift.lead_scale", drift.lead_scale);
-  add(section, "dynamics.drift.drift", list(drift.drift));
-  add(section, "dynamics.drift.spread_ground", drift.spread_ground);
-  add(section, "dynamics.drift.spread_height", drift.spread_height);
-  add(section, "dynamics.drift.memory_seconds", drift.memory_seconds);
+  add_all(section, "dynamics.drift.", "lead", rows(drift.lead, 3), "lead_scale", drift.lead_scale, "drift",
+          list(drift.drift), "spread_ground", drift.spread_ground, "spread_height", drift.spread_height,
+          "memory_seconds", drift.memory_seconds);
 }
 
 void add_contents(const ChainModel& chain, ReportSection& section) {
   const ChainSegments& segments = chain.segments;
   const std::string id = "dynamics.";
-  add(section, id + "motion", chain.motion == ChainMotion::kPose ? "pose" : "position");
-  add(section, id + "segment_modes", list(segments.mode));
-  add(section, id + "segment_steps", list(segments.steps));
-  add(section, id + "rows", rows(segments.rows, static_cast<std::size_t>(channel_count(chain.motion))));
-  add(section, id + "row_scale", segments.row_scale);
-  add(section, id + "rates", rows(segments.rates, static_cast<std::size_t>(rate_count(chain.motion))));
-  add(section, id + "rate_scale", segments.rate_scale);
-  add(section, id + "follow", rows(segments.follow, static_cast<std::size_t>(segments.breadth)));
-  add(section, id + "height", list(segments.height));
-  add(section, id + "height_scale", segments.height_scale);
-  add(section, id + "probabilities", rows(chain.probabilities, static_cast<std::size_t>(chain.modes)));
+  add_all(section, id, "motion", chain.motion == ChainMotion::kPose ? "pose" : "position", "segment_modes",
+          list(segments.mode), "segment_steps", list(segments.steps), "rows",
+          rows(segments.rows, static_cast<std::size_t>(channel_count(chain.motion))), "row_scale", segments.row_scale,
+          "rates", rows(segments.rates, static_cast<std::size_t>(rate_count(chain.motion))), "rate_scale",
+          segments.rate_scale, "follow", rows(segments.follow, static_cast<std::size_t>(segments.breadth)), "height",
+          list(segments.height), "height_scale", segments.height_scale, "probabilities",
+          rows(chain.probabilities, static_cast<std::size_t>(chain.modes)));
   chain.gust ? add_gust(*chain.gust, section) : add(section, id + "gust", {});
   chain.drift ? add_drift(*chain.drift, section) : add(section, id + "drift", {});
 }
@@ -243,26 +211,18 @@ void add_contents(const ChainModel& chain, ReportSection& section) {
 constexpr const char* kForms[] = {"linear", "even_odd", "wind_along", "wind_across"};  // indexed by InputShape
 
 void add_events(const std::string& id, const FlameEvents& own, const FlameEvents& played, ReportSection& section) {
-  add(section, id + ".borrowed", own.empty());
-  add(section, id + ".sizes", list(played.sizes));
-  add(section, id + ".ends", list(played.ends));
-  add(section, id + ".scale", list(played.scale));
-  add(section, id + ".shapes", list(played.shapes));
+  add_all(section, id + ".", "borrowed", own.empty(), "sizes", list(played.sizes), "ends", list(played.ends), "scale",
+          list(played.scale), "shapes", list(played.shapes));
 }
 
 void add_extinction(const std::string& id, const ExtinctionTraining& made, ReportSection& section) {
-  add(section, id + ".origin", word_of(made.origin));
-  add(section, id + ".deaths", made.deaths);
-  add(section, id + ".died", made.died);
-  add(section, id + ".gusts", made.gusts);
-  add(section, id + ".spared", made.spared);
-  add(section, id + ".vanishing_seconds", made.vanishing_seconds);
+  add_all(section, id + ".", "origin", word_of(made.origin), "deaths", made.deaths, "died", made.died, "gusts",
+          made.gusts, "spared", made.spared, "vanishing_seconds", made.vanishing_seconds);
 }
 
 void add_training(const Training& made, ReportSection& section) {
   const std::string id = "training.";
-  add(section, id + "program", made.program);
-  add(section, id + "sources", list(made.sources));
+  add_all(section, id, "program", made.program, "sources", list(made.sources));
   ReportTable recipe{"training.recipe", "", {{"name", ""}, {"value", ""}}, {}};
   for (const Note& note : made.recipe) recipe.rows.push_back({note.name, note.value});
   ReportTable figures{"training.figures", "", {{"name", ""}, {"value", ""}}, {}};
@@ -270,19 +230,17 @@ void add_training(const Training& made, ReportSection& section) {
   ReportTable inputs{"training.inputs", "", {{"scale", ""}, {"one_rms", ""}}, {}};
   for (const InputTraining& input : made.inputs) inputs.rows.push_back({input.scale, input.one_rms});
   section.tables.insert(section.tables.end(), {std::move(recipe), std::move(figures), std::move(inputs)});
-  add(section, id + "residual_sd", made.residual_sd);
-  add(section, id + "underside", made.underside ? ReportValue(*made.underside) : ReportValue());
+  add_all(section, id, "residual_sd", made.residual_sd, "underside",
+          made.underside ? ReportValue(*made.underside) : ReportValue());
   if (made.motion) {
-    add(section, id + "motion.event", made.motion->event);
-    add(section, id + "motion.min_seconds", made.motion->min_seconds);
-    add(section, id + "motion.debounce", made.motion->debounce);
-    add(section, id + "motion.smooth_rows", made.motion->smooth_rows);
+    add_all(section, id, "motion.event", made.motion->event, "motion.min_seconds", made.motion->min_seconds,
+            "motion.debounce", made.motion->debounce, "motion.smooth_rows", made.motion->smooth_rows);
   } else {
     add(section, id + "motion", {});
   }
   made.extinction ? add_extinction(id + "extinction", *made.extinction, section) : add(section, id + "extinction", {});
-  add(section, id + "multiply_adds_per_frame", made.multiply_adds_per_frame);
-  add(section, id + "operations_per_frame", made.operations_per_frame);
+  add_all(section, id, "multiply_adds_per_frame", made.multiply_adds_per_frame, "operations_per_frame",
+          made.operations_per_frame);
 }
 
 }  // namespace
@@ -323,8 +281,7 @@ Report model_contents(const Model& model) {
     add_events("extinction.catching", rule.catching, catching_of(rule, model.rate_hz), section);
   }
   add_training(model.training, section);
-  add(section, "random.generator", "Philox4x32-7");
-  add(section, "random.deviates", "Box-Muller");
+  add_all(section, "random.", "generator", "Philox4x32-7", "deviates", "Box-Muller");
   return report;
 }
 

@@ -397,8 +397,7 @@ ReportSection segments_section(const ChainSummary& summary) {
   add(section, "mode_sizes", ReportList(summary.mode_sizes.begin(), summary.mode_sizes.end()),
       if_many("segments of each mode"));
   add(section, "history", summary.history, if_many("history"), "modes");
-  add(section, "initial", summary.initial);
-  add(section, "transitions", transitions);
+  arx::add_all(section, "", "initial", summary.initial, "transitions", transitions);
   add(section, "silhouette", summary.silhouette, if_many("silhouette"), "", "-1 to 1; high where modes are tight");
   add(section, "log_likelihood", summary.log_likelihood, if_many("log-likelihood"), "nats a segment",
       "of held-out modes");

@@ -79,23 +79,18 @@ void add_quality(const ArxSummary& summary, std::size_t outputs, ReportSection& 
 
 void add_data(const ArxSummary& summary, ReportSection& section) {
   add(section, "samples_used", summary.rows, "rows learned from");
-  add(section, "first_sample", summary.first_sample);
-  add(section, "episodes.used", summary.episodes_used);
-  add(section, "episodes.skipped", summary.episodes_skipped);
-  add(section, "rows_left_out", summary.rows_left_out);
+  add_all(section, "", "first_sample", summary.first_sample, "episodes.used", summary.episodes_used, "episodes.skipped",
+          summary.episodes_skipped, "rows_left_out", summary.rows_left_out);
   add(section, "condition", *std::max_element(summary.condition.begin(), summary.condition.end()), "condition", "",
       "of the regressors, in the data's units");
-  add(section, "row_condition", summary.condition);
-  add(section, "effective_coefficients", summary.effective);
-  add(section, "method", summary.method);
+  add_all(section, "", "row_condition", summary.condition, "effective_coefficients", summary.effective, "method",
+          summary.method);
 }
 
 void add_stability(const ArxStability& stable, ReportSection& section) {
   add(section, "stable.radius", stable.radius, "spectral radius", "", stable.changed ? "made stable" : "");
-  add(section, "stable.changed", stable.changed);
-  add(section, "stable.estimated_radius", stable.estimated);
-  add(section, "stable.loss_factor", stable.loss_factor);
-  add(section, "stable.moved_std_errors", stable.moved);
+  add_all(section, "stable.", "changed", stable.changed, "estimated_radius", stable.estimated, "loss_factor",
+          stable.loss_factor, "moved_std_errors", stable.moved);
 }
 
 ReportTable rank_problems(const std::vector<RankProblem>& problems) {
@@ -140,26 +135,20 @@ void add_correlations(const std::string& id, const std::string& label, const std
                       double bound, ReportSection& section) {
   ReportSeries series{id, label, "lag, samples", "correlation", {}, values};
   for (std::size_t k = 0; k < values.size(); ++k) series.x.push_back(first_lag + static_cast<double>(k));
-  const double last_lag = first_lag + static_cast<double>(values.size()) - 1;
+  const std::vector<double> ends{series.x.front(), series.x.back()};
   section.series.push_back(std::move(series));
-  section.series.push_back({id + ".bound",
-                            "95 % lie within by chance",
-                            "lag, samples",
-                            "correlation",
-                            {static_cast<double>(first_lag), last_lag},
-                            {bound, bound}});
+  section.series.push_back(
+      {id + ".bound", "95 % lie within by chance", "lag, samples", "correlation", ends, {bound, bound}});
 }
 
 }  // namespace
 
 void describe(const ArxModel& model, const std::string& prefix, ReportSection& section) {
   CoefficientLists theta = lists_of(model.orders, model.theta);
-  add(section, prefix + "A", std::move(theta.a));
-  add(section, prefix + "B", std::move(theta.b));
+  add_all(section, prefix, "A", std::move(theta.a), "B", std::move(theta.b));
   if (!model.std_error.empty()) {
     CoefficientLists errors = lists_of(model.orders, model.std_error);
-    add(section, prefix + "std_error.A", std::move(errors.a));
-    add(section, prefix + "std_error.B", std::move(errors.b));
+    add_all(section, prefix + "std_error.", "A", std::move(errors.a), "B", std::move(errors.b));
   }
   const int states = states_of(model);
   add(section, prefix + "poles", states <= kMaxStates ? ReportValue(places(poles(model))) : ReportValue());
@@ -198,9 +187,8 @@ void add_fit(const ArxFit& fit, const Model& model, Report& report) {
   ReportSection& section = report.add("Fit");
   add_orders(fit.model.orders, "", section);
   describe(fit.model, "", section);
-  add(section, "constant", fit.model.constant);
-  add(section, "operating_point.outputs", fit.model.output_mean);
-  add(section, "operating_point.inputs", fit.model.input_mean);
+  add_all(section, "", "constant", fit.model.constant, "operating_point.outputs", fit.model.output_mean,
+          "operating_point.inputs", fit.model.input_mean);
   add_quality(summary, model.outputs.size(), section);
   add_data(summary, section);
   add_stability(summary.stable, section);

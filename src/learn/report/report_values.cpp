@@ -17,9 +17,7 @@ void add_line(ReportSection& section, std::string label, ReportValue value, std:
 }
 
 void add_orders(const ArxOrders& orders, const std::string& prefix, ReportSection& section) {
-  add(section, prefix + "na", list_of(orders.na));
-  add(section, prefix + "nb", list_of(orders.nb));
-  add(section, prefix + "nk", list_of(orders.nk));
+  add_all(section, prefix, "na", list_of(orders.na), "nb", list_of(orders.nb), "nk", list_of(orders.nk));
 }
 
 ReportList list_of(const OrderMatrix& orders) {

@@ -16,6 +16,13 @@ namespace wisp::arx {
 void add(ReportSection& section, std::string id, ReportValue value, std::string label = {}, std::string unit = {},
          std::string meaning = {});
 
+/// Adds figures for programs: pairs of an id, which `prefix` precedes, and a value.
+template <class Value, class... More>
+void add_all(ReportSection& section, const std::string& prefix, const char* id, Value&& value, More&&... more) {
+  add(section, prefix + id, std::forward<Value>(value));
+  if constexpr (sizeof...(more) > 0) add_all(section, prefix, std::forward<More>(more)...);
+}
+
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
 /// Adds a column with value(row) to the rows that a table has.

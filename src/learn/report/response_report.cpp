@@ -25,7 +25,6 @@ int settling_samples(const ArxModel& model) {
 // Angular frequencies from a thousandth of the highest up to it, equally spaced on a logarithmic axis.
 std::vector<double> angular_frequencies() {
   std::vector<double> omega;
-  omega.reserve(kFrequencies);
   for (int k = 0; k < kFrequencies; ++k) {
     omega.push_back(std::numbers::pi * std::pow(10.0, 3.0 * (k + 1 - kFrequencies) / (kFrequencies - 1)));
   }
@@ -98,84 +97,42 @@ std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) 
 }
 
 void add_places(const std::string& id, const std::string& label, const Places& places, ReportSection& section) {
-  ReportSeries& series = section.series.emplace_back();
-  series = {id, label, "real part", "imaginary part", {}, {}};
-  for (const auto& place : places) {
-    series.x.push_back(place.real());
-    series.y.push_back(place.imag());
-  }
+  ReportSeries& series = section.series.emplace_back(ReportSeries{id, label, "real part", "imaginary part", {}, {}});
+  for (const auto& place : places) series.x.push_back(place.real()), series.y.push_back(place.imag());
 }
 
-// Adds all series and lists of one input's effect on one output.
-class Pair {
- public:
-  Pair(const Responding& of, int output, int input)
-      : of_(of),
-        output_(output),
-        input_(input),
-        omega_(angular_frequencies()),
-        step_(step_response(of.model, output, input, settling_samples(of.model), of.covariance)),
-        frequency_(frequency_response(of.model, output, input, omega_, of.covariance)) {}
-
-  std::vector<double> seconds() const {
-    std::vector<double> out;
-    for (std::size_t t = 0; t < step_.value.size(); ++t) out.push_back(static_cast<double>(t) / of_.rate_hz);
-    return out;
+// Adds the series of one input's effect on one output, and its lists where it is `listed`.
+void add_pair(const Responding& of, int output, int input, bool listed, ReportSection& section) {
+  const std::vector<double> omega = angular_frequencies();
+  const StepResponse step = step_response(of.model, output, input, settling_samples(of.model), of.covariance);
+  const FrequencyResponse frequency = frequency_response(of.model, output, input, omega, of.covariance);
+  std::vector<double> seconds, hertz, amplitude, phase;
+  for (std::size_t t = 0; t < step.value.size(); ++t) seconds.push_back(static_cast<double>(t) / of.rate_hz);
+  for (double w : omega) hertz.push_back(w * of.rate_hz / (2 * std::numbers::pi));
+  for (const auto& value : frequency.value) amplitude.push_back(std::abs(value)), phase.push_back(std::arg(value));
+  if (listed) {
+    const std::string index = "[" + std::to_string(output) + "][" + std::to_string(input) + "].";
+    if (output == 0 && input == 0) add_all(section, "responses.", "seconds", seconds, "hz", hertz);
+    add_all(section, "responses.step" + index, "value", step.value, "sd", list_or_none(step.sd));
+    add_all(section, "responses.frequency" + index, "amplitude", amplitude, "amplitude_sd",
+            list_or_none(frequency.amplitude_sd), "phase", phase, "phase_sd", list_or_none(frequency.phase_sd));
   }
-
-  std::vector<double> hertz() const {
-    std::vector<double> out;
-    for (double w : omega_) out.push_back(w * of_.rate_hz / (2 * std::numbers::pi));
-    return out;
-  }
-
-  void list(ReportSection& section) const {
-    const std::string place = "[" + std::to_string(output_) + "][" + std::to_string(input_) + "].";
-    add(section, "responses.step" + place + "value", step_.value);
-    add(section, "responses.step" + place + "sd", list_or_none(step_.sd));
-    std::vector<double> amplitude, phase;
-    for (const auto& value : frequency_.value) {
-      amplitude.push_back(std::abs(value));
-      phase.push_back(std::arg(value));
-    }
-    add(section, "responses.frequency" + place + "amplitude", amplitude);
-    add(section, "responses.frequency" + place + "amplitude_sd", list_or_none(frequency_.amplitude_sd));
-    add(section, "responses.frequency" + place + "phase", phase);
-    add(section, "responses.frequency" + place + "phase_sd", list_or_none(frequency_.phase_sd));
-  }
-
-  void plot(ReportSection& section) const {
-    const std::string& output = of_.channels.outputs[output_];
-    const std::string label = output + " from " + of_.channels.inputs[input_];
-    const std::string place = "." + std::to_string(output_) + "." + std::to_string(input_);
-    const auto [left_poles, left_zeros] = without_cancelling(poles(of_.model), zeros(of_.model, output_, input_));
-    add_places("poles" + place, label, left_poles, section);
-    add_places("zeros" + place, label, left_zeros, section);
-    plot_curve("step" + place, label, {"time, s", output}, seconds(), step_curve(step_), section);
-    plot_curve("amplitude" + place, label, {"frequency, Hz", "amplitude"}, hertz(), amplitude_curve(frequency_),
-               section);
-    plot_curve("phase" + place, label, {"frequency, Hz", "phase, degrees"}, hertz(), phase_curve(frequency_), section);
-  }
-
- private:
-  struct Axes {
-    std::string x, y;
+  const std::string label = of.channels.outputs[output] + " from " + of.channels.inputs[input];
+  const std::string place = "." + std::to_string(output) + "." + std::to_string(input);
+  const auto [left_poles, left_zeros] = without_cancelling(poles(of.model), zeros(of.model, output, input));
+  add_places("poles" + place, label, left_poles, section);
+  add_places("zeros" + place, label, left_zeros, section);
+  const auto plot = [&](const std::string& what, const std::string& x_label, const std::string& y_label,
+                        const std::vector<double>& x, const Curve& curve) {
+    section.series.push_back({what + place, label, x_label, y_label, x, curve.y});
+    if (of.covariance.empty()) return;
+    section.series.push_back({what + place + ".low", label, x_label, y_label, x, curve.low});
+    section.series.push_back({what + place + ".high", label, x_label, y_label, x, curve.high});
   };
-
-  void plot_curve(const std::string& id, const std::string& label, const Axes& axes, const std::vector<double>& x,
-                  const Curve& curve, ReportSection& section) const {
-    section.series.push_back({id, label, axes.x, axes.y, x, curve.y});
-    if (of_.covariance.empty()) return;
-    section.series.push_back({id + ".low", label, axes.x, axes.y, x, curve.low});
-    section.series.push_back({id + ".high", label, axes.x, axes.y, x, curve.high});
-  }
-
-  const Responding& of_;
-  int output_, input_;
-  std::vector<double> omega_;
-  StepResponse step_;
-  FrequencyResponse frequency_;
-};
+  plot("step", "time, s", of.channels.outputs[output], seconds, step_curve(step));
+  plot("amplitude", "frequency, Hz", "amplitude", hertz, amplitude_curve(frequency));
+  plot("phase", "frequency, Hz", "phase, degrees", hertz, phase_curve(frequency));
+}
 
 }  // namespace
 
@@ -186,15 +143,7 @@ void add_responses(const Responding& responding, bool listed, Report& report) {
   ReportSection& section = report.sections.back();
   const ArxOrders& orders = responding.model.orders;
   for (int i = 0; i < orders.outputs(); ++i) {
-    for (int k = 0; k < orders.inputs(); ++k) {
-      const Pair pair(responding, i, k);
-      if (listed && i == 0 && k == 0) {
-        add(section, "responses.seconds", pair.seconds());
-        add(section, "responses.hz", pair.hertz());
-      }
-      if (listed) pair.list(section);
-      pair.plot(section);
-    }
+    for (int k = 0; k < orders.inputs(); ++k) add_pair(responding, i, k, listed, section);
   }
 }
 

@@ -79,10 +79,8 @@ ReportSection structure_section(const OutlineSummary& summary) {
   ReportSection section{"Structure"};
   arx::add_orders(dynamics.arx.orders, "", section);
   arx::add_line(section, "dynamics", text);
-  arx::add(section, "components.symmetric", shape.symmetric);
-  arx::add(section, "components.antisymmetric", shape.antisymmetric);
-  arx::add(section, "ridge", dynamics.ridge);
-  arx::add(section, "noise.rows", summary.resampled_rows);
+  arx::add_all(section, "", "components.symmetric", shape.symmetric, "components.antisymmetric", shape.antisymmetric,
+               "ridge", dynamics.ridge, "noise.rows", summary.resampled_rows);
   arx::add_line(section, "noise", noise);
   return section;
 }
@@ -108,8 +106,7 @@ ReportSection fit_section(const OutlineFit& fit) {
 void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
                  const std::string& meaning, ReportSection& section) {
   arx::add(section, id + ".value", measure.value, label, unit, meaning);
-  arx::add(section, id + ".floor", measure.floor);
-  arx::add(section, id + ".ceiling", measure.ceiling);
+  arx::add_all(section, id + ".", "floor", measure.floor, "ceiling", measure.ceiling);
 }
 
 ReportSection play_section(const OutlineSummary& summary) {
