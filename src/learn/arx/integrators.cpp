@@ -31,7 +31,7 @@ std::vector<int> find_integrators(std::span<const Recording> recordings, const C
   if (channels.inputs.empty() || plain.summary.free_run_fit_percent.empty()) return {};
   ArxOptions tried = options;
   tried.offset = ArxOffset::kEstimate;
-  tried.stabilise = tried.covariance = false;
+  tried.stabilise = tried.covariance = tried.judge_free_run = false;
   const auto free = fit_arx(recordings, channels, tried);
   if (!free) return {};
   std::vector<double> before = free->summary.loss, best = plain.summary.free_run_fit_percent;
@@ -51,8 +51,14 @@ std::vector<int> find_integrators(std::span<const Recording> recordings, const C
       const double statistic = double(held->summary.rows) * std::log(held->summary.loss[i] / before[i]);
       open[i] = statistic <= kDickeyFuller || held->summary.fit_percent[i] > kExact;
       before[i] = held->summary.loss[i];
-      if (!open[i] || !(held->summary.free_run_fit_percent[i] > best[i] + kGain)) continue;
-      best[i] = held->summary.free_run_fit_percent[i];
+    }
+    // Judged as they would be played: the second of two integrators is lost where stability moves an estimated pole.
+    ArxOptions played = options;
+    const auto kept = fit_integrators(recordings, channels, tried.integrators, played);
+    for (std::size_t i = 0; kept && i < open.size(); ++i) {
+      const double fits = kept->summary.free_run_fit_percent[i];
+      if (!open[i] || !(fits > best[i] + kGain)) continue;
+      best[i] = fits;
       found[i] = count;
     }
   }
@@ -64,7 +70,7 @@ Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const Chan
                                const std::vector<int>& integrators, ArxOptions& options) {
   options.integrators = integrators;
   options.offset = ArxOffset::kEstimate;
-  for (const double distance : {1e-5, 1e-4, 3e-4}) {
+  for (const double distance : {1e-5, 1e-4, 0x1p-12}) {  // of two poles at 1 - 2^-12, single precision holds 2p and p²
     options.integrator_pole = 1 - distance;
     auto fit = fit_arx(recordings, channels, options);
     if (!fit || !fit->summary.stable.changed) return fit;
