@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -23,18 +24,26 @@ LagLayout all_lags(const Signals& signals, const DelayOptions& options, int most
   return LagLayout(signals.outputs, signals.inputs, used);
 }
 
-// Regressors of one output: input k with delay nk (without lags where nk is unset), the other inputs with all lags.
-SharedRows with_delay(const LagLayout& layout, const DelayOptions& options, int output, int k, std::optional<int> nk) {
-  SharedRows rows{{}, {output}};
+// Squared errors of every output (columns) in regressions on all outputs' lags, the other inputs' lags and `nb` lags of
+// input k from each delay on; the last row is without input k.
+Eigen::MatrixXd squares_of(SearchWindows& windows, const LagLayout& layout, const DelayOptions& options, int k) {
+  std::vector<int> base, tail;
+  if (options.offset == ArxOffset::kEstimate) base.push_back(0);
   for (int p = 1; p < layout.size(); ++p) {
     const auto [channel, lag] = layout[p];
-    const bool feedback = channel < layout.outputs() && lag > 0;
-    const bool own = channel == layout.outputs() + k && nk && lag >= *nk && lag < *nk + options.nb;
-    const bool other = channel >= layout.outputs() && channel != layout.outputs() + k;
-    if (feedback || own || other) rows.columns.push_back(p);
+    if (channel >= layout.outputs() || lag > 0) (channel == layout.outputs() + k ? tail : base).push_back(p);
   }
-  if (options.offset == ArxOffset::kEstimate) rows.columns.push_back(0);
-  return rows;
+  const auto delays = static_cast<Eigen::Index>(tail.size()) - options.nb + 1;
+  for (int i = 0; i < layout.outputs(); ++i) tail.push_back(layout.target(i));
+  const Eigen::MatrixXd left = left_by(windows, layout.history(), base, tail);
+  const Eigen::MatrixXd outputs = left.rightCols(layout.outputs());
+  Eigen::MatrixXd squares(delays + 1, layout.outputs());
+  for (Eigen::Index nk = 0; nk < delays; ++nk) {
+    const Eigen::MatrixXd lags = left.middleCols(nk, options.nb);
+    squares.row(nk) = (outputs - lags * lags.colPivHouseholderQr().solve(outputs)).colwise().squaredNorm();
+  }
+  squares.row(delays) = outputs.colwise().squaredNorm();
+  return squares;
 }
 
 Result<void> check(const DelayOptions& options) {
@@ -45,14 +54,15 @@ Result<void> check(const DelayOptions& options) {
 
 // The delay with the least squared error, or a longer one, where leaving out the first lags of the best one does not
 // raise the error significantly.
-int chosen_delay(const std::vector<double>& squares, double rows, int nb) {
+int chosen_delay(const Eigen::VectorXd& squares, double rows, int nb) {
   constexpr double kByChance = 3.84;  // 95th percentile of chi-squared with one degree of freedom
-  const auto best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
-  int chosen = best;
-  for (int nk = best + 1; nk < std::min(best + nb, static_cast<int>(squares.size())); ++nk) {
+  Eigen::Index best = 0;
+  squares.minCoeff(&best);
+  auto chosen = best;
+  for (auto nk = best + 1; nk < std::min<Eigen::Index>(best + nb, squares.size()); ++nk) {
     if (squares[nk] <= squares[best] * (1 + kByChance / rows)) chosen = nk;
   }
-  return chosen;
+  return static_cast<int>(chosen);
 }
 
 Result<Delays> delays_up_to(int most, const Signals& signals, const DelayOptions& options) {
@@ -65,31 +75,18 @@ Result<Delays> delays_up_to(int most, const Signals& signals, const DelayOptions
                  " samples; try shorter ones: --nk auto:N"};
   }
   Delays delays{OrderMatrix(signals.outputs, signals.inputs, 1), OrderMatrix(signals.outputs, signals.inputs), most};
-  for (int i = 0; i < signals.outputs; ++i) {
-    for (int k = 0; k < signals.inputs; ++k) {
-      const auto square = [&](std::optional<int> nk) {
-        return fit_candidate(windows, layout.history(), layout, {with_delay(layout, options, i, k, nk)})
-            .residual_gram(i, i);
-      };
-      std::vector<double> squares;
-      for (int nk = 0; nk <= most; ++nk) squares.push_back(square(nk));
-      const double gain = rows * std::log(square({}) / *std::min_element(squares.begin(), squares.end()));
+  for (int k = 0; k < signals.inputs; ++k) {
+    const Eigen::MatrixXd squares = squares_of(windows, layout, options, k);
+    for (int i = 0; i < signals.outputs; ++i) {
+      const Eigen::VectorXd at = squares.col(i).head(most + 1);
+      const double gain = rows * std::log(squares(most + 1, i) / at.minCoeff());
       const double chance = kChance / (most + 1) / signals.outputs / signals.inputs;
       if (!(gain > chi_squared_quantile(1 - chance, options.nb))) continue;
       delays.supported(i, k) = 1;
-      delays.nk(i, k) = chosen_delay(squares, rows, options.nb);
+      delays.nk(i, k) = chosen_delay(at, rows, options.nb);
     }
   }
   return delays;
-}
-
-// Whether longer delays should be tried: some input has no supported delay, or one near the end.
-bool open_end(const Delays& delays) {
-  const auto supported = delays.supported.values(), nk = delays.nk.values();
-  for (std::size_t p = 0; p < nk.size(); ++p) {
-    if (supported[p] == 0 || nk[p] > 3 * delays.most / 4) return true;
-  }
-  return false;
 }
 
 }  // namespace
@@ -102,12 +99,20 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
   if (!signals) return signals.error();
   std::size_t rows = 0;
   for (const Recording& one : recordings) rows += one.rows();
-  // A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per further input, all of whose lags enter.
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
-  while (delays && !options.most && open_end(*delays) && 2 * delays->most * std::max(1, signals->inputs) <= kLast &&
-         rows >= static_cast<std::size_t>(2 * delays->most) *
-                     static_cast<std::size_t>(kRowsALag + kRowsACoefficient * (signals->inputs - 1))) {
-    delays = delays_up_to(2 * delays->most, *signals, options);
+  // Ends where a doubling changes no delay, and all are supported: a short delay may be supported by chance, or because
+  // the input resembles its own past. A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per further
+  // input, all of whose lags enter.
+  for (int most = 2 * kFirst;
+       delays && !options.most && most * std::max(1, signals->inputs) <= kLast &&
+       rows >= static_cast<std::size_t>(most) *
+                   static_cast<std::size_t>(kRowsALag + kRowsACoefficient * (signals->inputs - 1));
+       most *= 2) {
+    auto longer = delays_up_to(most, *signals, options);
+    if (!longer) break;
+    const auto supported = longer->supported.values();
+    if (longer->nk == delays->nk && std::count(supported.begin(), supported.end(), 0) == 0) break;
+    delays = std::move(longer);
   }
   if (!delays) return delays;
   const auto supported = delays->supported.values();

@@ -33,17 +33,18 @@ Eigen::MatrixXd products_by_triangle(const Eigen::MatrixXd& triangle, const Eige
   return residuals.transpose() * residuals;
 }
 
+// Whether no column depends on those before it; `squares` are the columns' own.
+bool well_determined(const Eigen::LLT<Eigen::MatrixXd>& cholesky, const Eigen::VectorXd& squares) {
+  const Eigen::ArrayXd pivots = cholesky.matrixLLT().diagonal().array().square();
+  return cholesky.info() == Eigen::Success && (pivots >= kMinPivot * squares.array()).all() && (pivots > 0).all();
+}
+
 bool solve_by_gram(const Eigen::MatrixXd& gram, const SharedRows& rows, const LagLayout& layout,
                    Eigen::MatrixXd& annihilator) {
-  const Eigen::MatrixXd part = gram(rows.columns, rows.columns);
-  const Eigen::VectorXd weight = part.diagonal().cwiseSqrt().cwiseInverse();
-  if (!weight.allFinite()) return false;
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(weight.asDiagonal() * part * weight.asDiagonal());
-  if (cholesky.info() != Eigen::Success) return false;
-  if (!rows.columns.empty() && cholesky.matrixLLT().diagonal().minCoeff() < std::sqrt(kMinPivot)) return false;
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(gram(rows.columns, rows.columns));
+  if (!well_determined(cholesky, gram.diagonal()(rows.columns))) return false;
   for (int output : rows.outputs) {
-    const Eigen::VectorXd moment = weight.cwiseProduct(gram.col(layout.target(output))(rows.columns));
-    annihilator.col(output)(rows.columns) = -weight.cwiseProduct(cholesky.solve(moment));
+    annihilator.col(output)(rows.columns) = -cholesky.solve(gram.col(layout.target(output))(rows.columns));
   }
   return true;
 }
@@ -132,6 +133,18 @@ CandidateFit fit_candidate(SearchWindows& windows, int first_sample, const LagLa
   }
   fit.residual_gram = products_by_triangle(triangle, fit.annihilator);
   return fit;
+}
+
+Eigen::MatrixXd left_by(SearchWindows& windows, int first_sample, std::vector<int> base, const std::vector<int>& tail) {
+  base.insert(base.end(), tail.begin(), tail.end());
+  const Eigen::MatrixXd part = windows.gram(first_sample)(base, base);
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(part);
+  Eigen::MatrixXd upper = cholesky.matrixU();
+  if (!well_determined(cholesky, part.diagonal())) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(windows.triangle(first_sample)(Eigen::all, base));
+    upper = qr.matrixQR().topRows(part.rows()).triangularView<Eigen::Upper>();
+  }
+  return upper.bottomRightCorner(std::ssize(tail), std::ssize(tail));
 }
 
 Eigen::MatrixXd residual_gram_over(SearchWindows& windows, int first_sample, const Eigen::MatrixXd& annihilator) {
