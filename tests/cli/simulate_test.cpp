@@ -55,7 +55,7 @@ TEST_F(Simulate, WhatCannotBeSimulatedIsExplained) {
   };
   refused("-o " + at("clip.avi"), ".mp4", 2);
   refused("-o " + at("nowhere/clip.mp4") + " --seconds 1", "nowhere");
-  refused("-o " + at("clip.mp4") + " --seconds 0", "seconds");
+  refused("-o " + at("clip.mp4") + " --seconds 0", "--seconds", 2);
   refused("-o " + at("clip.mp4") + " --seconds 1 --wind none.csv", "none.csv");
   EXPECT_FALSE(fs::exists(at("clip.mp4")));
   EXPECT_FALSE(fs::exists(at("clip.truth.csv")));

@@ -85,7 +85,7 @@ Command simulate_candle_command() {
       {},
       {
           {"output", Kind::kOutput, "CLIP.mp4", "", "where to write the clip", {}, true, {}, {".truth.csv"}},
-          {"seconds", Kind::kNumber, "S", "60", "its length"},
+          ranged({"seconds", Kind::kNumber, "S", "60", "its length"}, 0.001, 86400),
           {"rate", Kind::kNumber, "HZ", "60", "frames a second"},
           {"wind", Kind::kText, "W", "gusts",
            "gusts, calm (a closed room's draughts), or a recording whose input is the wind in m/s"},
