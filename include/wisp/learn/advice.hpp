@@ -16,7 +16,7 @@ enum class RemarkKind {
   kSentinel,    ///< a number that stands for a missing sample, such as −999
   kOutliers,    ///< single samples far from their neighbours
   kConstant,    ///< a channel that never changes
-  kRedundant,   ///< a channel that is a linear function of another one
+  kRedundant,   ///< a channel that is a linear function of another one, for inputs also of one some samples before
   kMissing,     ///< more than a tenth of the samples are missing
   kShort,       ///< fewer than 50 rows
   kExcitation,  ///< an input with little variation
@@ -43,8 +43,10 @@ struct Remark {
 std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                                const std::vector<std::string>& outputs);
 
-/// Returns the kRedundant remarks on the named channels, judged by a sample of the rows.
-std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names);
+/// Returns the kRedundant remarks on the named channels, judged by a sample of the rows; `lags`: samples by which one
+/// may be later than the other.
+std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names,
+                                       int lags = 0);
 
 /// Returns the kFeedback remarks on the first recording.
 std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std::vector<std::string>& inputs,

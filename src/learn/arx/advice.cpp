@@ -4,7 +4,6 @@
 
 #include "wisp/learn/advice.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,10 +20,7 @@
 namespace wisp {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-using Samples = std::vector<double>;
+using Series = std::vector<double>;
 
 constexpr std::size_t kManyRows = 8192;  // maximum in searches for feedback and delays, and in redundant_channels()
 constexpr std::size_t kFewRows = 50;
@@ -35,16 +31,17 @@ struct Subject {
   std::span<const Recording> recordings;
   std::vector<std::string> inputs, outputs;
 
-  const Samples* find(const Recording& recording, const std::string& name) const {
+  const Series* find(const Recording& recording, const std::string& name) const {
     const auto channel = find_channel(recording, name);
     return channel ? &recording.channels[*channel].samples : nullptr;
   }
 
-  // Samples of one channel over all recordings, concatenated.
-  Samples all_of(const std::string& name) const {
-    Samples all;
+  // Samples of one channel over all recordings, concatenated, without the first and the last ones of each.
+  Series all_of(const std::string& name, int first = 0, int last = 0) const {
+    Series all;
     for (const Recording& one : recordings) {
-      if (const Samples* its = find(one, name)) all.insert(all.end(), its->begin(), its->end());
+      const Series* its = find(one, name);
+      if (its && std::ssize(*its) > first + last) all.insert(all.end(), its->begin() + first, its->end() - last);
     }
     return all;
   }
@@ -67,7 +64,7 @@ struct Subject {
 };
 
 // Returns the unit of the last decimal of the first 500 samples, 1 to 1e-9; 0 where more decimals are used.
-double last_digit(const Samples& all) {
+double last_digit(const Series& all) {
   double unit = 1;
   for (int digits = 0; digits <= 9; ++digits, unit /= 10) {
     const bool whole = std::all_of(all.begin(), all.begin() + std::min<std::ptrdiff_t>(500, std::ssize(all)),
@@ -77,7 +74,7 @@ double last_digit(const Samples& all) {
   return 0;
 }
 
-std::size_t distinct(const Samples& all, std::size_t most) {
+std::size_t distinct(const Series& all, std::size_t most) {
   std::set<double> seen;
   for (double x : all)
     if (seen.insert(x).second && seen.size() > most) break;
@@ -86,10 +83,10 @@ std::size_t distinct(const Samples& all, std::size_t most) {
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
-void look_for_sentinel(const std::string& name, const Samples& all, std::vector<Remark>& out) {
+void look_for_sentinel(const std::string& name, const Series& all, std::vector<Remark>& out) {
   constexpr double kUsual[] = {-999, -9999, -99999, 999, 9999, 99999, -99, -999.9, -99.9, 999.9, 65535, 32767, -32768};
   for (const double value : {*std::min_element(all.begin(), all.end()), *std::max_element(all.begin(), all.end())}) {
-    Samples rest = all;
+    Series rest = all;
     const std::size_t count = std::erase(rest, value);
     if (rest.size() < 20 || distinct(rest, 3) <= 3 || count > rest.size() / 2) continue;
     const auto [low, high] = std::minmax_element(rest.begin(), rest.end());
@@ -106,13 +103,13 @@ void look_for_sentinel(const std::string& name, const Samples& all, std::vector<
 }
 
 // Rows, from 0, of samples far from the median of the five around them.
-std::vector<std::size_t> outliers_in(const Samples& all) {
+std::vector<std::size_t> outliers_in(const Series& all) {
   constexpr double kFar = 12;
   std::vector<std::size_t> rows;
-  Samples apart, values = present(all);
+  Series apart, values = present(all);
   if (values.size() < 50 || distinct(values, 10) <= 10) return rows;
   for (std::size_t t = 2; t + 2 < all.size(); ++t) {
-    Samples near = present({all.begin() + std::ptrdiff_t(t) - 2, all.begin() + std::ptrdiff_t(t) + 3});
+    Series near = present({all.begin() + std::ptrdiff_t(t) - 2, all.begin() + std::ptrdiff_t(t) + 3});
     apart.push_back(near.size() < 3 || std::isnan(all[t]) ? 0 : std::abs(all[t] - median(near)));
   }
   const double usual = 1.4826 * median(apart), spread = quantile(values, 0.95) - quantile(values, 0.05);
@@ -138,7 +135,7 @@ void look_for_outliers(const Subject& subject, const std::string& name, std::vec
 
 void look_at_samples(const Subject& subject, std::vector<Remark>& out) {
   for (const std::string& name : subject.names()) {
-    const Samples all = subject.all_of(name), there = present(all);
+    const Series all = subject.all_of(name), there = present(all);
     if (there.empty()) continue;
     if (there.size() * 10 < all.size() * 9) {
       out.push_back({RemarkKind::kMissing, name,
@@ -162,8 +159,8 @@ struct Line {
   double slope = 0, level = 0, rest = 0, size = 0;
 };
 
-Line line_of(const Samples& x, const Samples& y) {
-  Samples a, b;
+Line line_of(const Series& x, const Series& y) {
+  Series a, b;
   for (std::size_t t = 0; t < std::min(x.size(), y.size()); ++t) {
     if (!std::isnan(x[t] + y[t])) a.push_back(x[t]), b.push_back(y[t]);
   }
@@ -178,25 +175,35 @@ Line line_of(const Samples& x, const Samples& y) {
   return line;
 }
 
-void look_for_redundancy(const Subject& subject, std::vector<Remark>& out) {
+// Reports `later` where it is a linear function of `earlier` some samples before.
+bool repeats(const Subject& subject, const std::string& later, const std::string& earlier, int lag,
+             std::vector<Remark>& out) {
   constexpr double kSame = 1e-5;  // residual RMS over deviation: about what single precision leaves
+  const Series y = subject.all_of(later, lag), x = subject.all_of(earlier, 0, lag);
+  const Line line = line_of(x, y);
+  if (!(line.size > 0) || line.slope == 0) return false;
+  const double rounding = std::hypot(last_digit(present(y)), line.slope * last_digit(present(x))) / std::sqrt(12.0);
+  if (line.rest > std::max(kSame * line.size, std::min(1.5 * rounding, 0.05 * line.size))) return false;
+  const std::string scaled = (line.slope == 1 ? "" : number_text(line.slope, 5) + " ") + quoted(earlier);
+  const bool level = std::abs(line.level) > 1e-6 * line.size;
+  out.push_back({RemarkKind::kRedundant, later,
+                 quoted(later) + " is " + scaled +
+                     (level ? (line.level < 0 ? " - " : " + ") + number_text(std::abs(line.level), 5) : "") +
+                     (lag > 0 ? ", " + std::to_string(lag) + (lag > 1 ? " samples later" : " sample later") : "") +
+                     ", within " + number_text(line.rest, 2) + ": it tells nothing new",
+                 "leave one of them out"});
+  return true;
+}
+
+// Inputs are compared at lags too: where a model's lags of both overlap, it has the same samples twice.
+void look_for_redundancy(const Subject& subject, int lags, std::vector<Remark>& out) {
   const auto names = subject.names();
   for (std::size_t l = 1; l < names.size(); ++l) {
-    const Samples y = subject.all_of(names[l]);
     for (std::size_t k = 0; k < l; ++k) {
-      const Samples x = subject.all_of(names[k]);
-      const Line line = line_of(x, y);
-      if (!(line.size > 0) || line.slope == 0) continue;
-      const double rounding = std::hypot(last_digit(present(y)), line.slope * last_digit(present(x))) / std::sqrt(12.0);
-      if (line.rest > std::max(kSame * line.size, std::min(1.5 * rounding, 0.05 * line.size))) continue;
-      const std::string scaled = (line.slope == 1 ? "" : number_text(line.slope, 5) + " ") + quoted(names[k]);
-      const bool level = std::abs(line.level) > 1e-6 * line.size;
-      out.push_back({RemarkKind::kRedundant, names[l],
-                     quoted(names[l]) + " is " + scaled +
-                         (level ? (line.level < 0 ? " - " : " + ") + number_text(std::abs(line.level), 5) : "") +
-                         ", within " + number_text(line.rest, 2) + ": it tells nothing new",
-                     "leave one of them out"});
-      break;
+      bool found = repeats(subject, names[l], names[k], 0, out);
+      for (int lag = 1; !found && lag <= lags && l < subject.inputs.size(); ++lag)
+        found = repeats(subject, names[l], names[k], lag, out) || repeats(subject, names[k], names[l], lag, out);
+      if (found) break;
     }
   }
 }
@@ -205,7 +212,7 @@ void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
   constexpr std::size_t kFewMoves = 4;
   constexpr const char* kTimes[kFewMoves] = {"", "once", "twice", "three times"};
   for (const std::string& name : subject.inputs) {
-    const Samples all = present(subject.all_of(name));
+    const Series all = present(subject.all_of(name));
     std::size_t moves = 0;
     for (std::size_t t = 1; t < all.size(); ++t) moves += all[t] != all[t - 1];
     if (all.size() < 40 || moves == 0 || moves >= kFewMoves) continue;
@@ -216,48 +223,31 @@ void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// Mean squared residual of the least-squares fit of y on x.
-double squared_rest(const MatrixXd& x, const VectorXd& y) {
-  return (y - x * x.colPivHouseholderQr().solve(y)).squaredNorm() / static_cast<double>(y.size());
-}
-
 // Reports feedback where, in the first recording, an output's past improves the prediction of an input by its own past.
 void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
-  constexpr std::size_t kOwn = 20, kLags = 5;
-  constexpr double kShare = 0.05, kChance = 1e-6;
+  constexpr int kLags = 5;
+  constexpr double kShare = 0.05, kChance = 1e-6, kLeastRows = 150;
+  const Recording& whole = subject.recordings.front();
+  const Recording first = slice(whole, 0, std::min(whole.rows(), kManyRows));
+  std::vector<LaggedChannel> lags;
+  for (int lag = 1; lag <= kLags; ++lag) lags.push_back({1, lag});
   for (const std::string& input : subject.inputs) {
     for (const std::string& output : subject.outputs) {
-      const Recording& recording = subject.recordings.front();
-      const Samples *u = subject.find(recording, input), *y = subject.find(recording, output);
-      if (!u || !y || u->size() < 200) continue;
-      std::vector<std::size_t> rows;
-      for (std::size_t t = kOwn; t < std::min(u->size(), kManyRows); ++t) {
-        double sum = 0;
-        for (std::size_t lag = 0; lag <= kOwn; ++lag) sum += (*u)[t - lag] + (*y)[t - lag];
-        if (!std::isnan(sum)) rows.push_back(t);
-      }
-      if (rows.size() < 150) continue;
-      MatrixXd x(Index(rows.size()), Index(1 + kOwn + kLags));
-      VectorXd target(Index(rows.size()));
-      for (Index r = 0; r < x.rows(); ++r) {
-        const std::size_t t = rows[std::size_t(r)];
-        x(r, 0) = 1;
-        for (std::size_t lag = 1; lag <= kOwn; ++lag) x(r, Index(lag)) = (*u)[t - lag];
-        for (std::size_t lag = 1; lag <= kLags; ++lag) x(r, Index(kOwn + lag)) = (*y)[t - lag];
-        target[r] = (*u)[t];
-      }
-      const double own = squared_rest(x.leftCols(1 + kOwn), target), both = squared_rest(x, target);
-      const double size = (target.array() - target.mean()).square().mean();
-      if (!(own > 1e-8 * size) || both > (1 - kShare) * own) continue;
+      const auto effect = arx::effect_of_past({&first, 1}, {{output}, {input}}, {lags});
+      if (!effect || effect->rows < kLeastRows || !(effect->own > 1e-8 * effect->size)) continue;
       // Rows in which the input does not change carry no information.
-      const auto moves = static_cast<double>((target.array() != x.col(1).array()).count());
-      if (moves * std::log(own / both) < chi_squared_quantile(1 - kChance, kLags)) continue;
+      const Series& u = *subject.find(first, input);
+      double moves = 0;
+      for (std::size_t t = 1; t < u.size(); ++t) moves += std::abs(u[t] - u[t - 1]) > 0;
+      moves *= effect->rows / double(u.size());
+      if (effect->percent() < 100 * kShare) continue;
+      if (moves * std::log(effect->own / effect->both.front()) < chi_squared_quantile(1 - kChance, kLags)) continue;
       out.push_back({RemarkKind::kFeedback, input,
                      "input " + quoted(input) + " is set by " + quoted(output) + " (its past explains " +
-                         number_text(100 * (1 - both / own), 2) +
+                         number_text(effect->percent(), 3) +
                          " % of what the input's own past leaves): a controller closes the loop",
                      "record with the controller off, or with a change of set point that moves the input by itself",
-                     100 * (1 - both / own)});
+                     effect->percent()});
       break;
     }
   }
@@ -285,11 +275,11 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
   constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
   Recording recording = subject.recordings.front();
-  Samples time(recording.rows());
+  Series time(recording.rows());
   for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);
   const auto share = [&](const Line& line) { return line.size > 0 ? 1 - std::pow(line.rest / line.size, 2) : 0.0; };
   for (const std::string& name : subject.inputs) {
-    const Samples* its = subject.find(recording, name);
+    const Series* its = subject.find(recording, name);
     if (its && share(line_of(time, *its)) > kLittle) return std::nullopt;
   }
   const auto channel = find_channel(recording, output);
@@ -355,7 +345,7 @@ ReportTable channel_table(const Recording& recording, bool roles_are_said) {
                      {"digit", "last digit"}},
                     {}};
   for (const Channel& channel : recording.channels) {
-    const Samples there = present(channel.samples);
+    const Series there = present(channel.samples);
     const char* role = roles_are_said ? kRoles[static_cast<std::size_t>(channel.role)] : "not said";
     auto& row = table.rows.emplace_back(std::vector<ReportValue>{channel.name, role, channel.unit});
     if (there.empty()) {
@@ -379,7 +369,7 @@ std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std:
   if (recordings.empty()) return out;
   const Subject subject{recordings, inputs, outputs};
   look_at_samples(subject, out);
-  look_for_redundancy(subject, out);
+  look_for_redundancy(subject, std::get<int>(ArxRecipe().nb) - 1, out);
   look_at_table(subject, out);
   const bool spoiled =
       std::any_of(out.begin(), out.end(), [](const Remark& one) { return one.kind <= RemarkKind::kOutliers; });
@@ -393,10 +383,11 @@ std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std:
   return out;
 }
 
-std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names) {
+std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names,
+                                       int lags) {
   const std::vector<Recording> some = arx::middles_of(recordings, kManyRows);
   std::vector<Remark> out;
-  if (names.size() > 1) look_for_redundancy({some, names, {}}, out);
+  if (names.size() > 1) look_for_redundancy({some, names, {}}, lags, out);
   return out;
 }
 

@@ -323,8 +323,9 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const Progress& progress) c
   if (!fitted) return fitted.error();
   Usable& usable = fitted->summary.usable;
   arx::judge_use({state.names, state.orders}, fitted->summary);
-  if (usable.verdict && driven && !simulated) {
-    usable.reason += "; free simulation was not judged, as parts hold no rows: validate the model on a recording";
+  if (usable.verdict && driven) {
+    usable.reason += std::string(simulated ? "" : "; free simulation was not judged, as parts hold no rows") +
+                     "; no row was held out: validate the model on another recording";
   }
   arx::Sources sources{.rate_hz = state.rate_hz, .files = this->sources()};
   for (const arx::PartChannel& channel : state.channels) sources.spans.push_back(channel.span);

@@ -12,7 +12,6 @@
 #include "learn/report/fit_report.hpp"
 #include "learn/report/report_values.hpp"
 #include "record/number_text.hpp"
-#include "wisp/learn/advice.hpp"
 #include "wisp/learn/prepare.hpp"
 
 namespace wisp {
@@ -51,7 +50,9 @@ Result<ArxOrders> searched(std::span<const Recording> recordings, const ArxRecip
 Result<ArxOrders> with_delays(std::span<const Recording> recordings, const ArxRecipe& recipe,
                               const ChannelChoice& channels, const Progress& progress, Report& report) {
   if (auto ok = check_progress(progress, "finding delays", 0); !ok) return ok.error();
-  const auto delays = estimate_delays(recordings, channels, {.most = recipe.max_delay, .offset = recipe.offset});
+  const int* lags = std::get_if<int>(&recipe.nb);
+  const auto delays = estimate_delays(
+      recordings, channels, {.most = recipe.max_delay, .nb = lags && *lags == 1 ? 1 : 2, .offset = recipe.offset});
   if (!delays) return delays.error();
   auto orders = orders_of(recipe.na, recipe.nb, delays->nk, recipe.coupling, channels);
   if (!orders) return orders.error();
@@ -151,8 +152,15 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
   VerdictEvidence evidence{channels, options.orders, persistence_errors(prepared.judged, channels), tests};
   evidence.held_out = held_out_fits(prepared.judged, channels, options);
   evidence.integrators = options.integrators;
-  evidence.redundant = redundant_channels(prepared.seen, channels.inputs);
-  evidence.feedback = feedback_of(prepared.seen, channels.inputs, channels.outputs);
+  const auto nb = options.orders.nb.values(), nk = options.orders.nk.values();
+  int lags = 0;  // between the first and the last of all inputs
+  for (std::size_t p = 0; p < nk.size(); ++p) lags = std::max(lags, nk[p] + nb[p] - 1 - *std::ranges::min_element(nk));
+  evidence.redundant = redundant_channels(prepared.seen, channels.inputs, lags);
+  evidence.doubts = [&] {
+    std::vector<Remark> doubts = feedback_of(prepared.seen, channels.inputs, channels.outputs);
+    if (auto chance = coincidence(prepared.seen, channels, options.orders)) doubts.push_back(std::move(*chance));
+    return doubts;
+  };
   evidence.remarks = [&] { return remarks_on(prepared.seen, channels.inputs, channels.outputs); };
   judge_use(evidence, summary);
 }

@@ -1,12 +1,14 @@
 #pragma once
 // Learns an ARX model and its report from recordings and a recipe, and validates a model on a recording.
 
+#include <optional>
 #include <span>
 
 #include "learn/arx/plain_model.hpp"
 #include "learn/fit/arx_fit.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
+#include "wisp/learn/advice.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/learn.hpp"
 #include "wisp/learn/validate.hpp"
@@ -45,6 +47,25 @@ Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const Chan
 /// Number of poles at 1 of one output under a model with these inputs and orders 4; 0 where it cannot be fitted.
 int integrators_in(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                    const std::string& output);
+
+/// Sums of squares of one output over the same rows: about its mean, left by its own past, and left by that and each
+/// set of the inputs' lags.
+struct PastEffect {
+  double rows = 0, size = 0, own = 0;
+  std::vector<double> both{};
+
+  double percent() const { return own > 0 ? 100 * (1 - both.front() / own) : 0; }
+};
+
+/// Regressions of channels.outputs[0]. Channel 1 + k of a set is input k. Empty where a channel is missing or has no
+/// sample, and where there are too few rows.
+std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                         const std::vector<std::vector<LaggedChannel>>& sets, int own_lags = 20);
+
+/// A remark on the first output that its inputs explain, beside its own past, no better than they do as they were long
+/// before. A ramp or a sine is the same at every shift: whether it drives anything, no recording can tell.
+std::optional<Remark> coincidence(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                  const ArxOrders& orders);
 
 /// Assembles the model, its training record and the fit's part of the report.
 Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& channels, const Sources& sources);

@@ -57,7 +57,7 @@ Result<Judged> judge(const Subject& subject, const Progress& progress) {
   const InitialState initial = subject.options.initial;
   auto figures =
       prediction_figures(subject.arx, {&subject.recording, 1}, subject.channels, {.steps = steps, .initial = initial});
-  if (!figures) return figures.error();
+  if (!figures) return Error{subject.recording.source + ": " + figures.error().message};
   Judged judged{std::move(*figures), {}};
   for (std::size_t s = 0; s < steps.size(); ++s) {
     const double share = static_cast<double>(s) / static_cast<double>(steps.size());

@@ -22,7 +22,7 @@ constexpr double kMaxLostInPlay = 1;  // percent of fit that single precision ma
 // A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
 constexpr double kTimesBound = 2.5;
 
-std::string too_few_rows(const ArxSummary& summary) {
+std::string too_few_rows(const VerdictEvidence&, const ArxSummary& summary) {
   const auto& numbers = summary.effective;
   const int most = numbers.empty() ? 0 : int(std::ceil(*std::max_element(numbers.begin(), numbers.end()) - 1e-9));
   const auto rows = static_cast<double>(summary.rows);
@@ -32,7 +32,7 @@ std::string too_few_rows(const ArxSummary& summary) {
          " a coefficient; record more, or lower the orders";
 }
 
-std::string repaired_far(const ArxSummary& summary) {
+std::string repaired_far(const VerdictEvidence&, const ArxSummary& summary) {
   if (!summary.stable.changed || summary.stable.moved <= kMaxMoved) return "";
   return "to make the estimate stable a coefficient was moved by " + number_text(summary.stable.moved, 3) +
          " standard errors: the model is not what the data say; try other orders, or fewer coupled outputs";
@@ -111,14 +111,16 @@ std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& s
 }
 
 // Inputs that carry the same information share their coefficients arbitrarily, however well the model fits.
-std::string is_redundant(const VerdictEvidence& evidence) {
+std::string is_redundant(const VerdictEvidence& evidence, const ArxSummary&) {
   return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }
 
-// The response to an input that follows the output is not in such a recording, however well the model fits.
-std::string is_set(const VerdictEvidence& evidence) {
-  for (const Remark& one : evidence.feedback)
-    if (one.size >= kSetByOutput) return one.cause + "; " + one.cure;
+// The response to an input that follows the output, or that only drifts as it does, is not in such a recording, however
+// well the model fits.
+std::string is_doubtful(const VerdictEvidence& evidence, const ArxSummary&) {
+  if (!evidence.doubts) return "";
+  for (const Remark& one : evidence.doubts())
+    if (one.kind != RemarkKind::kFeedback || one.size >= kSetByOutput) return one.cause + "; " + one.cure;
   return "";
 }
 
@@ -161,9 +163,9 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
 
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
   if (!summary.usable.verdict) return;
-  for (std::string reason : {is_redundant(evidence), too_few_rows(summary), repaired_far(summary),
-                             plays_otherwise(evidence, summary), acts_at_once(evidence, summary), is_set(evidence),
-                             simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
+  for (const auto finds_fault : {is_redundant, too_few_rows, repaired_far, plays_otherwise, acts_at_once,
+                                 simulates_badly, has_no_skill, is_doubtful}) {
+    std::string reason = finds_fault(evidence, summary);
     if (reason.empty()) continue;
     summary.usable = {false, std::move(reason)};
     return;
@@ -171,9 +173,9 @@ void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
   if (summary.free_run_fit_percent.empty()) return;
   const bool held_out = !evidence.held_out.empty();
   const auto& fits = held_out ? evidence.held_out : summary.free_run_fit_percent;
-  summary.usable.reason += std::string(", and free simulation ") + (held_out ? "of held-out rows " : "") + "fits " +
-                           number_text(*std::min_element(fits.begin(), fits.end()), 3) +
-                           (fits.size() > 1 ? " % or more" : " %");
+  summary.usable.reason +=
+      std::string(", and free simulation ") + (held_out ? "of held-out rows " : "of the rows learned from ") + "fits " +
+      number_text(*std::min_element(fits.begin(), fits.end()), 3) + (fits.size() > 1 ? " % or more" : " %");
 }
 
 }  // namespace wisp::arx

@@ -24,8 +24,8 @@ struct VerdictEvidence {
   std::vector<double> held_out{};                  ///< held_out_fits(); empty: the fits of the training rows are judged
   std::vector<int> integrators{};                  ///< as in ArxOptions::integrators
   std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
-  std::vector<Remark> feedback{};                  ///< feedback_of() the recordings
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
+  std::function<std::vector<Remark>()> doubts{};   ///< feedback_of() the recordings, then a coincidence(); called last
 };
 
 /// Marks a summary that is usable so far as not usable, with the reason, where a limit is exceeded. For a model that

@@ -108,6 +108,7 @@ TEST(ArxParts, ATableThatSimulatesBadlyIsNotUsableAndWithoutItsRowsTheVerdictSay
   EXPECT_FALSE(fit->report.verdict->usable);
   EXPECT_THAT(fit->report.verdict->reason, HasSubstr("free simulation from the input fits 'y1'"));
   EXPECT_THAT(sent->report.verdict->reason, HasSubstr("free simulation was not judged"));
+  EXPECT_THAT(sent->report.verdict->reason, HasSubstr("no row was held out: validate the model on another recording"));
 }
 
 TEST(ArxParts, ABadRecordingLeavesNoTrace) {

@@ -261,6 +261,7 @@ TEST(LearnArx, ValidationRefusesAStrangerAndStepsOutOfRange) {
   const Fit fit = learned(record_system(made_system(), 500, 1), recipe_of_made());
   Recording other = record_system(made_system(), 500, 2);
   EXPECT_THAT(validate_arx(fit.model, other, {.steps = {-1}}).error().message, HasSubstr("-1 steps ahead"));
+  EXPECT_THAT(validate_arx(fit.model, slice(other, 0, 3)).error().message, HasSubstr("made: no row can be predicted"));
   other.channels.pop_back();
   EXPECT_THAT(validate_arx(fit.model, other).error().message, HasSubstr("has no channel 'y2'"));
 }

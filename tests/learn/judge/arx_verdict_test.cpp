@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "learn/arx/learn_arx.hpp"
@@ -110,6 +112,94 @@ TEST(ArxVerdict, AnInputThatActsAtOnceIsToldOf) {
   ArxRecipe at_once = driven(2);
   at_once.nk = 0;
   EXPECT_TRUE(verdict(direct, at_once).usable);
+}
+
+// A recording of an input and what a first-order plant makes of it and of noise; gain 0: the output moves by itself.
+template <class Input, class Own>
+Recording driven_by(unsigned seed, double gain, Input input, Own own) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  Recording recording = made(1000, seed, [](double, double, double, double) { return 0.0; });
+  auto &u = recording.channels[0].samples, &y = recording.channels[1].samples;
+  double state = 0;
+  for (std::size_t t = 0; t < u.size(); ++t) {
+    state = 0.8 * state + gain * (t > 0 ? u[t - 1] : 0) + 0.02 * gain * normal(generator);
+    u[t] = input(double(t)) + 0.1 * normal(generator);
+    y[t] = state + own(double(t)) + (gain == 0 ? 0.1 * normal(generator) : 0);
+  }
+  return recording;
+}
+
+double nothing(double) { return 0; }
+double ramp(double t) { return 3 * t / 1000; }
+double wave(double t) { return std::sin(2 * std::numbers::pi * t / 47); }
+
+TEST(ArxVerdict, UnrelatedChannelsThatShareADriftOrAPeriodAreNotUsable) {
+  int refused = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (const auto shape : {ramp, wave}) {
+      const auto later = [&](double t) { return shape(t + 9); };
+      const auto said = verdict(driven_by(seed, 0, shape, later), driven(4));
+      refused += !said.usable;
+      EXPECT_THAT(said.reason, HasSubstr(said.usable ? "" : "a drift or a period, which unrelated channels may share"))
+          << seed;
+    }
+  }
+  EXPECT_EQ(refused, 12);
+}
+
+TEST(ArxVerdict, APlantIsUsableWhoseInputDriftsOrRepeatsAndAlsoMovesByItself) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    EXPECT_TRUE(verdict(driven_by(seed, 1, ramp, nothing), driven(2)).usable) << seed;
+    EXPECT_TRUE(verdict(driven_by(seed, 1, wave, nothing), driven(2)).usable) << seed;
+  }
+}
+
+// The input copies the output with noise, which leaves the share that the output explains below the limit for inputs
+// that are set. A controller with a movement of its own is as much set by the output, and drives it.
+TEST(ArxVerdict, AnInputThatFollowsTheOutputWithNoiseIsNotUsableAndAControllerIs) {
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  Recording follower = made(1500, 6, [](double y, double, double, double e) { return 0.98 * y + e; }), loop = follower;
+  auto &u = follower.channels[0].samples, &y = follower.channels[1].samples;
+  for (std::size_t t = 1; t < u.size(); ++t) u[t] = 0.5 * u[t - 1] + 0.5 * y[t];
+  for (double& one : u) one += 0.3 * normal(generator);
+  const auto said = verdict(follower, driven(4));
+  EXPECT_FALSE(said.usable);
+  EXPECT_THAT(said.reason, HasSubstr("no better than they do as they were"));
+  auto &v = loop.channels[0].samples, &z = loop.channels[1].samples;
+  for (std::size_t t = 1; t < v.size(); ++t) {
+    v[t] = -0.8 * z[t - 1] + normal(generator);
+    z[t] = 0.8 * z[t - 1] + 0.5 * v[t - 1] + 0.1 * normal(generator);
+  }
+  EXPECT_TRUE(verdict(loop, driven(4)).usable) << verdict(loop, driven(4)).reason;
+}
+
+TEST(ArxVerdict, AnInputThatIsAnotherSomeSamplesLaterIsNotUsable) {
+  std::mt19937_64 generator(4);
+  std::normal_distribution<double> normal;
+  const Recording one =
+      made(800, 9, [](double y, double, double before, double e) { return 0.7 * y + 4 * before + e; });
+  for (const std::size_t later : {1u, 2u, 3u, 4u}) {
+    Recording both = one;
+    both.channels.push_back({"late", "", Role::kInput, one.channels[0].samples});
+    auto& late = both.channels.back().samples;
+    for (std::size_t t = late.size(); t-- > later;) late[t] = late[t - later] + 1e-6 * normal(generator);
+    for (const bool swapped : {false, true}) {
+      ArxRecipe recipe{.inputs = {swapped ? "late" : "u", swapped ? "u" : "late"}, .outputs = {"y"}, .na = 2, .nb = 4};
+      const auto said = verdict(both, recipe);
+      EXPECT_EQ(said.reason.find("tells nothing new") != std::string::npos, later < 4) << said.reason;
+    }
+  }
+}
+
+TEST(ArxVerdict, ADoubleIntegratorIsUsable) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    double speed = 0;
+    const Recording cart =
+        made(1000, seed, [&](double y, double, double before, double e) { return y + (speed += before + 0.01 * e); });
+    EXPECT_TRUE(verdict(cart, driven(2)).usable) << seed << ": " << verdict(cart, driven(2)).reason;
+  }
 }
 
 TEST(ArxVerdict, ARepairThatMovesCoefficientsFarIsNotUsable) {
