@@ -100,10 +100,10 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
   std::size_t rows = 0;
   for (const Recording& one : recordings) rows += one.rows();
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
-  // Ends where a doubling changes no delay, and all are supported: a short delay may be supported by chance, or because
-  // the input resembles its own past. A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per further
-  // input, all of whose lags enter.
-  for (int most = 2 * kFirst;
+  // Ends where two doublings change no delay, and all are supported: a short delay may be supported by chance, or
+  // because the input resembles its own past. A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per
+  // further input, all of whose lags enter.
+  for (int most = 2 * kFirst, unchanged = 0;
        delays && !options.most && most * std::max(1, signals->inputs) <= kLast &&
        rows >= static_cast<std::size_t>(most) *
                    static_cast<std::size_t>(kRowsALag + kRowsACoefficient * (signals->inputs - 1));
@@ -111,8 +111,9 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
     auto longer = delays_up_to(most, *signals, options);
     if (!longer) break;
     const auto supported = longer->supported.values();
-    if (longer->nk == delays->nk && std::count(supported.begin(), supported.end(), 0) == 0) break;
-    delays = std::move(longer);
+    const bool same = longer->nk == delays->nk && std::count(supported.begin(), supported.end(), 0) == 0;
+    if (same && ++unchanged == 2) break;
+    if (!same) delays = std::move(longer), unchanged = 0;
   }
   if (!delays) return delays;
   const auto supported = delays->supported.values();

@@ -88,6 +88,21 @@ TEST(LearnArx, OpenDelaysAreFoundAndNoted) {
   EXPECT_THAT(fit.model.training.recipe, testing::Contains(Note{"nk", "1"}));
 }
 
+TEST(LearnArx, AnOpenDelayOfOneLagIsExact) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    Recording recording{.rate_hz = 1, .channels = {{"u", "", Role::kInput, {}}, {"y", "", Role::kOutput, {}}}};
+    auto &u = recording.channels[0].samples, &y = recording.channels[1].samples;
+    for (std::size_t t = 0; t < 600; ++t) {
+      u.push_back(normal(generator));
+      y.push_back((t > 0 ? 0.8 * y.back() : 0) + (t >= 12 ? u[t - 12] : 0) + normal(generator));
+    }
+    const ArxRecipe recipe{.inputs = {"u"}, .outputs = {"y"}, .na = 1, .nb = 1, .nk = std::nullopt};
+    EXPECT_EQ(std::get<ArxModel>(learned(recording, recipe).model.dynamics).orders.nk(0, 0), 12) << seed;
+  }
+}
+
 TEST(LearnArx, ASearchTakesTheBestOrdersAndListsAllCandidates) {
   ArxRecipe recipe = recipe_of_made();
   recipe.outputs = {"y2"};
