@@ -92,12 +92,11 @@ class Places {
     const float middle = static_cast<float>(y) + 0.5F, tall = std::max(0.2F * view.unit, view.base.y - top);
     height_ = std::max(0.0F, (view.base.y - middle) / tall);
     over_ = std::max(0.0F, (top - middle) / view.unit);
-    above_ = middle < view.base.y - tall - reach_;
   }
 
   FlamePlace at(int x) const {
     const float middle = static_cast<float>(x) + 0.5F;
-    if (above_ || middle < left_ || middle > right_) return {height_, kOutside, kOutside};
+    if (over_ >= -kOutside || middle < left_ || middle > right_) return {height_, kOutside, kOutside};
     const float depth = depths_.at(middle) / view_.unit;
     return {height_, depth, over_ > 0 ? -std::sqrt(std::max(0.0F, square(depth) - square(over_))) : depth};
   }
@@ -106,9 +105,7 @@ class Places {
   const FilmView& view_;
   float reach_;
   Depths depths_;
-  float left_ = 0, right_ = 0, height_ = 0;
-  float over_ = 0;      // height above the outline's top, mean flame heights
-  bool above_ = false;  // whether the row is far above the flame
+  float left_ = 0, right_ = 0, height_ = 0, over_ = 0;  // over_: height above the outline's top, mean flame heights
 };
 
 float height_index(float height) { return std::clamp(height / kTop, 0.0F, 1.0F) * (kHeights - 1); }
@@ -128,8 +125,7 @@ void add(Sum& sum, std::uint32_t pixel, float weight = 1) {
 
 template <class Sum>
 Sum mean(const Sum& sum) {
-  if (sum[3] == 0) return sum;
-  return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3], 1};
+  return sum[3] == 0 ? sum : Sum{sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3], 1};
 }
 
 template <class Sum>
@@ -236,8 +232,8 @@ void FilmLook::finish() {
   unlit_.resize(plate_.size());
   over_.resize(plate_.size());
   for (std::size_t pixel = 0; pixel < plate_.size(); ++pixel) {
-    const std::size_t row = pixel / static_cast<std::size_t>(view_.width);
-    over_[pixel] = stillness(pixel, (view_.base.y - static_cast<float>(row)) / view_.unit);
+    const auto row = static_cast<float>(pixel / static_cast<std::size_t>(view_.width));
+    over_[pixel] = stillness(pixel, (view_.base.y - row) / view_.unit);
     foot_[pixel] = mean(still_[pixel]);
     unlit_[pixel] =
         out_[pixel][3] > 0 ? mean(out_[pixel]) : mix(Sum{}, mix(plate_[pixel], foot_[pixel], over_[pixel]), kUnlit);
@@ -259,9 +255,8 @@ Image FilmLook::draw(std::span<const Point> outline, float light) const {
       }
       if (over_[pixel] > 0) colour = mix(colour, mix(unlit_[pixel], foot_[pixel], light), over_[pixel]);
       std::uint32_t code = 0xFF000000U;
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < 3; ++c)
         code |= static_cast<std::uint32_t>(std::lround(std::clamp(colour[c], 0.0F, 255.0F))) << (16 - 8 * c);
-      }
       image.row(y)[x] = code;
     }
   }

@@ -304,8 +304,8 @@ class ChainMover {
 
   /// Returns where a row of the lane's segment lies, moved by `more`, in stored units, times `share`.
   Vector3<Real> place_at(const Lane& lane, std::uint32_t row, const std::int16_t* more, Real share) const {
-    const auto at = vector(row_of(index(lane.segment, program_.segments()), row));
-    return placed(lane, added(at, scaled(vector(more), share)));
+    const std::int16_t* at = row_of(index(lane.segment, program_.segments()), row);
+    return placed(lane, added(vector(at), scaled(vector(more), share)));
   }
 
   /// Converts a whole number that is stored as a real one; returns bound − 1 for any that is not below the bound.

@@ -109,10 +109,8 @@ class ChainSteering {
     mover.place(there, segment, body.position, half.cos, half.sin);
     there.left = lane.left;
     const auto miss = taken(lane.target, expected(mover, program, there));
-    Candidate out;
-    out.segment = segment;
-    out.miss = (miss[0] * miss[0] + miss[1] * miss[1]) * bell.ground + miss[2] * miss[2] * bell.height;
-    return out;
+    const Real ground = miss[0] * miss[0] + miss[1] * miss[1];
+    return {.segment = segment, .miss = ground * bell.ground + miss[2] * miss[2] * bell.height};
   }
 
   std::size_t pick(const ChainChoice& choice, std::size_t count, Real least, const ChainWords& words) {
