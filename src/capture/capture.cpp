@@ -188,7 +188,7 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   const auto unusable = [&](const Error& why) {
     return Error{path.string() + ": its sound cannot be used: " + why.message};
   };
-  const auto film = VideoReader::open(path, {.rate_hz = frames ? rate_hz : 0, .frames = {}});
+  const auto film = frames ? VideoReader::open(path, {.rate_hz = rate_hz, .frames = {}}) : Error{"a sound alone"};
   const double speed = film ? film->info().speed : 1;
   const auto heard = hear_sound(path, speed, [&](const SoundFormat& format, double begin, const auto& samples) {
     if (!ear) {

@@ -77,7 +77,7 @@ class Depths {
 struct FlamePlace {
   float height = 0;  // 0 at the base, 1 at the outline's top
   float depth = 0;   // by the nearest point of the outline
-  float colour = 0;  // the same below the outline's top; above it sideways alone, since what leaves a tip stays narrow
+  float colour_depth = 0;  // depth; above the outline's top sideways alone, since what leaves a tip stays narrow
 };
 
 // Positions of the pixels of one row.
@@ -91,21 +91,21 @@ class Places {
     const float top = std::ranges::min_element(outline, {}, &Point::y)->y;
     const float middle = static_cast<float>(y) + 0.5F, tall = std::max(0.2F * view.unit, view.base.y - top);
     height_ = std::max(0.0F, (view.base.y - middle) / tall);
-    over_ = std::max(0.0F, (top - middle) / view.unit);
+    above_top_ = std::max(0.0F, (top - middle) / view.unit);
   }
 
   FlamePlace at(int x) const {
     const float middle = static_cast<float>(x) + 0.5F;
-    if (over_ >= -kOutside || middle < left_ || middle > right_) return {height_, kOutside, kOutside};
+    if (above_top_ >= -kOutside || middle < left_ || middle > right_) return {height_, kOutside, kOutside};
     const float depth = depths_.at(middle) / view_.unit;
-    return {height_, depth, over_ > 0 ? -std::sqrt(std::max(0.0F, square(depth) - square(over_))) : depth};
+    return {height_, depth, above_top_ > 0 ? -std::sqrt(std::max(0.0F, square(depth) - square(above_top_))) : depth};
   }
 
  private:
   const FilmView& view_;
   float reach_;
   Depths depths_;
-  float left_ = 0, right_ = 0, height_ = 0, over_ = 0;  // over_: height above the outline's top, mean flame heights
+  float left_ = 0, right_ = 0, height_ = 0, above_top_ = 0;  // above_top_: mean flame heights
 };
 
 float height_index(float height) { return std::clamp(height / kTop, 0.0F, 1.0F) * (kHeights - 1); }
@@ -188,9 +188,9 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
       squares_[pixel] += square(light_of(row[x]));
       // Weighted by the distance to the flame, with a minimum for pixels that the flame never left.
       if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
-      if (place.height <= 0 || (place.depth <= kOutside && place.colour > kOutside)) continue;
+      if (place.height <= 0 || (place.depth <= kOutside && place.colour_depth > kOutside)) continue;
       const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));
-      const auto j = static_cast<std::size_t>(std::lround(depth_index(place.colour)));
+      const auto j = static_cast<std::size_t>(std::lround(depth_index(place.colour_depth)));
       add(flame_[i * kDepths + j], row[x]);
     }
   }
@@ -251,7 +251,7 @@ Image FilmLook::draw(std::span<const Point> outline, float light) const {
       const FlamePlace place = places ? places->at(x) : FlamePlace{0, kOutside, kOutside};
       Sum colour = mix(unlit_[pixel], plate_[pixel], light);
       if (const float share = smooth(kGlowEnds, kGlowWhole, place.depth); share > 0) {
-        colour = mix(colour, bilinear(colours_, height_index(place.height), depth_index(place.colour)), share);
+        colour = mix(colour, bilinear(colours_, height_index(place.height), depth_index(place.colour_depth)), share);
       }
       if (over_[pixel] > 0) colour = mix(colour, mix(unlit_[pixel], foot_[pixel], light), over_[pixel]);
       std::uint32_t code = 0xFF000000U;

@@ -79,8 +79,9 @@ Result<FormatOwner> open_media(const std::filesystem::path& path) {
   return format;
 }
 
-double stated_seconds(const AVFormatContext& format) {
+double stated_seconds(const AVFormatContext& format, const AVStream& track) {
   if (format.duration == AV_NOPTS_VALUE || format.duration_estimation_method == AVFMT_DURATION_FROM_BITRATE) return 0;
+  if (track.duration != AV_NOPTS_VALUE) return static_cast<double>(track.duration) * av_q2d(track.time_base);
   // Matroska's duration counts from 0, whatever the time of the first frame.
   const bool from_zero = std::strstr(format.iformat->name, "matroska") != nullptr;
   const std::int64_t before = from_zero && format.start_time != AV_NOPTS_VALUE ? format.start_time : 0;
@@ -93,9 +94,16 @@ double end_of(const AVFormatContext& format, const AVPacket& packet) {
   return packet.pts == AV_NOPTS_VALUE ? 0 : static_cast<double>(packet.pts + packet.duration) * tick - start;
 }
 
-bool is_truncated(const AVFormatContext& format, double end) {
+void read_alone(AVFormatContext& format, int track) {
+  if (format.streams[track]->duration == AV_NOPTS_VALUE) return;
+  for (unsigned k = 0; k < format.nb_streams; ++k) {
+    if (static_cast<int>(k) != track) format.streams[k]->discard = AVDISCARD_ALL;
+  }
+}
+
+bool is_truncated(const AVFormatContext& format, int track, double end) {
   constexpr double kExact = 0.95, kSlack = 0.1;  // a duration is not exact to the frame; seconds
-  return end < kExact * stated_seconds(format) - kSlack;
+  return end < kExact * stated_seconds(format, *format.streams[track]) - kSlack;
 }
 
 Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads) {

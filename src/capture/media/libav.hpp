@@ -35,31 +35,21 @@ int with_memory(Call call, Arguments... arguments) {
   return code;
 }
 
-struct FormatCloser {
+struct LibavCloser {
   void operator()(AVFormatContext* format) const { avformat_close_input(&format); }
-};
-struct CodecCloser {
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-};
-struct FrameCloser {
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-struct PacketCloser {
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-struct ScalerCloser {
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
-};
-struct ResamplerCloser {
   void operator()(SwrContext* resampler) const { swr_free(&resampler); }
 };
 
-using FormatOwner = std::unique_ptr<AVFormatContext, FormatCloser>;
-using CodecOwner = std::unique_ptr<AVCodecContext, CodecCloser>;
-using FrameOwner = std::unique_ptr<AVFrame, FrameCloser>;
-using PacketOwner = std::unique_ptr<AVPacket, PacketCloser>;
-using ScalerOwner = std::unique_ptr<SwsContext, ScalerCloser>;
-using ResamplerOwner = std::unique_ptr<SwrContext, ResamplerCloser>;
+using FormatOwner = std::unique_ptr<AVFormatContext, LibavCloser>;
+using CodecOwner = std::unique_ptr<AVCodecContext, LibavCloser>;
+using FrameOwner = std::unique_ptr<AVFrame, LibavCloser>;
+using PacketOwner = std::unique_ptr<AVPacket, LibavCloser>;
+using ScalerOwner = std::unique_ptr<SwsContext, LibavCloser>;
+using ResamplerOwner = std::unique_ptr<SwrContext, LibavCloser>;
 
 /// Maximum pixels of an image, eight times 4K: a larger size is corrupt.
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
@@ -79,14 +69,17 @@ std::string libav_message(int code);
 /// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
-/// Duration that a file's header states, of its longest track, in seconds; 0: none is stated.
-double stated_seconds(const AVFormatContext& format);
+/// Duration that a track's header states, or else the file's, of its longest track, in seconds; 0: none is stated.
+double stated_seconds(const AVFormatContext& format, const AVStream& track);
+
+/// Reads no packets of other tracks, unless only the file states a duration, which the longest of them tells.
+void read_alone(AVFormatContext& format, int track);
 
 /// End of a packet, in seconds after the file's beginning; 0 where its time is unknown.
 double end_of(const AVFormatContext& format, const AVPacket& packet);
 
-/// Whether the packets of a file, of all tracks, end at `end`, earlier than its header states: it is truncated.
-bool is_truncated(const AVFormatContext& format, double end);
+/// Whether the packets that are read for a track end at `end`, earlier than is stated: the file is truncated.
+bool is_truncated(const AVFormatContext& format, int track, double end);
 
 /// Opens a decoder with `threads` threads for one track.
 /// Errors: a codec that FFmpeg cannot decode.

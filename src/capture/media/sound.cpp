@@ -96,7 +96,7 @@ void decode_all(SoundTrack& track, const SoundBlock& block) {
     av_packet_unref(track.packet.get());
     if (!drain(track, block)) return;
   }
-  track.info.cut = track.info.cut || is_truncated(*track.format, end);
+  track.info.cut = track.info.cut || is_truncated(*track.format, track.track, end);
   with_memory(avcodec_send_packet, track.codec.get(), nullptr);
   drain(track, block);
 }
@@ -110,6 +110,7 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
   track.format = std::move(format).value();
   track.track = av_find_best_stream(track.format.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
   if (track.track < 0) return std::optional<SoundInfo>();
+  read_alone(*track.format, track.track);
   const AVStream& sound = *track.format->streams[track.track];
   auto codec = open_decoder(path, sound, 1);
   if (!codec) return codec.error();

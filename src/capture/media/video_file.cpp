@@ -104,8 +104,7 @@ std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
 
 std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track, double rate) {
   if (track.nb_frames > 0) return track.nb_frames - cut_out(format, track);
-  const double seconds = static_cast<double>(track.duration) * av_q2d(track.time_base);
-  return std::llround((track.duration != AV_NOPTS_VALUE ? seconds : stated_seconds(format)) * rate);
+  return std::llround(stated_seconds(format, track) * rate);
 }
 
 }  // namespace
@@ -140,6 +139,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   info.height = height;
   info.frames = stated_frames(*file.format_, track, info.rate_hz / info.speed);
   info.has_sound = av_find_best_stream(file.format_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0) >= 0;
+  read_alone(*file.format_, file.track_);
   file.packet_.reset(av_packet_alloc());
   file.frame_.reset(av_frame_alloc());
   return file;
@@ -259,10 +259,10 @@ std::vector<std::string> VideoFile::warnings() const {
     out.push_back(name + ": " + std::to_string(broken_) +
                   (broken_ == 1 ? " broken frame was left out" : " broken frames were left out"));
   // Only MP4 counts frames exactly: AVI also counts those that were dropped while it was recorded.
-  const bool exact = is_mov(*format_);
+  const bool exact = is_mov(*format_), counted = format_->streams[track_]->nb_frames > 0;
   const std::int64_t least = exact ? info_.frames : info_.frames - info_.frames / 20 - 2;
-  const bool counted = format_->streams[track_]->nb_frames > 0;
-  const bool lacks = counted ? (exact ? decoded_ + broken_ : grid_->last() + 1) < least : is_truncated(*format_, end_);
+  const std::int64_t found = exact ? decoded_ + broken_ : grid_->last() + 1;
+  const bool lacks = counted ? found < least : is_truncated(*format_, track_, end_);
   if (to_the_end && (read_error_ || lacks)) {
     out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(info_.frames) +
                   " stated; what is there is used");

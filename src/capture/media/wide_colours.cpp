@@ -60,8 +60,7 @@ void narrow_colours(const AVFrame& frame, const AVFrame& rgb48, AVFrame& rgb24) 
                       : frame.color_trc == AVCOL_TRC_SMPTE2084  ? pq
                                                                 : sdr;
   const bool same = frame.color_primaries == AVCOL_PRI_BT709;
-  for (int y = 0; y < rgb48.height; ++y) {
-    const std::ptrdiff_t row = y;
+  for (std::ptrdiff_t row = 0; row < rgb48.height; ++row) {
     const auto* in = reinterpret_cast<const std::uint16_t*>(rgb48.data[0] + row * rgb48.linesize[0]);
     std::uint8_t* out = rgb24.data[0] + row * rgb24.linesize[0];
     for (int x = 0; x < rgb48.width; ++x, in += 3) {

@@ -226,7 +226,7 @@ void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
 // Reports feedback where, in the first recording, an output's past improves the prediction of an input by its own past.
 void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
   constexpr int kLags = 5;
-  constexpr double kShare = 0.05, kChance = 1e-6, kLeastRows = 150;
+  constexpr double kShare = 0.05, kChance = 1e-6, kMinRows = 150;
   const Recording& whole = subject.recordings.front();
   const Recording first = slice(whole, 0, std::min(whole.rows(), kManyRows));
   std::vector<LaggedChannel> lags;
@@ -234,7 +234,7 @@ void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
   for (const std::string& input : subject.inputs) {
     for (const std::string& output : subject.outputs) {
       const auto effect = arx::effect_of_past({&first, 1}, {{output}, {input}}, {lags});
-      if (!effect || effect->rows < kLeastRows || !(effect->own > 1e-8 * effect->size)) continue;
+      if (!effect || effect->rows < kMinRows || !(effect->own > 1e-8 * effect->size)) continue;
       // Rows in which the input does not change carry no information.
       const Series& u = *subject.find(first, input);
       double moves = 0;
@@ -369,7 +369,7 @@ std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std:
   if (recordings.empty()) return out;
   const Subject subject{recordings, inputs, outputs};
   look_at_samples(subject, out);
-  look_for_redundancy(subject, std::get<int>(ArxRecipe().nb) - 1, out);
+  look_for_redundancy(subject, std::get<int>(ArxRecipe().nb) - 1, out);  // at the lags of the default model
   look_at_table(subject, out);
   const bool spoiled =
       std::any_of(out.begin(), out.end(), [](const Remark& one) { return one.kind <= RemarkKind::kOutliers; });

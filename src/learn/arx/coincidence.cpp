@@ -17,7 +17,6 @@ std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, 
   if (!signals) return std::nullopt;
   std::vector<LaggedChannel> used;
   for (int lag = 1; lag <= own_lags; ++lag) used.push_back({0, lag});
-  const auto own = used;
   for (const auto& set : sets) used.insert(used.end(), set.begin(), set.end());
   const LagLayout layout(1, signals->inputs, used);
   SearchWindows windows(*signals, layout, layout.history(), layout.history());
@@ -26,7 +25,7 @@ std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, 
   const int target = layout.target(0);
   std::vector<int> base{0};
   effect.size = left_by(windows, layout.history(), base, {target}).squaredNorm();
-  for (const LaggedChannel& column : own) base.push_back(layout.find(column));
+  for (int lag = 1; lag <= own_lags; ++lag) base.push_back(layout.find({0, lag}));
   effect.own = left_by(windows, layout.history(), base, {target}).squaredNorm();
   for (const auto& set : sets) {
     std::vector<int> beside = base;
@@ -38,12 +37,11 @@ std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, 
 
 std::optional<Remark> coincidence(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOrders& orders) {
-  constexpr int kShifts = 10, kLeast = 8, kFirst = 40, kLags = 2;
+  constexpr int kShifts = 10, kMinBehind = 8, kMinShift = 40, kLags = 2;
   constexpr double kChance = 1e-3, kExact = 1e-9;
   const std::vector<Recording> some = middles_of(recordings, 8192);  // more would not change the answer
-  std::size_t longest = 0;
-  for (const Recording& one : some) longest = std::max(longest, one.rows());
-  const int last = int(longest / 4), first = std::min(kFirst, last / 2), own_lags = std::min(20, last / 5);
+  const std::size_t longest = some.empty() ? 0 : std::ranges::max_element(some, {}, &Recording::rows)->rows();
+  const int last = int(longest / 4), first = std::min(kMinShift, last / 2), own_lags = std::min(20, last / 5);
   for (int i = 0; i < orders.outputs(); ++i) {
     std::vector<std::vector<LaggedChannel>> sets(1 + kShifts);
     for (int s = 0; s <= kShifts; ++s) {
@@ -62,7 +60,7 @@ std::optional<Remark> coincidence(std::span<const Recording> recordings, const C
       const double trace = 0.1 * kExact * effect->size;
       return effect->rows * std::log((left + trace) / (effect->both.front() + trace)) > limit;
     };
-    if (std::count_if(effect->both.begin() + 1, effect->both.end(), behind) >= kLeast) continue;
+    if (std::count_if(effect->both.begin() + 1, effect->both.end(), behind) >= kMinBehind) continue;
     const auto best = std::min_element(effect->both.begin() + 1, effect->both.end()) - effect->both.begin();
     const int shift = sets[std::size_t(best)].front().lag - sets.front().front().lag;
     return Remark{
