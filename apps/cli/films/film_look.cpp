@@ -75,8 +75,8 @@ class Depths {
 
 // Position of a pixel relative to an outline; depths in mean flame heights, positive inside.
 struct FlamePlace {
-  float height = 0;  // 0 at the base, 1 at the outline's top
-  float depth = 0;   // by the nearest point of the outline
+  float height = 0;        // 0 at the base, 1 at the outline's top
+  float depth = 0;         // by the nearest point of the outline
   float colour_depth = 0;  // depth; above the outline's top sideways alone, since what leaves a tip stays narrow
 };
 
