@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@
 #include "simulate/candle/flame_outline.hpp"
 #include "simulate/candle/wind_signal.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/simulate/candle_clip.hpp"
 
 namespace {
 
@@ -272,20 +270,6 @@ void resolution(Bounds& bounds) {
   }
 }
 
-// Processor time, which a busy machine stretches less than the clock on the wall.
-void cost(Bounds& bounds) {
-  CandleClipOptions options;
-  options.seconds = 10;
-  CandleClipOutputs outputs;
-  outputs.on_frame = [](const CandleFrame&) -> Result<void> { return {}; };
-  outputs.on_sound = [](std::span<const float>) -> Result<void> { return {}; };
-  const std::clock_t start = std::clock();
-  const auto clip = simulate_candle(options, outputs);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  std::printf("\nA clip at the demo's grid, pictures and sound included\n");
-  bounds.at_most("processor seconds a second of clip", clip ? seconds / options.seconds : 1e9, 1);
-}
-
 }  // namespace
 
 int main(int count, char** names) {
@@ -293,10 +277,13 @@ int main(int count, char** names) {
     const char* name;
     void (*run)(Bounds&);
   };
-  constexpr std::array kChecks = {Check{"calm", calm},   Check{"wind", wind},
-                                  Check{"step", step},   Check{"blow-out", blow_out},
-                                  Check{"cost", cost},   Check{"resolution", resolution},
-                                  Check{"lives", lives}, Check{"long-run", long_run}};
+  constexpr std::array kChecks = {Check{"calm", calm},
+                                  Check{"wind", wind},
+                                  Check{"step", step},
+                                  Check{"blow-out", blow_out},
+                                  Check{"resolution", resolution},
+                                  Check{"lives", lives},
+                                  Check{"long-run", long_run}};
   Bounds bounds;
   for (const Check& check : kChecks) {
     const auto wanted = [&](const char* name) { return std::string(name) == check.name; };
