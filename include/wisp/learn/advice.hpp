@@ -34,8 +34,8 @@ struct Remark {
   std::string channel;
   std::string cause;
   std::string cure;
-  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent that the output's past explains of the input's
-                    ///< variation left by the input's own past
+  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the variance left by the input's own past that
+                    ///< the output's past explains
 };
 
 /// Returns remarks on recordings, in the order of RemarkKind. Only outputs are tested for outliers, drift and

@@ -22,7 +22,7 @@ struct ValidationOptions {
   InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX model's free simulation; a switched
                                                    ///< model starts from measured samples
   bool responses = false;  ///< ARX: also series of poles, zeros, responses and errors by horizon; outlines: of poles
-  double pixels_per_unit = 0;    ///< outlines: pixels of 1; 0: the recording's own calm height
+  double pixels_per_unit = 0;    ///< outlines: 0: the recording's own calm height
   bool own_input_scale = false;  ///< outlines: input 1 is this recording's 95th percentile instead of the training's,
                                  ///< for another microphone or gain
   bool align = true;             ///< outlines: advance inputs that lag behind the motion they cause

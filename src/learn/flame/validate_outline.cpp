@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
-// Predictions shown in pictures: free simulation where an input drives the model, else the last ones of at most five
-// frames ahead; where there are none, the first.
+// Predictions shown in pictures: the free simulation of a model with inputs, of others the last of the predictions at
+// most five frames ahead. Without such predictions, the first.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
@@ -93,7 +93,7 @@ void add_series(const Recording& recording, const OutlineJudgement& found, Valid
   }
 }
 
-// Reports the input's gain: another microphone measures the same wind at another level, which readers overlook.
+// Reports the input's gain, since another microphone measures the same wind at another level.
 ReportSection gain_section(double factor) {
   ReportSection section{"", {{"gain", factor, "", ""}}};
   if (std::abs(factor - 1) < kSameGain) return section;

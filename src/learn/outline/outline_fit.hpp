@@ -27,10 +27,10 @@ struct OutlineTrial {
   std::vector<double> sd_ratio;  ///< per output, played over recorded; 1 for constant outputs
   double crossed = 0;            ///< self-intersection rate of played outlines
   double crossed_recorded = 0;   ///< self-intersection rate of recorded outlines
-  double outside = 0;            ///< share of played outlines farther from all recorded ones than the 99th percentile
-                                 ///< of that distance between the last 40 % of every recording and the rest
+  double outside = 0;  ///< share of played outlines whose distance to the nearest recorded one exceeds the 99th
+                       ///< percentile of distances from the last 40 % of every recording to the rest
   std::optional<Bounded> half_second;  ///< normalised energy distance of windows of 0.5 s; empty if too short
-  std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
+  std::optional<Bounded> two_seconds;  ///< normalised energy distance of windows of 2 s; empty if too short
 };
 
 struct OutlineSummary {
@@ -66,8 +66,8 @@ struct OutlineFit {
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},
                                const Progress& progress = {});
 
-/// Fit of the tip simulated from the inputs alone, per cent, on held-out rows where there are some; NaN without inputs.
-/// Inputs that reach less than kMinFollowedPercent do not explain the motion.
+/// Fit in per cent of the tip simulated from the inputs alone, on held-out rows if there are some; NaN without inputs.
+/// Below kMinFollowedPercent the inputs do not explain the motion.
 double followed_percent(const OutlineSummary& summary);
 constexpr double kMinFollowedPercent = 5;
 

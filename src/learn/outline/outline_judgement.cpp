@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-// Data that validation needs of a model known to be an outline.
+// A model known to be an outline with ARX dynamics.
 struct OutlineModel {
   const Model& whole;
   OutlineDynamics dynamics;
@@ -92,7 +92,7 @@ Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, co
   return out;
 }
 
-// Where the outline is missing, repeats the base's last position, so that play has one.
+// Repeats the base's last position where the outline is missing, so that every played frame has one.
 void hold_base(Recording& recording) {
   for (const char* name : {"base.x", "base.y"}) {
     auto& samples = recording.channels[*find_channel(recording, name)].samples;

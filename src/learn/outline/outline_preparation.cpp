@@ -26,8 +26,8 @@ Matrix basis_table(std::span<const double> knots) {
   return table;
 }
 
-// Matrix from old to new control points: ends unchanged, since clamped curves end in their end points; the others by
-// least squares.
+// Matrix from old to new control points. The first and the last are kept, since clamped curves end in them; the others
+// are a least-squares fit.
 Matrix change(const Matrix& from, const Matrix& to) {
   const Eigen::Index points = to.cols();
   const Matrix inner = to.middleCols(1, points - 2);

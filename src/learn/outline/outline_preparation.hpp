@@ -15,8 +15,8 @@ namespace wisp {
 
 struct Reknotted {
   Recording recording;  ///< the recording with new outputs and attribute `knots`
-  double rms = 0;       ///< RMS distance between old and new curves at equal parameters, in the outputs' unit; 0 where
-                        ///< no row has an outline
+  double rms = 0;       ///< RMS distance between old and new curves at equal parameters, in the outputs' unit; 0 if no
+                        ///< row has an outline
 };
 
 /// Converts a recording's outlines to other knots: in every row, the same number of control points, with ends kept and
@@ -35,7 +35,7 @@ struct PreparationOptions {
 struct PreparedOutlines {
   OutlineLayout layout;  ///< layout of the prepared recordings, outputs first
   std::vector<OutlineInput> inputs;
-  RegressorShape shape;  ///< regressors; empty without inputs
+  RegressorShape shape;  ///< kinds of regressors; no powers without inputs
   ChannelChoice channels;
   std::vector<double> pixels_per_unit;  ///< per recording
   std::vector<Recording> recordings;

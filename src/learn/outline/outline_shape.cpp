@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kStrips = 1024;
 
-// Twice the signed area of a triangle; the sign tells on which side of the line a–b the point c is.
+// Twice the signed area of a triangle; the sign is the side of the line a–b on which c lies.
 double side(const OutlinePoint& a, const OutlinePoint& b, const OutlinePoint& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }

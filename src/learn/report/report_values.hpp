@@ -16,7 +16,7 @@ namespace wisp::arx {
 void add(ReportSection& section, std::string id, ReportValue value, std::string label = {}, std::string unit = {},
          std::string meaning = {});
 
-/// Adds figures for programs: pairs of an id, which `prefix` precedes, and a value.
+/// Adds figures for programs: pairs of an id and a value, with `prefix` before every id.
 template <class Value, class... More>
 void add_all(ReportSection& section, const std::string& prefix, const char* id, Value&& value, More&&... more) {
   add(section, prefix + id, std::forward<Value>(value));
@@ -25,7 +25,7 @@ void add_all(ReportSection& section, const std::string& prefix, const char* id, 
 
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
-/// Adds a column with value(row) to the rows that a table has.
+/// Adds a column to a table, with value(row) in each of its rows.
 template <class Value>
 void add_column(ReportTable& table, ReportColumn column, Value value) {
   table.columns.push_back(std::move(column));
