@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "model/bspline.hpp"
+
 namespace wisp {
 
 using OutlinePoint = std::array<double, 2>;
@@ -16,20 +18,13 @@ class OutlineCurve {
   /// Precondition: valid_knots(knots); samples >= 2.
   explicit OutlineCurve(std::span<const double> knots, std::size_t samples = 200);
 
-  std::size_t control_points() const { return points_; }
-
   /// Points of the curve for control points x0, y0, x1, y1, …, from the base's left over the tip to the base's right.
   ///
-  /// Precondition: control.size() == 2 · control_points().
+  /// Precondition: two values for each control point of the knots.
   std::vector<OutlinePoint> polyline(std::span<const double> control) const;
 
  private:
-  struct Sample {
-    std::size_t first;
-    std::array<double, 4> weight;
-  };
-  std::size_t points_;
-  std::vector<Sample> samples_;
+  std::vector<BasisWeights> samples_;
 };
 
 /// Points at equal arc lengths of a polyline, including both ends, independent of the curve's parameter. Where the

@@ -39,8 +39,6 @@ struct RowStretch {
   std::vector<Row> rows;
 };
 
-int steps_of(double seconds, double rate_hz) { return std::max(1, static_cast<int>(std::lround(seconds * rate_hz))); }
-
 // Signed samples of the first input; zeros without inputs.
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
@@ -197,7 +195,7 @@ Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, 
   if (driven) out.mirror = mirror_image(dynamics.shape);
   if (driven) out.tolerance = kTolerance;
   if (driven) out.margin = kMargin;
-  if (driven) out.longest = steps_of(kLongestSeconds, rate);
+  if (driven) out.longest = std::max(1, static_cast<int>(std::lround(kLongestSeconds * rate)));
   store_rows(stretches, out);
   return out;
 }
