@@ -26,7 +26,7 @@ struct ValidationOptions {
   bool own_input_scale = false;  ///< outlines: input 1 is this recording's 95th percentile instead of the training's,
                                  ///< for another microphone or gain
   bool align = true;             ///< outlines: advance inputs that lag behind the motion they cause
-  double play_seconds = 60;      ///< outlines: duration of free play for the fidelity figures, > 0
+  double play_seconds = 60;      ///< outlines: duration of free play for the fidelity figures, 0.001 to 86400
   bool fidelity = true;          ///< outlines: compute fidelity, which takes a second or two
   std::uint64_t seed = 1;        ///< seed of simulations with noise
 };

@@ -21,12 +21,12 @@ ReportSection gain_section(const std::vector<double>& factors) {
   return {"Gain of the inputs", {{"gain.factors", factors, "winds on one scale, times", ""}}};
 }
 
-// Whether no input of any recording correlates significantly with the motion.
+// Whether no input of any recording correlates significantly with the motion, as far as that was computed.
 bool driven_by_nothing(const OutlineSummary& summary) {
   const auto stands_out = [](const InputAlignment& one) {
     return one.found.chance > 0 && std::abs(one.found.correlation) >= one.found.chance;
   };
-  return !summary.inputs.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
+  return !summary.alignment.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
 }
 
 bool are_silent(std::span<const Recording> recordings) {
@@ -157,6 +157,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   if (!on_one_scale) return on_one_scale.error();
   Report report;
   for (Recording& recording : *on_one_scale) {
+    recording.rate_hz = recordings.front().rate_hz;  // within the tolerance of check_same_rate()
     const std::size_t removed = remove_jumps(recording);
     if (removed == 0) continue;
     report.warnings.push_back(recording.source + ": " + std::to_string(removed) +
