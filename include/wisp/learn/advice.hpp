@@ -58,9 +58,9 @@ std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std
 Report advise(const Recording& recording);
 
 /// Describes the motion of outlines: mean and deviation of height, area and lean; the flicker frequency of √area with
-/// its half-power bandwidth, and its spectrum as a series. For several outlines filmed simultaneously, also the phase
-/// of each after the first at the first one's flicker frequency, −180 to 180 degrees, with the coherence.
-/// Errors: no outline; a rate or number of rows that differs from the first one's.
+/// its half-power bandwidth, and its spectrum as a series. For outlines filmed simultaneously, also the phase by
+/// which each lags the first one at that one's flicker frequency, −180 to 180 degrees, with the coherence.
+/// Errors: fewer than two rows with an outline; a rate or number of rows that differs from the first recording's.
 Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

@@ -33,8 +33,8 @@ Result<EventSpec> parse_event(std::string_view text);
 /// Realisation of a mode: the source of its segments.
 enum class Realisation {
   kSegments,  ///< recorded segments
-  kLinear,    ///< simulated by a linear system with noise, from initial states of recorded segments
-  kOde,       ///< simulated by a differential equation with products of velocities, from the same initial states
+  kLinear,    ///< simulated by a linear system with noise, from recorded initial states
+  kOde,       ///< simulated by a differential equation with products of velocities, from recorded initial states
   kChain,     ///< halves of recorded segments; each mode is a chain of its own
   kSpline,    ///< random splines with the variation of recorded segments
 };

@@ -81,7 +81,7 @@ struct NamedModel {
 Result<Report> compare(std::span<const NamedModel> models, const Recording& recording,
                        const ValidationOptions& options = {}, const Progress& progress = {});
 
-/// Compares the models on several recordings, in one table; series are of the first.
+/// Compares the models on several recordings, in one table; series are those of the first recording.
 Result<Report> compare(std::span<const NamedModel> models, std::span<const Recording> recordings,
                        const ValidationOptions& options = {}, const Progress& progress = {});
 

@@ -29,8 +29,8 @@ struct FlameLife {
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
-constexpr double kWatchedBefore = 0.5;  // seconds before a recorded extinction from which on a rule may reproduce it
-constexpr double kWatchedAfter = 0.5;   // the same after it: capture loses a decaying flame early
+constexpr double kWatchedBefore = 0.5;  // seconds by which a rule's extinction may precede the recorded one
+constexpr double kWatchedAfter = 0.5;   // seconds by which it may follow: capture loses a decaying flame early
 constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
 constexpr double kGustShare = 0.5;      // least wind of a gust, as a share of the weakest that extinguished
 constexpr double kOneGust = 0.15;       // seconds: shorter lulls do not divide a gust

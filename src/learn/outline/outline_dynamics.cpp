@@ -31,7 +31,7 @@ constexpr std::size_t kPowers = 3;    // powers of an input's size, followed by 
 // Whether a regressor is invariant under the mirror image.
 bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }
 
-// Mean of the recordings' calm shapes, or of all rows where no recording has calm rows.
+// Mean of the recordings' calm shapes; if no recording has one, of all complete rows.
 std::vector<double> shape_at_rest(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   const std::size_t outputs = prepared.layout.outputs.size();
   std::vector<double> sum(outputs, 0.0);

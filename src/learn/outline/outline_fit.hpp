@@ -44,7 +44,7 @@ struct OutlineSummary {
   std::size_t rows_held_out = 0;           ///< number of complete rows held out, which the returned model also uses
   OutlineFigures learned;                  ///< figures on the training rows
   std::optional<OutlineFigures> held_out;  ///< figures on the held-out rows; empty if too short
-  std::vector<double> residual_sd;         ///< one step ahead, per output
+  std::vector<double> residual_sd;         ///< of predictions one step ahead, per output
   std::size_t resampled_rows = 0;          ///< number of residual rows; 0: Gaussian noise
   OutlineTrial trial;
   double pixels_per_unit = 0;  ///< pixels per model unit in the first recording

@@ -49,7 +49,7 @@ bool crosses_itself(std::span<const OutlinePoint> polyline);
 double enclosed_area(std::span<const OutlinePoint> polygon);
 
 /// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an
-/// area. Both are cut into 1024 horizontal strips over their common height, with exact intervals at each strip's
+/// area. Both are cut into 1024 horizontal strips over their joint height, with exact intervals at each strip's
 /// centre. The error is at most 1e-3 (one strip at a horizontal side), and 1e-4 on round outlines.
 double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint> b);
 

@@ -12,7 +12,7 @@ namespace wisp::arx {
 namespace {
 
 constexpr int kMaxStates = 256;         // above this, computing eigenvalues takes too long for a description
-constexpr int kMaxStatesForZeros = 48;  // the same limit for the zeros of every pair of channels
+constexpr int kMaxStatesForZeros = 48;  // limit for zeros, which every pair of channels has
 constexpr int kMaxStatesTold = 12;
 constexpr int kMaxCoefficientsTold = 60;
 

@@ -51,7 +51,7 @@ CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector
 /// Id of a number of steps: "5", or "inf" for free simulation.
 std::string steps_id(int steps);
 
-/// A name as one step of an id: dots, opening brackets and backslashes, which have a meaning there, are escaped by \.
+/// A name as one field of an id: dots, opening brackets and backslashes are escaped by a backslash.
 std::string as_id(const std::string& name);
 
 /// The id of an element's field: "inputs[2].name".
