@@ -16,10 +16,10 @@ enum class RemarkKind {
   kSentinel,    ///< a number that stands for a missing sample, such as −999
   kOutliers,    ///< single samples far from their neighbours
   kConstant,    ///< a channel that never changes
-  kRedundant,   ///< a channel that is a linear function of another one, for inputs also of one some samples before
+  kRedundant,   ///< a linear function of another channel; for inputs, also of earlier samples of another channel
   kMissing,     ///< more than a tenth of the samples are missing
   kShort,       ///< fewer than 50 rows
-  kExcitation,  ///< an input with little variation
+  kExcitation,  ///< an input that changes fewer than four times
   kFeedback,    ///< an input that depends on the output (feedback)
   kDelay,       ///< an input that acts with a delay
   kIntegrates,  ///< an output that integrates its input
@@ -34,21 +34,22 @@ struct Remark {
   std::string channel;
   std::string cause;
   std::string cure;
-  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the input that the output's past explains
+  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the variance left by the input's own past that
+                    ///< the output's past explains
 };
 
 /// Returns remarks on recordings, in the order of RemarkKind. Only outputs are tested for outliers, drift and
-/// integration; without inputs excitation, feedback and delays are not tested. Channels that a recording lacks are
-/// skipped.
+/// integration. Excitation, feedback, delays, drift and integration are tested only where there are inputs and outputs
+/// and no sentinel or outlier was found. Channels that a recording lacks are skipped.
 std::vector<Remark> remarks_on(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                                const std::vector<std::string>& outputs);
 
-/// Returns the kRedundant remarks on the named channels, judged by a sample of the rows; `lags`: samples by which one
-/// may be later than the other.
+/// Returns the kRedundant remarks on the named channels, judged by at most 8192 rows from the recordings' middles.
+/// `lags`: samples by which one channel may lag another.
 std::vector<Remark> redundant_channels(std::span<const Recording> recordings, const std::vector<std::string>& names,
                                        int lags = 0);
 
-/// Returns the kFeedback remarks on the first recording.
+/// Returns the kFeedback remarks on the first 8192 rows of the first recording.
 std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                                 const std::vector<std::string>& outputs);
 
@@ -57,9 +58,9 @@ std::vector<Remark> feedback_of(std::span<const Recording> recordings, const std
 Report advise(const Recording& recording);
 
 /// Describes the motion of outlines: mean and deviation of height, area and lean; the flicker frequency of √area with
-/// its half-power bandwidth, and its spectrum as a series. For several outlines filmed simultaneously, also the phase
-/// of each after the first at the first one's flicker frequency, −180 to 180 degrees, with the coherence.
-/// Errors: no outline; a rate or number of rows that differs from the first one's.
+/// its half-power bandwidth, and its spectrum as a series. For outlines filmed simultaneously, also the phase by
+/// which each lags the first one at that one's flicker frequency, −180 to 180 degrees, with the coherence.
+/// Errors: fewer than two rows with an outline; a rate or number of rows that differs from the first recording's.
 Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

@@ -28,11 +28,12 @@ enum class ArxOffset {
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<ArxOffset>{"mean", "none", "estimate"};
 
-/// Outputs that appear in an output's regression. Inputs appear in every one.
+/// Outputs that appear in an output's regression. Inputs appear in every one. A group is one output, or the x and y of
+/// one control point.
 enum class Coupling {
   kFull,      ///< all outputs
   kDiagonal,  ///< outputs of its own group
-  kBand,      ///< outputs of its own group and of the neighbouring groups in the chain
+  kBand,      ///< outputs of its own group and of the groups before and after it
 };
 
 template <>
@@ -41,8 +42,8 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "dia
 /// Objective of the estimation.
 enum class ArxFocus {
   kPrediction,  ///< one-step prediction: least squares
-  kSimulation,  ///< free simulation: of least squares and 15 or 30 lags under a kernel, the best on held-out rows
-  kAuto,        ///< least squares, unless such lags under a kernel simulate held-out rows significantly better
+  kSimulation,  ///< free simulation: the best on held-out rows of least squares and of 15 or 30 lags under a kernel
+  kAuto,        ///< least squares, unless 15 or 30 lags under a kernel simulate held-out rows significantly better
 };
 
 template <>
@@ -51,13 +52,13 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<ArxFocus>{"prediction"
 /// Prior on the coefficients.
 enum class ArxKernel {
   kNone,
-  kTc,  ///< tuned, correlated: each channel's decay over its lags, correlated neighbours; decay rate from data
+  kTc,  ///< tuned/correlated: coefficients decay over a channel's lags, neighbours correlate; rate from the data
 };
 
 template <>
 inline constexpr std::array<std::string_view, 2> kWordsOf<ArxKernel>{"none", "tc"};
 
-/// Value of a number of steps that means infinitely many: free simulation from the input alone.
+/// Number of steps that stands for infinitely many: free simulation from the input alone.
 inline constexpr int kFreeRun = 0;
 
 /// Initial state of a free simulation.
@@ -98,7 +99,7 @@ struct ArxSearch {
   OrderRange nb{1, 10};
   OrderRange nk{0, 3};
   OrderCriterion by = OrderCriterion::kFpe;
-  int steps = 1;                        ///< prediction horizon for validation, steps: 1 to 100000, or kFreeRun
+  int steps = 1;                        ///< prediction horizon for validation: 1 to 100000 steps, or kFreeRun
   std::vector<Recording> validation{};  ///< required by kValidation; with other criteria also evaluated
 };
 

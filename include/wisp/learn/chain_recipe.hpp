@@ -1,5 +1,5 @@
 #pragma once
-// Settings for learning a segment chain. Sources: sections 2.2 and 4 of the paper.
+// Settings for learning a segment chain. Source: L.-M. Reissell and D. K. Pai (2001), sections 2.2 and 4.
 
 #include <array>
 #include <cstddef>
@@ -33,8 +33,8 @@ Result<EventSpec> parse_event(std::string_view text);
 /// Realisation of a mode: the source of its segments.
 enum class Realisation {
   kSegments,  ///< recorded segments
-  kLinear,    ///< simulated by a linear system with noise, from initial states of recorded segments
-  kOde,       ///< simulated by a differential equation with products of velocities, from such states
+  kLinear,    ///< simulated by a linear system with noise, from recorded initial states
+  kOde,       ///< simulated by a differential equation with products of velocities, from recorded initial states
   kChain,     ///< halves of recorded segments; each mode is a chain of its own
   kSpline,    ///< random splines with the variation of recorded segments
 };
@@ -60,7 +60,7 @@ struct ChainRecipe {
   double min_seconds = 0.04;
   double debounce = 0.1;
   int smooth_rows = 0;
-  std::size_t max_bytes = 4'000'000;  ///< a leaf for the web has 900'000
+  std::size_t max_bytes = 4'000'000;  ///< the leaves of the web page are learned with 900'000
   double holdout = 0.2;
   double half_width = 0;
   double half_length = 0;
@@ -120,7 +120,7 @@ constexpr auto fields_of(const ChainRecipe&) {
       field("seed", &R::seed, "of all chance", {"seed", "N"}));
 }
 
-/// Names of a time column in seconds, if a recording has one: it must increase evenly.
+/// Names of an optional time column in seconds, which must increase in equal steps.
 inline constexpr std::array<const char*, 3> kTimeColumns = {"t", "t_s", "time"};
 
 /// Checks that a recording describes motion. Errors: no position, no sufficiently long stretch, no orientation where

@@ -2,8 +2,8 @@
 // Recipes for learning an outline, or a flame, from recordings of its control points.
 //
 // Source: L.-M. Reissell and D. K. Pai (2001), section 3.4. Departures from the paper: components of the outline's
-// shape instead of control points, wind from both sides, no input at all, resampled residuals, a part held out for
-// judging, extinction.
+// shape instead of control points, wind from both sides, models without inputs, resampled residuals, a held-out part
+// for judging, extinction.
 
 #include <cstdint>
 #include <optional>
@@ -28,8 +28,8 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<ExtinctionSource>{"non
 /// Rule of a flame's extinction (wisp/model/extinction.hpp). It applies to the first input.
 struct ExtinctionRecipe {
   ExtinctionSource source = ExtinctionSource::kNone;
-  double level = 0;    ///< for kGiven: wind, 1 is training's 95th percentile; in Extinction::level's range
-  double seconds = 0;  ///< for kGiven: duration at that level until extinction; in the range of Extinction::seconds
+  double level = 0;    ///< for kGiven: extinguishing wind, 1 is the training's 95th percentile; as Extinction::level
+  double seconds = 0;  ///< for kGiven: duration at that level until extinction; as Extinction::seconds
 };
 
 /// Settings for learning an outline. fields_of() below documents each field.

@@ -3,8 +3,8 @@
 // order.
 //
 // A part holds the triangular factor of its rows' regression, whose size does not depend on the number of rows. The fit
-// of merged parts equals that of all rows in memory except for rounding. Other models are learned from recordings in
-// one place: jobs capture clips, and one of them learns from the folder of recordings.
+// of merged parts equals that of all rows in memory except for rounding. Models of other kinds have no parts: they are
+// learned in one place, from recordings that may be captured in many.
 //
 // Source: J. Demmel et al., SIAM J. Sci. Comput. 34 (2012), tall-skinny QR.
 
@@ -26,12 +26,12 @@
 
 namespace wisp {
 
-/// Selection of a table's rows: rows [first, first + rows) in `count` equal shares, of these number `index` (0-based).
+/// Selects share `index` of a table's rows [first, first + rows), which are divided into `count` equal shares.
 struct TableShare {
   std::size_t first = 0;
   std::size_t rows = std::numeric_limits<std::size_t>::max();  ///< number of rows; the default: all
-  std::size_t index = 0;
-  std::size_t count = 1;  ///< > index
+  std::size_t index = 0;                                       ///< counted from 0
+  std::size_t count = 1;                                       ///< > index
 };
 
 /// A part of an ARX fit.

@@ -41,7 +41,7 @@ struct FieldTraits {
   const char* sign = "";       ///< name of the value in the flag's help
   double lowest = -std::numeric_limits<double>::infinity();  ///< lower bound of a number, inclusive
   double highest = std::numeric_limits<double>::infinity();  ///< upper bound of a number, inclusive
-  const char* unset = nullptr;                               ///< word that means 0 or none: chosen from the recordings
+  const char* unset = nullptr;                               ///< word for 0 or an unset value: the recordings decide
   std::array<const char*, 2> words{};                        ///< words of a flag for false and for true; none: a switch
 };
 

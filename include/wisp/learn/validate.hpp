@@ -21,12 +21,12 @@ struct ValidationOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};      ///< prediction horizons, 1 to 100000 steps, or kFreeRun
   InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX model's free simulation; a switched
                                                    ///< model starts from measured samples
-  bool responses = false;                          ///< also series of poles; ARX: zeros, responses, errors by horizon
-  double pixels_per_unit = 0;                      ///< outlines: 0: the recording's own mean calm height is 1
+  bool responses = false;  ///< ARX: also series of poles, zeros, responses and errors by horizon; outlines: of poles
+  double pixels_per_unit = 0;    ///< outlines: 0: the recording's own calm height
   bool own_input_scale = false;  ///< outlines: input 1 is this recording's 95th percentile instead of the training's,
                                  ///< for another microphone or gain
   bool align = true;             ///< outlines: advance inputs that lag behind the motion they cause
-  double play_seconds = 60;      ///< outlines: duration of free play for the fidelity figures, > 0
+  double play_seconds = 60;      ///< outlines: duration of free play for the fidelity figures, 0.001 to 86400
   bool fidelity = true;          ///< outlines: compute fidelity, which takes a second or two
   std::uint64_t seed = 1;        ///< seed of simulations with noise
 };
@@ -81,7 +81,7 @@ struct NamedModel {
 Result<Report> compare(std::span<const NamedModel> models, const Recording& recording,
                        const ValidationOptions& options = {}, const Progress& progress = {});
 
-/// Compares the models on several recordings, in one table; series are of the first.
+/// Compares the models on several recordings, in one table; series are those of the first recording.
 Result<Report> compare(std::span<const NamedModel> models, std::span<const Recording> recordings,
                        const ValidationOptions& options = {}, const Progress& progress = {});
 
@@ -96,8 +96,8 @@ Result<OutlineRows> outline_rows(const Recording& recording);
 struct ValidatedOutline {
   Report report;
   OutlineRows captured;
-  OutlineRows simulated;        ///< simulation from the inputs alone; for a model without inputs the longest prediction
-                                ///< up to five frames ahead, since nothing drives a simulation
+  OutlineRows simulated;  ///< simulation from the inputs alone; for a model without inputs the last of the predictions
+                          ///< at most five frames ahead, since nothing drives a simulation
   std::string simulated_label;  ///< "simulated from the input alone", "predicted 5 frames ahead"
   OutlineRows played;           ///< play of the model with noise along the recording's inputs
   double pixels_per_unit = 1;   ///< scale of the model's unit in this clip
@@ -106,8 +106,8 @@ struct ValidatedOutline {
 /// Validates an outline model on a recording of an outline in pixels. The input is converted to the training's scale of
 /// sound, unless `own_input_scale`; extinctions are excluded from the judgement of the dynamics, and the rule of
 /// extinction is judged separately. A recording with other knots is converted to the model's, with a warning. The
-/// report has gain, rows, channels, points, J, tip, overlap, fidelity, extinction, and the series of plots: `tip`, the
-/// inputs, `flicker`.
+/// report has rows, alignment, J, tip, overlap, fidelity, held_share, crossed_share, gain, extinction, and the series
+/// of plots: `tip`, `input`, `flicker`.
 /// Errors: no steps; a model that is not an outline or not ARX; naming the recording, a number of control points or a
 /// rate that differs from the model's, a missing input, no outline in any row; kStopped.
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,

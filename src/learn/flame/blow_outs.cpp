@@ -17,9 +17,10 @@ constexpr double kMinBlown = 0.15;     // seconds over which that wind is averag
 constexpr double kSettling = 0.5;      // seconds after re-ignition that are excluded as transient
 constexpr double kMinPresence = 0.15;  // seconds: shorter appearances between two absences are an ember's
 
-constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;
+constexpr double kUsualStep = 0.9, kJump = 20, kJumpHeights = 0.2, kMaxRemoved = 0.05;  // see remove_jumps()
 
-// Runs of rows without an outline, lost ones left out, including appearances between them shorter than kMinPresence.
+// Runs of rows without an outline, joined over appearances shorter than kMinPresence. Rows whose picture is missing
+// (kLostRows) do not count.
 std::vector<Episode> absences(const Recording& recording, const OutlineLayout& layout) {
   std::vector<Episode> runs;
   const std::size_t least = rows_of(kMinPresence, recording.rate_hz);
@@ -61,7 +62,8 @@ double usual_wind(const std::vector<double>& wind, const std::vector<Episode>& g
   return quantile(lived, kUsual);
 }
 
-// Row at which the extinguishing wind began: the last at which it rose through half of its peak.
+// Row at which the extinguishing wind began: the last one, within kLookedBack, at which an input rose through half of
+// the peak; of several inputs the earliest.
 std::size_t onset(const Recording& recording, const BlowOut& blow_out) {
   const std::size_t back = std::min(blow_out.gone, rows_of(kLookedBack, recording.rate_hz));
   std::size_t first = blow_out.gone;

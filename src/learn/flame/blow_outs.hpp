@@ -16,8 +16,8 @@ namespace wisp {
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with an outline again; the number of rows where there is none
-  double wind = 0;       ///< maximum of the wind's mean over 0.15 s, 0.6 s before to 0.15 s after `gone`, in its unit
-  bool blown = false;    ///< whether `wind` exceeds the 95th percentile of the wind while the flame burned
+  double wind = 0;     ///< maximum from 0.6 s before to 0.15 s after `gone` of the wind's mean over 0.15 s, in its unit
+  bool blown = false;  ///< whether `wind` exceeds the 95th percentile of the wind while the flame burned
 };
 
 /// Number of rows in `seconds`, at least one.
@@ -28,9 +28,9 @@ std::size_t rows_of(double seconds, double rate_hz);
 /// Errors: not a recording of an outline, no such input.
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
-/// Removes misdetected outlines: stretches shorter than half a second between jumps, or between a jump and an end. A
-/// jump is a step longer than a fifth of the outline's height and than 20 times the 90th percentile of steps. Does
-/// nothing where more than a twentieth of all rows would be removed. Returns the number of rows removed.
+/// Removes misdetected outlines: stretches shorter than half a second between two jumps, or between a jump and an end
+/// of the recording. A jump is a step longer than a fifth of the outline's height and than 20 times the 90th percentile
+/// of steps. Does nothing if more than a twentieth of all rows would be removed. Returns the number of rows removed.
 std::size_t remove_jumps(Recording& recording);
 
 /// The recording with all channels set missing during decay, extinction and re-ignition, so that only a burning flame

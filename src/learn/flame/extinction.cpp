@@ -25,15 +25,15 @@ struct FlameLife {
   double rate_hz = 0;
   bool died = false;
   std::size_t watched = 0;        ///< first row in which an extinction by the rule counts as reproduced
-  std::size_t until = 0;          ///< one past the last such row; after the life's end, within the recording
+  std::size_t until = 0;          ///< one past the last such row; it may be after the life's end
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
-constexpr double kWatchedBefore = 0.5;  // seconds before a recorded extinction from which on a rule may reproduce it
-constexpr double kWatchedAfter = 0.5;   // seconds after it until which it may: capture loses a decaying flame early
+constexpr double kWatchedBefore = 0.5;  // seconds by which a rule's extinction may precede the recorded one
+constexpr double kWatchedAfter = 0.5;   // seconds by which it may follow: capture loses a decaying flame early
 constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
-constexpr double kGustShare = 0.5;      // minimum of a gust, as a share of the weakest wind that extinguished
-constexpr double kOneGust = 0.15;       // seconds of calmer wind that do not divide a gust
+constexpr double kGustShare = 0.5;      // least wind of a gust, as a share of the weakest that extinguished
+constexpr double kOneGust = 0.15;       // seconds: shorter lulls do not divide a gust
 
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   std::vector<double> out;
@@ -135,13 +135,13 @@ constexpr int kDurations = 40;
 constexpr double kShortest = 0.02;  // seconds
 constexpr double kLongest = 4;
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
-constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // harm lost per second, as a share of what the level adds
+constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // decrease of harm per second below the level
 
-// Costs of errors: 1 for a gust judged wrongly, 0.3 (t / 0.1 s)², at most 1, for an extinction early or late by t.
+// Costs of errors: 1 for a gust judged wrongly; 0.3 (t / 0.1 s)², at most 1, for an extinction early or late by t.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
-// Rules count as equally good up to this excess cost, plus the cost of one error per fifty gusts and extinctions: the
-// grid does not contain the true rule and no sensor measures the true wind.
+// Rules are equally good if they cost at most kAsWell more than the best one, plus kAsWellEach per gust and extinction:
+// the grid does not contain the true rule, and no sensor measures the true wind.
 constexpr double kAsWell = 0.25;
 constexpr double kAsWellEach = 0.02;
 
@@ -161,8 +161,8 @@ struct Shape {
 struct Harms {
   std::vector<double> gusts;                // maximum harm in each gust that was survived
   std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
-  std::vector<double> first;                // seconds from an extinction's first watched row to its recorded time
-  std::vector<double> step;                 // seconds per row, for each extinction
+  std::vector<double> first;                // for each extinction: seconds from the first watched row to it
+  std::vector<double> step;                 // for each extinction: seconds per row
 };
 
 Harms harms_of(const Shape& shape, const FlameLives& lives) {
@@ -335,7 +335,7 @@ Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evide
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence) {
   constexpr double kRaised = 1.05;
   constexpr double kToSpare = 1.25;
-  constexpr int kMaxSteps = 200;  // limits the level to 17,000 times the default
+  constexpr int kMaxSteps = 200;  // limits the level to about 20,000 times the default
   Extinction rule;
   const FlameLives lives(evidence);
   for (int k = 0; k < kMaxSteps; ++k) {

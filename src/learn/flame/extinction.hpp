@@ -3,9 +3,9 @@
 // courses of its size and shape for playback: decay when it is blown out, and re-ignition (flame_sizes.cpp).
 //
 // Survived gusts bound the rule from below, extinctions from above, and the time of extinction determines its speed.
-// All rules of a grid are tried on the whole recordings. The rule with the least error is chosen; the spread of rules
-// with similar error is its uncertainty. Among these the prior prefers a level midway between the wind survived and the
-// wind that extinguished, with haste and recovery near the defaults.
+// All rules of a grid are tried on the whole recordings, and the one with the least error is chosen. The spread of
+// rules with similar error is its uncertainty. A weak prior prefers a level midway between the wind survived and the
+// wind that extinguished, and haste and recovery near the defaults.
 
 #include <array>
 #include <span>
@@ -29,8 +29,8 @@ struct ExtinctionEvidence {
   double vanishing = 0;            ///< seconds for which an extinguished flame remains visible
 };
 
-/// Agreement of a rule with recordings. A gust is a run of wind with at least half the strength of the weakest that
-/// extinguished a flame (in recordings without extinctions half of the maximum), between calmer winds.
+/// Agreement of a rule with recordings. A gust is a run of rows with at least half of the weakest wind that
+/// extinguished a flame or, in recordings without extinctions, half of the strongest wind.
 struct ExtinctionAgreement {
   std::size_t deaths = 0;            ///< number of recorded extinctions
   std::size_t died = 0;              ///< number of extinctions that the rule reproduces within half a second
@@ -58,8 +58,8 @@ struct ExtinctionFit {
 /// Errors: no extinction, or no rule that reproduces more than half of them.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
-/// Rule for a flame that was never extinguished: the default or, where that does not survive every recorded gust, the
-/// default with its level raised until it does, and by a quarter more.
+/// Rule for a flame that was never extinguished: the default. Where a recorded gust would extinguish it, its level is
+/// raised until all are survived, and by a quarter more.
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence);
 
 /// Size of the flame in every row, NaN without an outline: the square root of the control polygon's area, divided by

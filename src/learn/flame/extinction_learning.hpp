@@ -35,8 +35,8 @@ class ExtinguishedRecordings {
   /// Recordings to learn the outline's dynamics from.
   const std::vector<Recording>& burning() const { return burning_; }
 
-  /// Adds the extinction rule, its recorded events and training record to a model learned from burning(). Empty where
-  /// the recipe has no extinction or the model lacks the input.
+  /// Adds the extinction rule, its recorded events and its training record to a model learned from burning(). Returns
+  /// nothing if the recipe has no extinction or the model lacks the input.
   /// Errors: a given rule without an input; as flame_sizes().
   Result<std::optional<LearnedExtinction>> complete(Model& model, const ExtinctionRecipe& recipe) const;
 
@@ -55,13 +55,13 @@ struct JudgedExtinction {
   std::size_t unexplained = 0;
 };
 
-/// Judges the rule; empty where the model has none. With `own_scale` an input of 1 is the 95th percentile of this
+/// Judges a model's rule; returns nothing if it has none. With `own_scale` an input of 1 is the 95th percentile of this
 /// recording's input while the flame burns.
 /// Errors: as find_blow_outs(); as scaled_input() with `own_scale`, as trained_scale() without.
 Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, const Recording& recording,
                                                          bool own_scale);
 
-/// The recording without extinctions, as in training; the whole recording where the model has no rule.
+/// The recording without its extinctions, as in training; unchanged if the model has no rule.
 /// Errors: as find_blow_outs().
 Result<Recording> burning_part(const Model& model, const Recording& recording);
 

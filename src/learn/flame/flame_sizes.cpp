@@ -49,7 +49,7 @@ class Shapes {
                        layout_, resting_height_pixels(burning, layout_, {&wind, 1}));
   }
 
-  // Appends the components of a row of that size, or if it has no outline those of the row before.
+  // Appends the components of a row's outline, scaled up to full size; if there is none, those of the row before.
   void add(std::size_t row, double size, std::vector<double>& to) const {
     if (shape_.empty()) return;
     std::vector<double> outline = whole_row(units_, layout_, row);

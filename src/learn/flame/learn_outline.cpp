@@ -21,12 +21,12 @@ ReportSection gain_section(const std::vector<double>& factors) {
   return {"Gain of the inputs", {{"gain.factors", factors, "winds on one scale, times", ""}}};
 }
 
-// Whether no input of any recording correlates significantly with the motion.
+// Whether no input of any recording correlates significantly with the motion, as far as that was computed.
 bool driven_by_nothing(const OutlineSummary& summary) {
   const auto stands_out = [](const InputAlignment& one) {
     return one.found.chance > 0 && std::abs(one.found.correlation) >= one.found.chance;
   };
-  return !summary.inputs.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
+  return !summary.alignment.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
 }
 
 bool are_silent(std::span<const Recording> recordings) {
@@ -50,9 +50,9 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
   return fit;
 }
 
-// Most films have sound, and in most nobody blows. Where the caller did not name inputs, silent inputs, inputs
-// unrelated to the motion, and inputs from which held-out motion does not follow are dropped: in a draught a word may
-// be heard as wind, and over a few seconds of held-out motion any input may seem to help by chance.
+// Most films have sound, and in most nobody blows. Unless the caller named inputs, the model is learned without them if
+// all are silent, if none is related to the motion, or if held-out motion does not follow from them: in a draught a
+// word may be heard as wind, and an input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
@@ -78,9 +78,9 @@ std::pair<std::size_t, std::size_t> seen_rows(const Recording& recording) {
   return {first, last};
 }
 
-// A flame that is lit, shaded or blown at in part of a film plays with another spread than the film. If a single film
-// is refused for that and its model has no inputs, parts of three quarters, then of half of it, at start, middle and
-// end, are learned instead. Of the first length with usable parts, the one whose play keeps its spread best is taken.
+// If a flame is lit, shaded or blown at in part of a film, the play's spread differs from the film's. If a single film
+// without inputs is refused for that, parts of it are learned: three quarters of its rows, at start, middle and end,
+// then halves. Of the first length with usable parts, the part whose play keeps its spread best is taken.
 Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                               const Progress& progress) {
   auto whole = fit_what_drives(recordings, recipe, progress);
@@ -157,6 +157,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   if (!on_one_scale) return on_one_scale.error();
   Report report;
   for (Recording& recording : *on_one_scale) {
+    recording.rate_hz = recordings.front().rate_hz;  // within the tolerance of check_same_rate()
     const std::size_t removed = remove_jumps(recording);
     if (removed == 0) continue;
     report.warnings.push_back(recording.source + ": " + std::to_string(removed) +

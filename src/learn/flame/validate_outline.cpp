@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
-// Predictions shown in pictures: free simulation where an input drives the model, else the last ones of at most five
-// frames ahead; where there are none, the first.
+// Predictions shown in pictures: the free simulation of a model with inputs, of others the last of the predictions at
+// most five frames ahead. Without such predictions, the first.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
@@ -40,12 +40,10 @@ std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::s
   std::vector<double> values;
   const double unit = coordinate == 0 ? pixels_per_unit : -pixels_per_unit;
   for (const auto& outline : rows) {
-    if (outline.empty()) {
-      values.push_back(std::nan(""));
-    } else {
-      const double base = (outline.front()[coordinate] + outline.back()[coordinate]) / 2;
-      values.push_back((tip_of(outline)[coordinate] - base) / unit);
-    }
+    values.push_back(std::nan(""));
+    if (outline.empty()) continue;
+    const double base = (outline.front()[coordinate] + outline.back()[coordinate]) / 2;
+    values.back() = (tip_of(outline)[coordinate] - base) / unit;
   }
   return values;
 }
@@ -93,7 +91,7 @@ void add_series(const Recording& recording, const OutlineJudgement& found, Valid
   }
 }
 
-// Reports the input's gain: another microphone measures the same wind at another level, which readers overlook.
+// Reports the input's gain, since another microphone measures the same wind at another level.
 ReportSection gain_section(double factor) {
   ReportSection section{"", {{"gain", factor, "", ""}}};
   if (std::abs(factor - 1) < kSameGain) return section;
@@ -132,7 +130,9 @@ Result<OutlineRows> outline_rows(const Recording& recording) {
 
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
                                           const ValidationOptions& options, const Progress& progress) {
+  constexpr FieldTraits kPlayed{.lowest = 1e-3, .highest = 86400};
   if (options.steps.empty()) return Error{"steps: there are none, expected at least one number of steps to judge"};
+  if (auto ok = check_number("play_seconds", options.play_seconds, kPlayed); !ok) return ok.error();
   const auto factor = options.own_input_scale ? Result<double>(1.0) : factor_to_trained_gain(model, recording);
   if (!factor) return factor.error();
   const auto heard = options.own_input_scale ? Result<Recording>(recording) : at_trained_gain(model, recording);
@@ -151,9 +151,7 @@ Result<ValidatedOutline> validate_outline(const Model& model, const Recording& r
   out.report.sections.push_back(gain_section(*factor));
   out.report.sections.push_back(extinction_section(*extinction));
   add_series(*heard, *found, out);
-  if (const auto* arx = std::get_if<ArxModel>(&model.dynamics); arx && options.responses) {
-    arx::add_poles(*arx, out.report);
-  }
+  if (options.responses) arx::add_poles(std::get<ArxModel>(model.dynamics), out.report);
   return out;
 }
 

@@ -1,7 +1,7 @@
-// A light that is calm and restless by turns: Markov-switched autoregressions (J. D. Hamilton, "A new approach to the
-// economic analysis of nonstationary time series and the business cycle", Econometrica 57, 1989). The regimes are not
-// inferred from the regressions' residuals, whose tails would make regimes of single shocks, but from the variation
-// within half seconds. Shocks are scaled until the play varies as much, as least squares underfits heavy tails.
+// Markov-switched autoregressions for a light that is calm and restless by turns (J. D. Hamilton, "A new approach to
+// the economic analysis of nonstationary time series and the business cycle", Econometrica 57, 1989). Departure: modes
+// are inferred from the variation within half a second, since heavy-tailed residuals would make modes of single shocks.
+// Least squares underfits such tails, so shocks are scaled until the play varies as much as the recording.
 
 #include "learn/flicker/learn_flicker.hpp"
 
@@ -27,11 +27,11 @@ namespace {
 using Traces = std::vector<std::vector<double>>;
 
 constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
-constexpr double kHoldout = 0.3;                           // share at every stretch's end that is held out
+constexpr double kHoldout = 0.3;                           // share of every stretch that is held out at its end
 constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
 
-// Standard deviation within half a second, relative to the mean, below which a light looks still: a few times the eye's
-// threshold.
+// Standard deviation within half a second, relative to the mean, below which a light counts as calm: a few times the
+// eye's threshold.
 constexpr double kCalm = 0.02;
 
 // Logarithm of the variation, with a floor of 1e-5: smaller variation is the photodiode's noise.
@@ -40,7 +40,7 @@ double level(double restless) { return std::log(restless + 1e-5); }
 // Number of rows in half a second, at least 4.
 std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2))); }
 
-// Standard deviation around each row of a trace over `window` rows.
+// Standard deviation over `window` rows around each row of a trace, which has at least as many.
 std::vector<double> restlessness(std::span<const double> trace, std::size_t window) {
   // Subtracting a value of the trace avoids cancellation in the sums.
   const double origin = trace.front();
@@ -105,7 +105,7 @@ struct Light {
   Traces learned, held_out;  // normalised to a mean of 1 over both
 };
 
-// Index of the named channel, else of "brightness", else of the only output; of several outputs none is assumed.
+// Index of the named channel; without a name that of "brightness", else of the only output.
 Result<std::size_t> channel_of(const Recording& recording, const std::string& name) {
   if (const auto found = find_channel(recording, name.empty() ? "brightness" : name)) return *found;
   if (!name.empty()) return Error{recording.source + ": has no channel \"" + name + "\""};
@@ -115,7 +115,7 @@ Result<std::size_t> channel_of(const Recording& recording, const std::string& na
                " outputs, expected one; name the one that is light"};
 }
 
-// Appends gap-free stretches, averaged over `every` rows.
+// Appends the recording's gap-free stretches, averaged over `every` rows.
 void add_stretches(const Recording& recording, std::size_t channel, std::size_t every, Traces& traces) {
   const auto& samples = recording.channels[channel].samples;
   for (const Episode& episode : episodes(recording)) {
@@ -267,7 +267,7 @@ Play play_of(const Model& model, std::uint64_t seed) {
   return play;
 }
 
-// Mean variance within half seconds around each mode's rows.
+// Mean variance within half a second around the rows of each mode.
 std::vector<double> variances(const Traces& traces, const std::vector<std::vector<int>>& modes, std::size_t count,
                               double rate_hz) {
   std::vector<double> sum(count, 0.0), rows(count, 0.0);
@@ -297,7 +297,8 @@ void match_shocks(const Light& light, const std::vector<std::vector<int>>& modes
       double scale = std::sqrt(wanted[k] / std::max(found[k], 1e-12));
       // The most restless mode dominates the total variance.
       if (k + 1 == count) scale = whole.sd / figures_of(play.traces, light.rate_hz).sd;
-      // A calm mode begins while the restless one before it still decays; its shocks are not reduced for that.
+      // A calm mode begins while restless motion still decays, which adds to its variance: its shocks are kept within a
+      // factor of 2 of the fitted ones.
       const double most = k + 1 == count ? 16 : 2;
       dynamics.modes[k].shock[0] =
           std::clamp(dynamics.modes[k].shock[0] * std::clamp(scale, 0.5, 2.0), fitted[k] / most, fitted[k] * most);

@@ -9,8 +9,11 @@
 
 namespace wisp {
 
-/// Errors: a missing channel, different rates, light whose mean is not above 0, settings out of range, fewer than 20 s,
-/// too few degrees of restlessness for the modes (a constant trace), kStopped. Precondition: at least one recording.
+/// Learns a switched model of a light, with the mean brightness as 1. Errors: a missing channel, different rates, a
+/// mean that is not above 0, settings out of range, fewer than 20 s, a mode with too few rows (as in a constant trace),
+/// kStopped.
+///
+/// Precondition: at least one recording.
 Result<Fit> learn_flicker(std::span<const Recording> recordings, const FlickerRecipe& recipe,
                           const Progress& progress = {});
 

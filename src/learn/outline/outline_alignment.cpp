@@ -22,7 +22,7 @@ constexpr int kResamples = 400;          // bootstrap resamples
 constexpr double kBlockSeconds = 2;      // longer than a gust, so that blocks are nearly independent
 constexpr double kTail = 0.025;          // share of resamples beyond either end of the interval
 constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may be at an end
-constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an offset this near its end means two, or none
+constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an offset nearer to an end is no single peak
 
 Error bad(const std::string& what) { return Error{"alignment: " + what}; }
 
@@ -57,7 +57,7 @@ double covariance(const Series& a, const Series& b, std::ptrdiff_t lag) {
 /// Predictor coefficients a1 … ap of the series (Yule–Walker equations, Levinson–Durbin recursion).
 std::array<double, kWhiteningOrder> predictor(const Series& series) {
   std::array<double, kWhiteningOrder + 1> r{};
-  // Each lag's mean is over its own pairs, so missing samples may make the equations indefinite; a small addition to
+  // With missing samples each lag's mean is over other pairs, which may make the equations indefinite; an addition to
   // lag 0 keeps them solvable.
   for (std::size_t lag = 0; lag < r.size(); ++lag)
     r[lag] = covariance(series, series, static_cast<std::ptrdiff_t>(lag));
@@ -148,7 +148,7 @@ double chance_level(const Series& wind, const Series& motion, std::size_t lags, 
   for (std::ptrdiff_t lag = 1; lag < static_cast<std::ptrdiff_t>(lags / 2); ++lag) {
     sum += 2 * covariance(wind, wind, lag) / wind_power * covariance(motion, motion, lag) / motion_power;
   }
-  // P(|z| > x) < exp(−x²/2) for x > 0.7 (Gaussian tail), so the level is conservative.
+  // P(|z| > x) ≤ exp(−x²/2) for a normal z, so the level is conservative.
   const double z = std::sqrt(2 * std::log(static_cast<double>(lags) / kFalseAlarm));
   return z * std::sqrt(std::max(sum, 1.0) / pairs);
 }
@@ -187,9 +187,9 @@ void judge(Alignment& found, double max_seconds) {
   }
 }
 
-constexpr double kMinSearch = 0.05;  // seconds on either side, the least that is searched
+constexpr double kMinSearch = 0.05;  // seconds searched on either side at least
 
-// Searches at most a fifth of the recording on either side.
+// The offset, searched up to a fifth of the recording on either side, or the reason why there is none.
 Alignment found_or_reason(const Recording& recording, const std::vector<double>& input,
                           const std::vector<double>& motion) {
   double rows = 0;
@@ -204,7 +204,7 @@ double clarity(const Alignment& alignment) {
   return alignment.chance > 0 ? std::abs(alignment.correlation) / alignment.chance : 0;
 }
 
-// Frames by which the input lags the motion and must be moved; 0 unless the lag is significant.
+// Frames by which the input lags the motion; 0 unless the lag is significant.
 int frames_too_late(const Alignment& alignment, double rate_hz) {
   if (!alignment.usable || alignment.high_seconds >= 0) return 0;
   return static_cast<int>(std::lround(-alignment.offset_seconds * rate_hz));

@@ -1,9 +1,9 @@
 #pragma once
-// Synchronises sound and picture of an outline: estimates the lag of its motion after each input, and corrects it.
+// Synchronises sound and picture of an outline: estimates the lag of its motion behind each input.
 //
 // Motion that lags its input needs no correction: a flame takes some 50 ms to respond, and any further lag of the
-// recording is covered by the model's lags and the search for the delay. Motion that leads its input is an error of the
-// recording, which no causal model can follow: that input is moved.
+// recording is covered by the model's lags. Motion that leads its input is an error of the recording, which no causal
+// model can follow: the input is moved earlier.
 
 #include <span>
 #include <string>
@@ -35,7 +35,7 @@ struct Alignment {
 /// response. The offset therefore includes the response time of the object (some 50 ms for a flame's tip). Its interval
 /// comes from a bootstrap over blocks of time.
 /// Both series have one value per frame; NaN is missing.
-/// Errors: lengths differ; less than four times max_seconds with both known; a constant series.
+/// Errors: lengths differ; both are known for less than four times max_seconds or 16 samples; a constant series.
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});
 

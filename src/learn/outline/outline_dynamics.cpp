@@ -20,18 +20,18 @@ constexpr int kOrder = 2;
 constexpr int kInputLags = 6;                // lags 0 to 5: further lags, up to 20 frames, brought no lasting gain
 constexpr Eigen::Index kMaxComponents = 14;  // with inputs; without any, all components that move are replayed
 constexpr double kMinPower = 1e-7;           // share of the largest power: less is rounding, such as the base's height
-constexpr double kRidge = 1.5;               // in rows of whitened components: the weight that mirrored data would add
+constexpr double kRidge = 1.5;               // rows of whitened components: keeps weak ones from being fitted to chance
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
 constexpr double kMinMotion = 1e-9;  // in heights: smaller motion is rounding
 constexpr Eigen::Index kMinRows = 30;
 constexpr double kFadeSeconds = 0.1;  // without inputs: half-life of deviations from the recorded rows
-constexpr std::size_t kPowers = 3;    // powers of an input's size, then signed (regressor_names())
+constexpr std::size_t kPowers = 3;    // powers of an input's size, followed by as many signed ones (regressor_names())
 
 // Whether a regressor is invariant under the mirror image.
 bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }
 
-// Mean of the recordings' calm shapes, or of all rows where no recording has calm rows.
+// Mean of the recordings' calm shapes; if no recording has one, of all complete rows.
 std::vector<double> shape_at_rest(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   const std::size_t outputs = prepared.layout.outputs.size();
   std::vector<double> sum(outputs, 0.0);
@@ -89,7 +89,7 @@ struct Components {
   }
 };
 
-// Minimum power of the retained components of both symmetries together.
+// Least power of a component that is kept: that of the `count`-th strongest of both symmetries, if above rounding.
 double least_power(const Components& even, const Components& odd, Eigen::Index count) {
   std::vector<double> all(even.power.begin(), even.power.end());
   all.insert(all.end(), odd.power.begin(), odd.power.end());
@@ -98,8 +98,7 @@ double least_power(const Components& even, const Components& odd, Eigen::Index c
   return std::max({last, kMinPower * all.front(), std::numeric_limits<double>::min()});
 }
 
-// The recorded range. For a component that changes sign under the mirror image it is extended to be symmetric about the
-// middle.
+// The recorded range of values, about `middle`; that of an antisymmetric component is extended to be symmetric.
 ValueRange range_of(const Eigen::VectorXd& values, double middle, bool symmetric) {
   const double low = values.minCoeff(), high = values.maxCoeff(), far = std::max(-low, high);
   return symmetric ? ValueRange{middle + low, middle + high} : ValueRange{middle - far, middle + far};
@@ -241,8 +240,7 @@ ArxModel shape_model(const ShapeComponents& shape, const Products& even, const P
   return arx;
 }
 
-// Dynamics of components without inputs: deviations decay, so that recorded rows are followed from wherever a jump to
-// them begins.
+// Dynamics of components without inputs: a deviation from the replayed rows decays after a jump to them.
 OutlineDynamics fading_shape(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                              ShapeComponents shape) {
   const auto count = static_cast<int>(shape.count());

@@ -30,13 +30,13 @@ struct OutlineDynamics {
   std::size_t rows = 0;     ///< number of rows in the estimation
 };
 
-/// Estimates dynamics from prepared recordings or the first parts of them. `paper`: number of lags of the paper's point
-/// systems (4 in its section 3.4), with independent Gaussian noise; 0: components of the shape with order 2, or
-/// decaying ones without inputs. Errors: an outline that never moves; too few complete rows; as fit_arx().
+/// Estimates dynamics from prepared recordings or parts of them. `paper`: number of lags of the paper's systems, one a
+/// control point (4 in its section 3.4), with independent Gaussian noise; 0: components of the shape with order 2 or,
+/// without inputs, with exponential decay. Errors: an outline that never moves; too few complete rows; as fit_arx().
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper);
 
-/// Projects shape coordinates in the plane on the components.
+/// Projects the shape coordinates of a planar outline on the components.
 ///
 /// Precondition: the shape's basis has orthogonal columns, as that of fit_dynamics().
 std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates);
@@ -45,7 +45,7 @@ std::vector<double> components_of(const ShapeComponents& shape, std::span<const 
 /// empty.
 Recording moved_recording(const ShapeComponents& shape, const Recording& recording, const PreparedOutlines& prepared);
 
-/// Output and input channels of such recordings.
+/// Output and input channels of moved_recording().
 ChannelChoice moved_channels(const ShapeComponents& shape, const PreparedOutlines& prepared);
 
 /// Predictions of a prepared recording's control points. Errors: as predict().

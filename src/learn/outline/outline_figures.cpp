@@ -12,11 +12,11 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMaxShapes = 2000;  // maximum; neighbouring frames add no information
+constexpr std::size_t kMaxShapes = 2000;  // frames compared at most: neighbouring ones add no information
 
 using Predicted = std::vector<std::vector<double>>;  // [output][row]
 
-// Values of one row over all series; empty where a sample is missing.
+// Values of all series in one row; empty if one is missing.
 std::vector<double> predicted_row(const Predicted& series, std::size_t row) {
   std::vector<double> control;
   for (const auto& samples : series) {

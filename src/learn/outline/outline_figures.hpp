@@ -31,10 +31,9 @@ struct OutlineFigures {
   std::vector<double> overlap;          ///< mean intersection over union of predicted and captured filled outlines
 };
 
-/// Judges dynamics on prepared recordings. Without inputs a free simulation stays at the mean shape: kFreeRun then
-/// measures how much the outline moves, not the dynamics. Tip and overlap of long recordings use at most 2000 equally
-/// spaced frames.
-/// Errors: as predict_outline(); no row that is both measured and predicted.
+/// Judges dynamics on prepared recordings. Without inputs a free simulation stays at the mean shape, and the figures
+/// for kFreeRun measure how much the outline moves. Tip and overlap use at most 2000 equally spaced frames. Errors: as
+/// predict_outline(); no row that is both measured and predicted.
 ///
 /// Precondition: at least one recording.
 Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,

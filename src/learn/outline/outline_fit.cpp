@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kWindows = 120;       // per side: an accuracy of 0.01 for 10 ms of computation
+constexpr std::size_t kWindows = 120;       // per side of an energy distance: accuracy 0.01 in 10 ms
 constexpr double kPlayed = 30;              // minimum duration of play, seconds
 constexpr double kJudged = 10;              // minimum duration of a recording whose spread is judged, seconds
 constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlines used for comparison
@@ -72,7 +72,7 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   return out;
 }
 
-// Sum over the points of the squared distances to the nearest of the other outlines.
+// Least sum, over the other outlines, of squared distances between corresponding points.
 double nearest(const Outline& one, std::span<const Outline> others) {
   double best = std::numeric_limits<double>::infinity();
   for (const Outline& other : others) {
@@ -85,7 +85,7 @@ double nearest(const Outline& one, std::span<const Outline> others) {
   return best;
 }
 
-// Share of played outlines that are outside, as in OutlineTrial. `ends`: one past each recording's last outline.
+// OutlineTrial::outside. `ends`: one past each recording's last outline.
 double outside_share(std::span<const Outline> recorded, std::span<const std::size_t> ends,
                      std::span<const Outline> played) {
   std::vector<Outline> early, late;
@@ -143,8 +143,8 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
   return out;
 }
 
-// The trial plays along the liveliest recording. Warns of the others along whose inputs the model moves more or less
-// than they do: gusts and draughts have too little in common for one equation.
+// The trial plays along the liveliest recording. Here the model plays along each other recording, with a warning if its
+// spread differs: gusts and draughts have too little in common for one equation.
 Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, std::span<const Recording> original,
                           std::uint64_t seed, std::vector<std::string>& warnings) {
   const std::size_t tried = liveliest(prepared);
@@ -153,7 +153,7 @@ Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, 
     const auto play = played_along(model, prepared, original[k], seed);
     if (!play) return play.error();
     const double spread = median(spread_ratios(prepared, prepared.recordings[k], play->recording));
-    if (spread >= 0.8 && spread <= 1.25) continue;  // good, as the report says
+    if (spread >= 0.8 && spread <= 1.25) continue;  // the range that the report calls good
     warnings.push_back(original[k].source + ": along its input the model moves " + number_text(spread, 2) +
                        " times as much as this recording does; learn it apart from the others");
   }
@@ -162,7 +162,7 @@ Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, 
 
 constexpr std::size_t kMinHeldOut = 16;  // minimum number of rows for figures, including their history
 
-// Moves inputs that are late against the motion, and records which and by how many frames.
+// Moves inputs that lag the motion, and records their names and the number of frames.
 Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                        OutlineSummary& summary) {
   std::vector<Recording> out;
@@ -179,7 +179,7 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
   return out;
 }
 
-// Judges the dynamics of the first parts on the held-out rest.
+// Fits dynamics to the first part of every recording and judges them on it and on the held-out rest.
 Result<void> judge(const PreparedOutlines& prepared, const OutlineRecipe& recipe, OutlineSummary& summary) {
   const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, recipe.holdout);
   summary.rows_learned = complete_rows(parts.learned, prepared.channels);

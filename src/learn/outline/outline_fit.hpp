@@ -27,10 +27,10 @@ struct OutlineTrial {
   std::vector<double> sd_ratio;  ///< per output, played over recorded; 1 for constant outputs
   double crossed = 0;            ///< self-intersection rate of played outlines
   double crossed_recorded = 0;   ///< self-intersection rate of recorded outlines
-  double outside = 0;            ///< share of played outlines farther from all recorded ones than the 99th percentile
-                                 ///< of that distance between the last 40 % of every recording and the rest
+  double outside = 0;  ///< share of played outlines whose distance to the nearest recorded one exceeds the 99th
+                       ///< percentile of distances from the last 40 % of every recording to the rest
   std::optional<Bounded> half_second;  ///< normalised energy distance of windows of 0.5 s; empty if too short
-  std::optional<Bounded> two_seconds;  ///< the same over windows of 2 s
+  std::optional<Bounded> two_seconds;  ///< normalised energy distance of windows of 2 s; empty if too short
 };
 
 struct OutlineSummary {
@@ -44,7 +44,7 @@ struct OutlineSummary {
   std::size_t rows_held_out = 0;           ///< number of complete rows held out, which the returned model also uses
   OutlineFigures learned;                  ///< figures on the training rows
   std::optional<OutlineFigures> held_out;  ///< figures on the held-out rows; empty if too short
-  std::vector<double> residual_sd;         ///< one step ahead, per output
+  std::vector<double> residual_sd;         ///< of predictions one step ahead, per output
   std::size_t resampled_rows = 0;          ///< number of residual rows; 0: Gaussian noise
   OutlineTrial trial;
   double pixels_per_unit = 0;  ///< pixels per model unit in the first recording
@@ -61,13 +61,15 @@ struct OutlineFit {
 /// Learns a model from recordings of an outline in pixels (outline_units.hpp), without an extinction rule and with the
 /// inputs at the gain that they have (see at_common_gain()). The model has the knots of the first recording; recordings
 /// with other knots are converted, with a warning.
-/// Errors, naming the recording: not an outline, a different number of points, rates that differ, missing inputs, too
-/// few rows, a recipe out of range; kStopped.
+/// Errors, naming the recording: not an outline, a different number of points, missing inputs, too few rows, a recipe
+/// out of range; kStopped.
+///
+/// Precondition: all recordings have one rate.
 Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},
                                const Progress& progress = {});
 
-/// Fit of the tip simulated from the inputs alone, per cent, on held-out rows where there are some; NaN without inputs.
-/// Inputs that reach less than kMinFollowedPercent do not explain the motion.
+/// Fit in per cent of the tip simulated from the inputs alone, on held-out rows if there are some; NaN without inputs.
+/// Below kMinFollowedPercent the inputs do not explain the motion.
 double followed_percent(const OutlineSummary& summary);
 constexpr double kMinFollowedPercent = 5;
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSame = 0.02;  // factors closer to 1 than this count as 1
 
-// Inputs whose loudness is recorded in every recording, and the loudest level of each.
+// An input whose loudness all recordings state, and the largest of these values.
 struct Loudest {
   std::string input;
   double rms = 0;
@@ -35,7 +35,7 @@ Result<std::vector<Loudest>> loudest_inputs(std::span<const Recording> recording
   return out;
 }
 
-// The channel's value that equals 1 in the model's input; 1 where neither model nor recording says.
+// The channel's value that is 1 in the model's input; 1 if neither model nor recording states it.
 Result<double> value_of_one(const Model& model, std::size_t input, const Recording& recording, const Channel& heard,
                             bool own_gain) {
   if (!heard.unit.empty() && heard.unit == model.inputs[input].unit) return 1.0;
@@ -65,7 +65,7 @@ Result<void> divide(Recording& recording, Channel& channel, double one) {
 constexpr double kWindOne = 0.95;
 constexpr double kLargest = 0.99;
 
-// Seconds of calm rows below which the calm height is unreliable; all rows are then used.
+// Seconds: over fewer calm rows the calm height is unreliable, and all rows are used.
 constexpr double kCalmSeconds = 0.5;
 
 struct Strengths {
@@ -91,8 +91,8 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
   return out;
 }
 
-// Strength up to which an input is calm. kCalmShare is defined on the 99th percentile of all samples; the input's
-// scale, the 95th percentile while it blows, is close to that and used in its place.
+// Strength up to which an input is calm. The input's scale, its 95th percentile while it blows, stands in for the 99th
+// percentile of all samples on which kCalmShare is defined.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
 double whole(double size) { return size; }

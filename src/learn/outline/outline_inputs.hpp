@@ -17,20 +17,20 @@
 
 namespace wisp {
 
-/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, that of the loudest
-/// one. An input whose loudness any recording lacks is left unchanged. Errors: as one_rms().
+/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, the largest of their
+/// own. An input stays unchanged if any recording does not state its loudness. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
-/// Factor for each recording's first audio input; empty where a recording lacks its loudness, or where all are equal
-/// within 2 %. Errors: as one_rms().
+/// Factors by which at_common_gain() scales the first audio input of each recording; empty if a recording does not
+/// state its loudness, or if all factors are within 2 % of 1. Errors: as one_rms().
 Result<std::vector<double>> common_gain_factors(std::span<const Recording> recordings);
 
-/// Factor that brings a recording's first audio input to the training loudness at 1; 1 where the model or the recording
-/// lacks its loudness. Errors: as one_rms().
+/// Factor by which at_trained_gain() scales a recording's first audio input; 1 if the model or the recording does not
+/// state its loudness. Errors: as one_rms().
 Result<double> factor_to_trained_gain(const Model& model, const Recording& recording);
 
-/// A recording with its inputs scaled to the training loudness; unchanged where the model or the recording lacks its
-/// loudness. Errors: as one_rms().
+/// A recording with its inputs scaled so that 1 stands for the same loudness as in training. An input stays unchanged
+/// if the model or the recording does not state its loudness. Errors: as one_rms().
 Result<Recording> at_trained_gain(const Model& model, Recording recording);
 
 /// Share of an input's 99th percentile below which it counts as calm: sensors never read exactly 0.
@@ -40,16 +40,16 @@ struct OutlineInput {
   std::string name;
   std::string unit;    ///< unit in the recording
   double scale = 1;    ///< recording's value that equals 1 in the model, > 0
-  double lowest = 0;   ///< lowest observed value or 0, in the model's units
-  double highest = 0;  ///< highest observed value or 0, in the model's units
+  double lowest = 0;   ///< lowest observed value, at most 0, in the model's units
+  double highest = 0;  ///< highest observed value, at least 0, in the model's units
 };
 
-/// Returns the input with its range and its scale: the 95th percentile of |input| over all rows of all recordings in
-/// which that exceeds kCalmShare of its 99th percentile.
+/// Returns the input with its range and its scale: the 95th percentile of |input| over the rows of all recordings in
+/// which |input| exceeds kCalmShare of its 99th percentile.
 /// Errors: a recording without that channel, no sample, an input that is always 0.
 Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name);
 
-/// The recorded input's value that equalled 1 in training.
+/// The input's value in training recordings that is 1 in the model.
 /// Errors: the model has no input of that name, or no training record.
 Result<double> trained_scale(const Model& model, const std::string& input);
 
@@ -63,12 +63,12 @@ inline constexpr double kSettleSeconds = 0.5;
 /// Flags per row: 1 where every input has been calm for kSettleSeconds within its episode (everywhere without inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// Flags of the rows at rest if they last at least 0.5 s in total, else of calm rows if they do; else empty.
+/// resting_rows() if they last at least 0.5 s in total, else calm_rows() if they do; else empty.
 std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// Height in pixels that equals 1 in the model. With inputs it is the median over undisturbed rows, some of which may
-/// still lean, since an input can act before it is heard. Without inputs or undisturbed rows it is the mean over all
-/// rows. 0 where none of these rows has an outline.
+/// Height in pixels that is 1 in the model. With inputs it is the median over undisturbed rows, since in some of them
+/// an input may act before it is heard. Without inputs or undisturbed rows it is the mean over all rows. 0 if none of
+/// these rows has an outline.
 double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
                              std::span<const OutlineInput> inputs);
 
@@ -86,7 +86,7 @@ std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, R
 /// Precondition: the recording has the inputs.
 Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, RegressorShape shape);
 
-/// Mean of every output over those chosen rows that are complete, in the layout's order; empty where there are none.
+/// Mean of every output over the complete rows among those flagged, in the layout's order; empty if there are none.
 ///
 /// Precondition: `rows` is empty or has one entry per row.
 std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,

@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-// Data that validation needs of a model known to be an outline.
+// A model known to be an outline with ARX dynamics.
 struct OutlineModel {
   const Model& whole;
   OutlineDynamics dynamics;
@@ -35,11 +35,7 @@ Result<void> check_match(const OutlineModel& model, const Recording& recording) 
     return Error{recording.source + ": has " + std::to_string(layout->points) + " control points, the model " +
                  std::to_string(points) + "; capture it with --points " + std::to_string(points)};
   }
-  if (std::abs(recording.rate_hz - model.whole.rate_hz) > 1e-9 * model.whole.rate_hz) {
-    return Error{recording.source + ": has " + std::to_string(recording.rate_hz) + " samples a second, the model " +
-                 std::to_string(model.whole.rate_hz)};
-  }
-  return {};
+  return check_rate(model.whole, recording);
 }
 
 Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording& recording, bool own_scale) {
@@ -92,7 +88,7 @@ Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, co
   return out;
 }
 
-// Where the outline is missing, repeats the base's last position, so that play has one.
+// Repeats the base's last position where the outline is missing, so that every played frame has one.
 void hold_base(Recording& recording) {
   for (const char* name : {"base.x", "base.y"}) {
     auto& samples = recording.channels[*find_channel(recording, name)].samples;
@@ -164,13 +160,14 @@ Result<OutlineJudgement> judge_outline(const Model& model, const Recording& give
   if (auto ok = check_match(*outline, given); !ok) return ok.error();
   auto heard = options.own_input_scale ? Result<Recording>(given) : at_trained_gain(model, given);
   if (!heard) return heard.error();
+  heard->rate_hz = model.rate_hz;  // within the tolerance of check_rate()
   auto in_step = align_outline(*heard, options.align ? arx::channels_of(model).inputs : std::vector<std::string>());
   if (!in_step) return in_step.error();
   const Recording& recording = in_step->recording;
   auto inputs = inputs_of(model, recording, options.own_input_scale);
   if (!inputs) return inputs.error();
   const auto prepared =
-      prepare_outline(recording, outline->view.knots, *inputs, shape_of(model), options.pixels_per_unit);
+      prepare_outlines({&recording, 1}, outline->view.knots, *inputs, shape_of(model), options.pixels_per_unit);
   if (!prepared) return prepared.error();
   const Recording driving = with_regressors(recording, *inputs, {});
   if (!go_on(progress, kStage, 0)) return Error{std::string(kStopped)};

@@ -27,13 +27,13 @@ struct PredictedOutlines {
 struct OutlineJudgement {
   OutlineFigures figures;
   bool driven = false;                       ///< whether the model has inputs
-  std::vector<InputAlignment> alignment;     ///< of the inputs
+  std::vector<InputAlignment> alignment;     ///< one per input
   std::vector<PredictedOutlines> predicted;  ///< one per number of steps
   Recording played;                          ///< play with noise along the recording's inputs, a frame per row, in
                                              ///< pixels at its base
-  std::optional<Fidelity> fidelity;          ///< of a play of `play_seconds`; empty where not wanted or too short
-  double held_share = 0;                     ///< share of its steps with an output clamped to its range
-  double self_intersection_rate = 0;         ///< share of its frames with an outline that intersects itself
+  std::optional<Fidelity> fidelity;          ///< fidelity of a play of `play_seconds`; empty if not wanted or too short
+  double held_share = 0;                     ///< share of that play's steps with an output clamped to its range
+  double self_intersection_rate = 0;         ///< share of that play's frames whose outline intersects itself
   double pixels_per_unit = 0;
   std::vector<std::string> warnings;
 };

@@ -26,8 +26,8 @@ Matrix basis_table(std::span<const double> knots) {
   return table;
 }
 
-// Matrix from old to new control points: ends unchanged, since clamped curves end in their end points; the others by
-// least squares.
+// Matrix from old to new control points. The first and the last are kept, since clamped curves end in them; the others
+// are a least-squares fit.
 Matrix change(const Matrix& from, const Matrix& to) {
   const Eigen::Index points = to.cols();
   const Matrix inner = to.middleCols(1, points - 2);
@@ -57,11 +57,6 @@ Recording outputs_first(Recording recording, const OutlineLayout& layout) {
 }
 
 Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOutlines& prepared) {
-  for (const OutlineInput& input : prepared.inputs) {
-    if (!find_channel(recording, input.name)) {
-      return Error{recording.source + ": there is no input " + input.name + ", which the model is driven by"};
-    }
-  }
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
   if (layout->knots != prepared.layout.knots) {
@@ -164,31 +159,27 @@ Reknotted with_knots(const Recording& recording, const OutlineLayout& layout, st
 Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options) {
   const auto layout = common_layout(recordings);
   if (!layout) return layout.error();
-  PreparedOutlines prepared;
-  prepared.layout = prepared_layout(layout->knots);
+  std::vector<OutlineInput> inputs;
   for (const std::string& name : options.inputs ? *options.inputs : input_names(recordings.front())) {
     auto input = scaled_input(recordings, name);
     if (!input) return input.error();
-    prepared.inputs.push_back(*std::move(input));
+    inputs.push_back(*std::move(input));
   }
-  if (!prepared.inputs.empty()) prepared.shape = options.shape;
-  prepared.channels = channel_choice(prepared);
-  for (const Recording& recording : recordings) {
-    if (auto ok = add(recording, options.pixels_per_unit, prepared); !ok) return ok.error();
-  }
-  warn_of_other_colours(recordings, prepared);
-  return prepared;
+  return prepare_outlines(recordings, layout->knots, std::move(inputs), options.shape, options.pixels_per_unit);
 }
 
-Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
-                                         std::vector<OutlineInput> inputs, RegressorShape shape,
-                                         double pixels_per_unit) {
+Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const std::vector<double>& knots,
+                                          std::vector<OutlineInput> inputs, RegressorShape shape,
+                                          double pixels_per_unit) {
   PreparedOutlines prepared;
   prepared.layout = prepared_layout(knots);
   prepared.inputs = std::move(inputs);
   if (!prepared.inputs.empty()) prepared.shape = shape;
   prepared.channels = channel_choice(prepared);
-  if (auto ok = add(recording, pixels_per_unit, prepared); !ok) return ok.error();
+  for (const Recording& recording : recordings) {
+    if (auto ok = add(recording, pixels_per_unit, prepared); !ok) return ok.error();
+  }
+  warn_of_other_colours(recordings, prepared);
   return prepared;
 }
 

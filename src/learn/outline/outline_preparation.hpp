@@ -15,8 +15,8 @@ namespace wisp {
 
 struct Reknotted {
   Recording recording;  ///< the recording with new outputs and attribute `knots`
-  double rms = 0;       ///< RMS distance between old and new curves at equal parameters, in the outputs' unit; 0 where
-                        ///< no row has an outline
+  double rms = 0;       ///< RMS distance between old and new curves at equal parameters, in the outputs' unit; 0 if no
+                        ///< row has an outline
 };
 
 /// Converts a recording's outlines to other knots: in every row, the same number of control points, with ends kept and
@@ -35,7 +35,7 @@ struct PreparationOptions {
 struct PreparedOutlines {
   OutlineLayout layout;  ///< layout of the prepared recordings, outputs first
   std::vector<OutlineInput> inputs;
-  RegressorShape shape;  ///< regressors; empty without inputs
+  RegressorShape shape;  ///< kinds of regressors; no powers without inputs
   ChannelChoice channels;
   std::vector<double> pixels_per_unit;  ///< per recording
   std::vector<Recording> recordings;
@@ -46,11 +46,13 @@ struct PreparedOutlines {
 /// Prepares recordings. Errors: as common_layout() and scaled_input(); a recording without an outline in any row.
 Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options);
 
-/// Prepares one recording for given knots and inputs with known scales.
-/// Errors: as outline_layout(), a number of points that does not fit the knots, a missing input, no outline in any row.
-Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
-                                         std::vector<OutlineInput> inputs, RegressorShape shape,
-                                         double pixels_per_unit);
+/// Prepares recordings for given knots and inputs with known scales. Errors: as outline_layout(); a recording without
+/// an outline in any row.
+///
+/// Precondition: there are recordings; each has the inputs, and as many control points as the knots.
+Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const std::vector<double>& knots,
+                                          std::vector<OutlineInput> inputs, RegressorShape shape,
+                                          double pixels_per_unit);
 
 /// Number of rows with all outputs and all regressors.
 std::size_t complete_rows(std::span<const Recording> recordings, const ChannelChoice& channels);

@@ -6,14 +6,12 @@
 #include <limits>
 #include <numeric>
 
-#include "model/bspline.hpp"
-
 namespace wisp {
 namespace {
 
 constexpr int kStrips = 1024;
 
-// Twice the signed area of a triangle; the sign tells on which side of the line a–b the point c is.
+// Twice the signed area of a triangle; the sign is the side of the line a–b on which c lies.
 double side(const OutlinePoint& a, const OutlinePoint& b, const OutlinePoint& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
@@ -102,22 +100,20 @@ double common_length(std::span<const double> a, std::span<const double> b) {
 
 }  // namespace
 
-OutlineCurve::OutlineCurve(std::span<const double> knots, std::size_t samples)
-    : points_(knots.size() - kSplineDegree - 1) {
+OutlineCurve::OutlineCurve(std::span<const double> knots, std::size_t samples) {
   assert(samples >= 2);
   for (std::size_t k = 0; k < samples; ++k) {
-    const BasisWeights weights = basis(knots, static_cast<double>(k) / static_cast<double>(samples - 1));
-    samples_.push_back({static_cast<std::size_t>(weights.first), weights.weight});
+    samples_.push_back(basis(knots, static_cast<double>(k) / static_cast<double>(samples - 1)));
   }
 }
 
 std::vector<OutlinePoint> OutlineCurve::polyline(std::span<const double> control) const {
-  assert(control.size() == 2 * points_);
+  assert(control.size() == 2 * (static_cast<std::size_t>(samples_.back().first) + 4));
   std::vector<OutlinePoint> out;
   out.reserve(samples_.size());
-  for (const Sample& sample : samples_) {
+  for (const BasisWeights& sample : samples_) {
     OutlinePoint point{0, 0};
-    for (std::size_t r = 0; r < 4; ++r) {
+    for (int r = 0; r < 4; ++r) {
       point[0] += sample.weight[r] * control[2 * (sample.first + r)];
       point[1] += sample.weight[r] * control[2 * (sample.first + r) + 1];
     }

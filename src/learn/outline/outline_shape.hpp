@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "model/bspline.hpp"
+
 namespace wisp {
 
 using OutlinePoint = std::array<double, 2>;
@@ -16,20 +18,13 @@ class OutlineCurve {
   /// Precondition: valid_knots(knots); samples >= 2.
   explicit OutlineCurve(std::span<const double> knots, std::size_t samples = 200);
 
-  std::size_t control_points() const { return points_; }
-
   /// Points of the curve for control points x0, y0, x1, y1, …, from the base's left over the tip to the base's right.
   ///
-  /// Precondition: control.size() == 2 · control_points().
+  /// Precondition: two values for each control point of the knots.
   std::vector<OutlinePoint> polyline(std::span<const double> control) const;
 
  private:
-  struct Sample {
-    std::size_t first;
-    std::array<double, 4> weight;
-  };
-  std::size_t points_;
-  std::vector<Sample> samples_;
+  std::vector<BasisWeights> samples_;
 };
 
 /// Points at equal arc lengths of a polyline, including both ends, independent of the curve's parameter. Where the
@@ -54,7 +49,7 @@ bool crosses_itself(std::span<const OutlinePoint> polyline);
 double enclosed_area(std::span<const OutlinePoint> polygon);
 
 /// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an
-/// area. Both are cut into 1024 horizontal strips over their common height, with exact intervals at each strip's
+/// area. Both are cut into 1024 horizontal strips over their joint height, with exact intervals at each strip's
 /// centre. The error is at most 1e-3 (one strip at a horizontal side), and 1e-4 on round outlines.
 double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint> b);
 

@@ -12,11 +12,11 @@ namespace wisp {
 
 struct SynthesisOptions {
   std::size_t rows = 0;              ///< number of samples to keep; 0: as many as `input` has
-  double warm_up_seconds = 10;       ///< ≥ 0, played first and discarded, to remove the start's transient
+  double warm_up_seconds = 10;       ///< ≥ 0; duration of the start's transient, which is discarded
   float noise = 1;                   ///< scale of the residual noise: 1 as learned, 0 none
   std::uint64_t seed = 1;            ///< seed of the bank
-  const Recording* input = nullptr;  ///< channels named like the inputs, in the model's units, repeated from the start
-                                     ///< at their end; 0 where missing; null: inputs are 0
+  const Recording* input = nullptr;  ///< channels named as the inputs, in the model's units, played in a loop; missing
+                                     ///< samples are 0; null: all inputs are 0
 };
 
 /// A synthesized recording, and the share of clamped steps.

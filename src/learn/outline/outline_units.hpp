@@ -23,8 +23,8 @@ struct OutlineLayout {
 };
 
 /// Layout of a recording with outputs p0.x, p0.y, p1.x, … and, for non-uniform knots, an attribute `knots`.
-/// Errors, with the recording's name: fewer than four control points, one without its x or y, knots that are not
-/// numbers, not as many as the points need, or not a valid knot vector.
+/// Errors, naming the recording: fewer than four control points, a point without its x or y, knots that are not
+/// numbers, are not points + 4, or are not a valid knot vector.
 Result<OutlineLayout> outline_layout(const Recording& recording);
 
 /// Checks that recordings have equal numbers of control points, so that they can be learned together. Their knots may

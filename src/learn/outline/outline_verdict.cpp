@@ -22,13 +22,13 @@ const OutlineFigures& judged_of(const OutlineSummary& summary) {
   return summary.held_out ? *summary.held_out : summary.learned;
 }
 
-// Position of a distance between its floor (0) and its ceiling (1); NaN where those do not differ.
+// Position of a distance between its floor (0) and its ceiling (1); NaN if the ceiling is not above the floor.
 double share_of_way(const std::optional<Bounded>& distance) {
   if (!distance || !(distance->ceiling > distance->floor)) return kMissing;
   return (distance->value - distance->floor) / (distance->ceiling - distance->floor);
 }
 
-// Loudness at 1 common to all recordings; 0 where it differs, or a recording lacks it.
+// Loudness of an input of 1, if all recordings state the same; else 0.
 double common_one_rms(std::span<const Recording> recordings, const std::string& input) {
   double common = 0;
   for (const Recording& recording : recordings) {
@@ -58,8 +58,8 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        "neighbouring frames differ by {figure} % of what frames picked at random do, at most {limit}: the outline is "
        "more noise than movement; film it larger, sharper or at a higher rate",
        0, "noise"},
-      // A few clamped frames are invisible: up to 21 in 1000 in plays that show no shape foreign to the recording. A
-      // divergent play is clamped in hundreds of 1000 frames.
+      // A few clamped frames are invisible: plays without foreign shapes had up to 21 in 1000. A divergent play has
+      // hundreds.
       {1000 * trial.held_share, Bound::kAtMost, 50,
        "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1,
        "clamped"},

@@ -20,7 +20,7 @@ constexpr double kMargin = 0.01;  // in units of wind: below a microphone's reso
 constexpr double kMinSeconds = 1;
 constexpr std::size_t kCurveSamples = 60;  // points per outline in the check for self-intersection
 constexpr double kLargestWind = 32767;
-constexpr std::size_t kMaxBytes = 256 * 1024;  // maximum size of rows; each stretch of a longer recording is cut
+constexpr std::size_t kMaxBytes = 256 * 1024;  // maximum size of all rows; beyond it every stretch is shortened
 
 // Residuals and wind of one row, NaN where missing.
 struct Row {
@@ -39,21 +39,19 @@ struct RowStretch {
   std::vector<Row> rows;
 };
 
-int steps_of(double seconds, double rate_hz) { return std::max(1, static_cast<int>(std::lround(seconds * rate_hz))); }
-
 // Signed samples of the first input; zeros without inputs.
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
   return samples_of(recording, prepared.inputs.front().name);
 }
 
-// Whether wind begins after calm. A stretch ends there: otherwise a flame in lasting calm could replay on into a
+// Whether wind begins after calm. A stretch ends there: otherwise the play of a lasting calm could continue into a
 // recorded gust within the tolerance, and move by its residuals.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }
 
-// Appends a row to the last stretch, or to a new one where it does not continue it.
+// Appends a row to the last stretch, or to a new one if the last one does not go on.
 void add_row(const std::vector<double>& wind, std::size_t row, std::size_t past, Row one,
              std::vector<RowStretch>& stretches, bool& goes_on) {
   const auto before = wind.begin() + static_cast<std::ptrdiff_t>(row);
@@ -158,7 +156,7 @@ std::vector<int> lags_of(double rate_hz) {
   return lags;
 }
 
-// Numbers of the components from 1, negative for antisymmetric ones, whose sign the mirror image changes.
+// Numbers of the components, from 1; those of antisymmetric components are negative: reflection changes their sign.
 std::vector<int> mirror_image(const ShapeComponents& shape) {
   std::vector<int> out;
   for (int k = 1; k <= static_cast<int>(shape.count()); ++k) {
@@ -197,7 +195,7 @@ Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, 
   if (driven) out.mirror = mirror_image(dynamics.shape);
   if (driven) out.tolerance = kTolerance;
   if (driven) out.margin = kMargin;
-  if (driven) out.longest = steps_of(kLongestSeconds, rate);
+  if (driven) out.longest = std::max(1, static_cast<int>(std::lround(kLongestSeconds * rate)));
   store_rows(stretches, out);
   return out;
 }

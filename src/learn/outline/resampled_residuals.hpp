@@ -3,9 +3,9 @@
 //
 // Source: the bootstrap of residuals in blocks (H. R. Künsch, "The jackknife and the bootstrap for general stationary
 // observations", Annals of Statistics 17 (1989), section 2.4; for residuals of autoregressions D. A. Freedman, "On
-// bootstrapping two-sided confidence intervals in linear models", 1984). Departure: blocks have no fixed length. A
-// block ends when another row's recorded input history is nearer to the present one by more than a tolerance, or after
-// 1.5 s. So the nonlinear and asymmetric part of the response to the input is replayed along with the noise.
+// bootstrapping two-sided confidence intervals in linear models", 1984). Departure: blocks have no fixed length.
+// With an input, a block ends when the input history recorded at another row is nearer to the present one by more than
+// a tolerance, or after 1.5 s. So the nonlinear and asymmetric part of the response is replayed along with the noise.
 
 #include <span>
 
@@ -17,12 +17,13 @@ namespace wisp {
 
 inline constexpr double kLargestStored = 127;  ///< largest 8-bit number of a stored row
 
-/// Nearest whole number of scales, within ±`largest`; 0 where the scale is 0.
+/// value / scale, rounded and clamped to ±`largest`; 0 if the scale is 0.
 double stored(double value, double scale, double largest = kLargestStored);
 
-/// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component; empty if the
-/// model has inputs and less than a second of rows is usable: complete, with their input's past, outline not crossing
-/// itself. An input of the other sign replays rows mirrored. Errors: as predict(); no two consecutive usable rows.
+/// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component. Usable rows
+/// are complete, with their input's past and an outline that does not intersect itself; with inputs and less than a
+/// second of them the result is empty. An input of the other sign replays rows mirrored. Errors: as predict(); no two
+/// consecutive usable rows.
 ///
 /// Precondition: the dynamics have a shape.
 Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,

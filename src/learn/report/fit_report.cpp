@@ -11,9 +11,8 @@
 namespace wisp::arx {
 namespace {
 
-// Above this number of states, computing eigenvalues takes too long for a description.
-constexpr int kMaxStates = 256;
-constexpr int kMaxStatesForZeros = 48;
+constexpr int kMaxStates = 256;         // above this, computing eigenvalues takes too long for a description
+constexpr int kMaxStatesForZeros = 48;  // limit for zeros, which every pair of channels has
 constexpr int kMaxStatesTold = 12;
 constexpr int kMaxCoefficientsTold = 60;
 
@@ -121,7 +120,7 @@ void add_row(const OrderCandidate& one, ReportTable& table) {
   for (ReportEntry& figure : figures_of(one)) row.push_back(std::move(figure.value));
 }
 
-constexpr std::size_t kMaxTold = 10;
+constexpr std::size_t kMaxTold = 10;  // orders shown to people
 
 std::string orders_text(const OrderCandidate& candidate) {
   return "na " + std::to_string(candidate.na) + ", nb " + std::to_string(candidate.nb) + ", nk " +
@@ -130,7 +129,7 @@ std::string orders_text(const OrderCandidate& candidate) {
 
 std::string p_text(double p) { return p < 0.0001 ? "p < 0.0001" : "p " + number_text(p, 2); }
 
-// One series of correlations with its bounds under chance.
+// Adds one series of correlations, and its bound under chance.
 void add_correlations(const std::string& id, const std::string& label, const std::vector<double>& values, int first_lag,
                       double bound, ReportSection& section) {
   ReportSeries series{id, label, "lag, samples", "correlation", {}, values};

@@ -32,8 +32,8 @@ void add_fit(const ArxFit& fit, const Model& model, Report& report);
 /// Adds all candidates, the best with its runners-up by the criterion, and the best of each output alone.
 void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, OrderCriterion by, Report& report);
 
-/// Whether the model was refined for free simulation, with the held-out free runs that decided it. Where one choice
-/// holds for all outputs, the section says so.
+/// Section that says whether the model was refined for free simulation, with the held-out free runs that decided it.
+/// One choice for all outputs is one row named "all".
 ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::string>& outputs);
 
 /// Adds `whiteness_p` and `independence_p` of all outputs, with their series.
@@ -43,7 +43,7 @@ void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report
 /// chance as the same ids followed by `.bound`.
 void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, ReportSection& section);
 
-/// A model whose responses are computed. `covariance` is ArxFit's; empty: no confidence bands.
+/// A model whose responses are computed. `covariance` is that of its ArxFit; empty: no confidence bands.
 struct Responding {
   const ArxModel& model;
   const ChannelChoice& channels;

@@ -16,7 +16,7 @@ namespace wisp::arx {
 void add(ReportSection& section, std::string id, ReportValue value, std::string label = {}, std::string unit = {},
          std::string meaning = {});
 
-/// Adds figures for programs: pairs of an id, which `prefix` precedes, and a value.
+/// Adds figures for programs: pairs of an id and a value, with `prefix` before every id.
 template <class Value, class... More>
 void add_all(ReportSection& section, const std::string& prefix, const char* id, Value&& value, More&&... more) {
   add(section, prefix + id, std::forward<Value>(value));
@@ -25,7 +25,7 @@ void add_all(ReportSection& section, const std::string& prefix, const char* id, 
 
 void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
 
-/// Adds a column with value(row) to the rows that a table has.
+/// Adds a column to a table, with value(row) in each of its rows.
 template <class Value>
 void add_column(ReportTable& table, ReportColumn column, Value value) {
   table.columns.push_back(std::move(column));
@@ -51,7 +51,7 @@ CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector
 /// Id of a number of steps: "5", or "inf" for free simulation.
 std::string steps_id(int steps);
 
-/// A name as one step of an id: dots, opening brackets and backslashes, which have a meaning there, are escaped by \.
+/// A name as one field of an id: dots, opening brackets and backslashes are escaped by a backslash.
 std::string as_id(const std::string& name);
 
 /// The id of an element's field: "inputs[2].name".

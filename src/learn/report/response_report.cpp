@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFrequencies = 240;
 
-// The longest lag plus the samples, 20 to 600, until the response of the slowest pole has decayed below 1 %.
+// Number of samples of a response: the longest lag, plus the 20 to 600 in which the slowest pole decays below 1 %.
 int settling_samples(const ArxModel& model) {
   constexpr int kMin = 20, kMax = 600;
   const double radius = spectral_radius(model);
@@ -84,7 +84,7 @@ Curve phase_curve(const FrequencyResponse& response) {
 
 using Places = std::vector<std::complex<double>>;
 
-// Poles and zeros that remain after cancelling pairs; those of outputs that do not feed this one cancel.
+// Poles and zeros without the pairs that cancel, such as those of outputs that do not act on this one.
 std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) {
   constexpr double kSame = 1e-6;
   Places left;
@@ -101,7 +101,7 @@ void add_places(const std::string& id, const std::string& label, const Places& p
   for (const auto& place : places) series.x.push_back(place.real()), series.y.push_back(place.imag());
 }
 
-// Adds the series of one input's effect on one output, and its lists where it is `listed`.
+// Adds the series of one input's effect on one output and, if `listed`, the lists of `responses`.
 void add_pair(const Responding& of, int output, int input, bool listed, ReportSection& section) {
   const std::vector<double> omega = angular_frequencies();
   const StepResponse step = step_response(of.model, output, input, settling_samples(of.model), of.covariance);

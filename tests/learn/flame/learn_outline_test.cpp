@@ -77,6 +77,15 @@ TEST(LearnOutline, FilmsOfTwoRatesAreRefused) {
   EXPECT_THAT(fit.error().message, HasSubstr("learn from films of one rate"));
 }
 
+TEST(LearnOutline, RatesThatDifferByLessThanAThousandthCountAsOneRate) {
+  Recording other = windy(2);
+  other.rate_hz *= 1.0005;
+  OutlineRecipe recipe;
+  recipe.paper = 4;
+  const auto fit = learn_outline(std::vector{windy(), other}, recipe);
+  EXPECT_TRUE(fit) << fit.error().message;
+}
+
 TEST(LearnOutline, OfAFilmThatChangesTheLongestSteadyPartIsLearned) {
   const Fit fit = learned({growing_flame()}, {});
   EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;
@@ -197,6 +206,12 @@ TEST(LearnOutline, AnInputThatIsNamedStays) {
 
 TEST(LearnOutline, AnInputThatMovesItStays) { EXPECT_FALSE(learned({windy()}, {}).model.inputs.empty()); }
 
+TEST(LearnOutline, AnInputThatMovesItStaysWithoutAlignment) {
+  OutlineRecipe recipe;
+  recipe.align = false;
+  EXPECT_FALSE(learned({windy()}, recipe).model.inputs.empty());
+}
+
 TEST(LearnOutline, CanBeStopped) {
   const auto stopped =
       learn_outline(std::vector{windy()}, {}, [](std::string_view, double share) { return share < 0.5; });
@@ -224,6 +239,12 @@ TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
   EXPECT_EQ(found->captured.size(), recording.rows());
   EXPECT_EQ(found->played.size(), recording.rows());
   EXPECT_EQ(found->simulated_label, "simulated from the input alone");
+}
+
+TEST(ValidateOutline, ADurationOfPlayThatIsNotPositiveIsRefused) {
+  const auto found = validate_outline(Model(), windy(), {.play_seconds = -1});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().message, "play_seconds is -1, expected 0.001 to 86400");
 }
 
 TEST(ValidateOutline, CanBeStopped) {

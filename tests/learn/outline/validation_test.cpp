@@ -189,6 +189,14 @@ TEST(Validation, AnotherMicrophonesGainIsTakenFromItsOwnGusts) {
   EXPECT_GT(own, trained + 20);
 }
 
+TEST(Validation, ARateWithinAThousandthOfTheModelsIsTheModels) {
+  Recording recording = unseen(kCalm);
+  recording.rate_hz *= 1.0005;
+  const OutlineJudgement out = validated(calm_model(), recording);
+  EXPECT_TRUE(out.fidelity);
+  EXPECT_TRUE(out.warnings.empty());
+}
+
 TEST(Validation, AShortRecordingHasNoFidelityAndSaysSo) {
   const OutlineJudgement out = validated(calm_model(), slice(unseen(kCalm), 0, 30));
   EXPECT_FALSE(out.fidelity);

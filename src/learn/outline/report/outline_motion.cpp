@@ -48,8 +48,8 @@ double half_power_hz(const Spectrum& of, std::size_t peak, int step) {
   return of.frequency_hz[before] + part * (of.frequency_hz[k] - of.frequency_hz[before]);
 }
 
-// The peak that rises most above the median power within half an octave on either side; empty where it is within
-// chance: one of twenty series of noise has such a peak of 1 + 5.5/√n in a mean of n periodograms.
+// The peak that rises most above the median power within half an octave on either side. Empty if its ratio to that
+// median is below 1 + 5.5/√n, which one of twenty series of noise exceeds in a mean of n periodograms.
 std::optional<Flicker> flicker_of(const Spectrum& of) {
   double most = 1 + 5.5 / std::sqrt(static_cast<double>(of.segments));
   std::size_t peak = 0;
@@ -71,7 +71,7 @@ std::size_t window_rows(double rate_hz) {
   return 2 * std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowSeconds * rate_hz / 2)));
 }
 
-// Values per row. Rows without an outline are left out, and end a stretch of sizes.
+// Values per row. `height`, `area` and `lean` omit rows without an outline.
 struct Motion {
   std::vector<double> height, area, lean;
   std::vector<double> size;  // √area per row, NaN without an outline

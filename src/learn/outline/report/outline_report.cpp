@@ -17,7 +17,7 @@ std::string horizon(int steps) {
   return steps == 1 ? "next frame" : std::to_string(steps) + " frames ahead";
 }
 
-// Adds an entry ID.STEPS per number of steps. An empty `label`: for programs only; else the horizon is added in words.
+// Adds an entry ID.STEPS per number of steps. With a label it is shown to people, with the horizon in words after it.
 void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
                   const std::string& label, const std::string& unit, ReportSection& section) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
@@ -26,7 +26,7 @@ void add_by_steps(const std::string& id, const std::vector<int>& steps, const st
   }
 }
 
-// Adds `alignment` [{recording, input, motion, offset_seconds, …}], and a sentence for each for people.
+// Adds `alignment` [{recording, input, motion, offset_seconds, …}] and, for people, a sentence for each.
 void add_alignment(const std::vector<InputAlignment>& alignment, ReportSection& section) {
   ReportTable table{"alignment",
                     "",
