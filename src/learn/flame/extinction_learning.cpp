@@ -137,14 +137,17 @@ ReportSection extinction_section(const std::optional<JudgedExtinction>& judged) 
 }
 
 Result<ExtinguishedRecordings> ExtinguishedRecordings::find(std::vector<Recording> recordings,
-                                                            const ExtinctionRecipe& recipe) {
+                                                            const OutlineRecipe& outline) {
+  const ExtinctionRecipe& recipe = outline.extinction;
   if (recipe.source == ExtinctionSource::kGiven) {
     if (auto ok = check(given_rule(recipe), 1, 0); !ok) return Error{"the rule of extinction: " + ok.error().message};
   }
   ExtinguishedRecordings out;
   const auto inputs = channels_with_role(recordings.front(), Role::kInput);
   if (recipe.source != ExtinctionSource::kNone && !inputs.empty()) {
-    out.input_ = recordings.front().channels[inputs.front()].name;
+    const bool named =
+        outline.inputs && !outline.inputs->empty() && find_channel(recordings.front(), outline.inputs->front());
+    out.input_ = named ? outline.inputs->front() : recordings.front().channels[inputs.front()].name;
     for (const Recording& recording : recordings) {
       auto found = find_blow_outs(recording, out.input_);
       if (!found) return found.error();

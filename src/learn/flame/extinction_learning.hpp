@@ -24,13 +24,13 @@ struct LearnedExtinction {
   std::optional<std::string> warning;
 };
 
-/// Recordings of an outline that the first input may have extinguished.
+/// Recordings of an outline that the recipe's first input, or else the recording's, may have extinguished.
 class ExtinguishedRecordings {
  public:
   /// Finds extinctions and removes them from the recordings that burning is learned from. Without an input, or with a
   /// recipe without extinction, recordings stay unchanged.
   /// Errors: as find_blow_outs(); a given rule out of range.
-  static Result<ExtinguishedRecordings> find(std::vector<Recording> recordings, const ExtinctionRecipe& recipe);
+  static Result<ExtinguishedRecordings> find(std::vector<Recording> recordings, const OutlineRecipe& recipe);
 
   /// Recordings to learn the outline's dynamics from.
   const std::vector<Recording>& burning() const { return burning_; }

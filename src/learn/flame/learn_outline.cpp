@@ -163,7 +163,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
     report.warnings.push_back(recording.source + ": " + std::to_string(removed) +
                               " outlines lie far from those around them, as nothing moves: left out");
   }
-  const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe.extinction);
+  const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe);
   if (!seen) return seen.error();
   auto fit = fit_steady(seen->burning(), recipe, progress);
   if (!fit) return fit.error();

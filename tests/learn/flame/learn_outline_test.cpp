@@ -156,6 +156,21 @@ TEST(LearnOutline, ExtinctionIsLearnedFromRecordingsAndJudgedOnOthers) {
   EXPECT_GE(figure<std::int64_t>(judged->report, "extinction.died") + 1, deaths);
 }
 
+TEST(LearnOutline, ExtinctionIsLearnedFromTheInputThatIsNamed) {
+  Recording seen = made::blow_out_recording({.shortest = 0.2, .seed = 2}).recording;
+  Channel other = seen.channels[*find_channel(seen, "wind")];
+  other.name = "other";
+  std::reverse(other.samples.begin(), other.samples.end());
+  seen.channels.push_back(std::move(other));
+  std::swap(seen.channels[*find_channel(seen, "wind")], seen.channels.back());
+  FlameRecipe recipe;
+  recipe.inputs = {"wind"};
+  const Fit fit = learned({seen}, recipe);
+  ASSERT_TRUE(fit.model.extinction);
+  EXPECT_EQ(fit.model.training.extinction->origin, Origin::kLearned);
+  EXPECT_GT(figure<std::int64_t>(fit.report, "extinction.agreement.deaths"), 4);
+}
+
 TEST(LearnOutline, OneMicrophonesRecordingsAreLearnedWithACommonGain) {
   std::vector recordings{windy(1), windy(2)};
   for (double& value : recordings[1].channels[*find_channel(recordings[1], "wind")].samples) value /= 2.5;
