@@ -139,7 +139,7 @@ ReportSection made_section(const Training& made) {
   return section;
 }
 
-// ---- model_contents(): what a file holds beyond the report ----
+// Parts of model_contents(): the fields of a file that model_report() omits.
 
 template <class Values>
 ReportList list(const Values& values) {

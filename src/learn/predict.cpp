@@ -19,8 +19,8 @@ using Series = std::vector<std::vector<double>>;  // one series per output
 
 constexpr int kSettled = 2000;  // steps after which the noise of free simulation has reached full variance
 
-// Half width of the 95 % interval of every prediction. A free run starts from known samples, so after n steps its
-// uncertainty is that of an n-step prediction.
+// Half width of the 95 % interval of every prediction. The initial state of a free run is taken as known, so after n
+// steps its uncertainty is that of an n-step prediction.
 Series half_widths(const Series& sd, const Recording& recording, const Series& predicted, int steps) {
   Series widths(predicted.size(), std::vector<double>(recording.rows(), kMissing));
   for (std::size_t i = 0; i < predicted.size(); ++i) {

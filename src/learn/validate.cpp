@@ -15,8 +15,6 @@
 namespace wisp {
 namespace {
 
-// ---- Several models on one recording, over the rows that all of them predict ----
-
 // Predictions of one model for one number of steps: a channel NAME.predicted per output.
 struct Said {
   std::size_t model;

@@ -28,7 +28,7 @@ struct Subject {
   const ChannelChoice& channels;
   const Recording& recording;
   const ValidationOptions& options;
-  std::vector<std::vector<double>> sd;  // of prediction errors: [output][step − 1]
+  std::vector<std::vector<double>> sd;  // standard deviations of prediction errors: [output][step − 1]
 
   const std::vector<double>& measured(std::size_t output) const {
     return recording.channels[*find_channel(recording, channels.outputs[output])].samples;

@@ -102,7 +102,8 @@ void to_units(const FitFacts& facts, const ArxDesign& design, ArxModel& model) {
   model.input_mean.assign(facts.offset.begin() + facts.outputs, facts.offset.end());
 }
 
-// Scaled standard error of a coefficient in the unconstrained estimate: s² (XᵀX)⁻¹ with s² = Σr²/(n − d).
+// Scaled standard error of a coefficient in the unconstrained estimate: the square root of its element of s² (XᵀX)⁻¹,
+// s² = Σr²/(n − d).
 double scaled_error(const FitFacts& facts, const ArxEstimate& estimate, std::size_t group, int output, std::size_t p) {
   const auto index = static_cast<Eigen::Index>(p);
   const double freedom = static_cast<double>(facts.rows) - estimate.effective[group];

@@ -262,14 +262,14 @@ class Runner {
           feedback_[i].push_back({-back, -a[l]});
         }
       }
-      // The latest sample comes last: it was computed just before, and the processor can add the others meanwhile.
+      // The latest sample comes last: the processor can add the others while it is still being computed.
       std::sort(feedback_[i].begin(), feedback_[i].end(), [](const Tap& a, const Tap& b) { return a.back < b.back; });
     }
   }
 
   std::size_t memory() const { return memory_; }
 
-  /// Inputs before that row count as resting at the operating point.
+  /// Takes inputs before `row` as resting at the operating point.
   void rest_until(std::size_t row) { rest_until_ = row; }
 
   std::size_t outputs() const { return feedback_.size(); }
@@ -374,7 +374,8 @@ std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, 
   return begin;
 }
 
-// A simulation from rest starts at the episode's first row, unless an input is missing before `run`.
+// A simulation from rest starts `first_sample` rows before `run`, in general the episode's first row, unless an input
+// is missing there.
 std::size_t rested_begin(const Signals& signals, const RowRun& run, int first_sample) {
   std::size_t begin = run.begin;
   const auto present = [&](std::size_t row) {

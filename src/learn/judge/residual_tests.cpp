@@ -42,7 +42,7 @@ std::vector<Stretch> stretches_of(const ArxModel& model, const Signals& signals)
   return all;
 }
 
-// Subtracts from a series its mean over all rows; both tests are about the means.
+// Subtracts from a series its mean over all rows: both tests use deviations from the means.
 void centre(std::vector<Stretch>& stretches, MatrixXd Stretch::*series) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero((stretches.front().*series).cols());
   Index rows = 0;
@@ -90,8 +90,7 @@ double variance_of(const Signals& signals, int channel) {
 }
 
 // Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of
-// that output's variance which the residual drives. That share is 1 without inputs, and small where an input drives the
-// output.
+// that output's variance that the residual causes: 1 without inputs, small where an input drives the output.
 double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
   constexpr int kSteps = 400;
   VectorXd driven = VectorXd::Zero(signals.outputs);
