@@ -25,7 +25,7 @@ struct VerdictEvidence {
   std::vector<int> integrators{};                  ///< as in ArxOptions::integrators
   std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
-  std::function<std::vector<Remark>()> doubts{};   ///< feedback_of() the recordings, then a coincidence(); called last
+  std::function<std::vector<Remark>()> doubts{};   ///< remarks of feedback_of() and coincidence(); called last
 };
 
 /// Marks a usable summary as not usable where a criterion fails, with the reason. For a model that simulates badly, the
