@@ -415,7 +415,6 @@ void simulate_stretch(const Runner& runner, const RowRun& run, InitialState init
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit) {
   Runner runner(model, signals, recording);
-  const LagLayout layout = layout_of_model(model);
   std::vector<double> played;
   // Play adds the operating point in single precision.
   const auto rounded = [&](std::size_t first, std::size_t rows, const double* values) {
@@ -426,8 +425,7 @@ void free_run(const ArxModel& model, const Signals& signals, std::size_t recordi
     }
     visit(first, rows, played.data());
   };
-  for (RowRun run : plan_input_rows(signals, layout, start.first_sample).runs) {
-    if (run.recording != recording) continue;
+  for (RowRun run : plan_input_rows(signals, recording, layout_of_model(model), start.first_sample).runs) {
     if (start.initial == InitialState::kZero) run.begin = rested_begin(signals, run, start.first_sample);
     runner.rest_until(start.initial == InitialState::kZero ? run.begin : 0);
     if (start.as_played) {

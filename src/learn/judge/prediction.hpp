@@ -74,8 +74,11 @@ Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model,
                                                           const ChannelChoice& channels,
                                                           const FigureOptions& options = {});
 
+/// Number of steps after which the noise of a free simulation has reached its full variance.
+inline constexpr int kSettledSteps = 2000;
+
 /// Standard deviations of k-step prediction errors for k = 1 … steps, from the model's own noise: [output][k − 1]. A
-/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take enough steps that they settle).
+/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take kSettledSteps).
 ///
 /// Precondition: steps >= 1.
 std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps);

@@ -137,8 +137,8 @@ struct RowPart {
 /// missing. The part with the row after its end counts an episode without target rows as skipped.
 RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
 
-/// Rows whose inputs are all present, whether or not outputs are missing.
-RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample);
+/// Rows of one recording whose inputs are all present, whether or not outputs are missing.
+RowPlan plan_input_rows(const Signals& signals, std::size_t recording, const LagLayout& layout, int first_sample);
 
 /// Scaled samples of all channels over a block of rows and the history before it.
 class ScaledBlock {

@@ -21,7 +21,6 @@ class GramBuilder {
         before_(layout.size()),
         ends_(layout.size(), layout.size()) {
     for (int p = 0; p < layout.size(); ++p) before_[p] = layout.find({layout[p].channel, layout[p].lag - 1});
-    before_[0] = 0;  // the constant does not change with the lag
     for (int p = 1; p < layout.size(); ++p) {
       Products products{p, {}};
       for (int q = p; q < layout.size(); ++q) {
