@@ -153,7 +153,7 @@ void name_badly_fitted(const ReportTable& all, Report& report) {
   for (const auto& row : all.rows) {
     if (const auto* fit = std::get_if<double>(&row[column])) fits.push_back(*fit);
   }
-  const double middle = median(fits);
+  const double middle = median(present(std::move(fits)));  // a recording without common rows has no fit
   for (const auto& row : all.rows) {
     const auto* fit = std::get_if<double>(&row[column]);
     if (!fit || !(*fit < middle - kBadlyFitted)) continue;

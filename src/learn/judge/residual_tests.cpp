@@ -34,10 +34,10 @@ std::vector<Stretch> stretches_of(const ArxModel& model, const Signals& signals)
     stretch.input.resize(rows, signals.inputs);
     for (int k = 0; k < signals.inputs; ++k) {
       const double* samples = signals.samples[run.recording][signals.outputs + k].data() + run.begin;
-      stretch.input.col(k) = Eigen::Map<const VectorXd>(samples, rows);
+      const Eigen::Map<const VectorXd> input(samples, rows);
+      // A sample that no coefficient uses may be missing: the operating point takes its place.
+      stretch.input.col(k) = input.array().isNaN().select(signals.offset[signals.outputs + k], input);
     }
-    // A sample of an input that no coefficient uses may be missing: 0 takes its place.
-    stretch.input = stretch.input.array().isNaN().select(0.0, stretch.input);
   }
   return all;
 }

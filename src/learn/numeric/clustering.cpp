@@ -222,7 +222,8 @@ double silhouette(std::span<const double> values, std::size_t columns, const KMe
       if (k != own && members[k] > 0) other = std::min(other, away[k] / members[k]);
     }
     const double inside = away[own] / members[own];
-    if (other < std::numeric_limits<double>::max()) sum += (other - inside) / std::max(other, inside);
+    if (other == std::numeric_limits<double>::max() || std::max(other, inside) == 0) continue;
+    sum += (other - inside) / std::max(other, inside);
   }
   return sum / static_cast<double>(used);
 }
