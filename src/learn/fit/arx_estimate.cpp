@@ -26,8 +26,7 @@ constexpr double kPartOfDependence = 1e-6;
 DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>& kept, int column) {
   DependentColumn dependent{column, {}};
   const auto count = static_cast<Eigen::Index>(kept.size());
-  Eigen::MatrixXd factor(count, count);
-  for (Eigen::Index k = 0; k < count; ++k) factor.col(k) = reduced.col(kept[k]).head(count);
+  const Eigen::MatrixXd factor = reduced(Eigen::seqN(0, count), kept);
   if (reduced.col(column).head(count).norm() <= kNothingLeft) return dependent;
   const Eigen::VectorXd weights = factor.triangularView<Eigen::Upper>().solve(reduced.col(column).head(count));
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -319,8 +318,7 @@ SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const Shared
 
   Reduction reduction = reduce(std::move(stacked), static_cast<int>(d));
   const auto count = static_cast<Eigen::Index>(reduction.kept.size());
-  Eigen::MatrixXd factor(count, count);
-  for (Eigen::Index k = 0; k < count; ++k) factor.col(k) = reduction.matrix.col(reduction.kept[k]).head(count);
+  const Eigen::MatrixXd factor = reduction.matrix(Eigen::seqN(0, count), reduction.kept);
   SharedSolution solution = finish(problem, factor, reduction.matrix.block(0, d, count, targets), reduction.kept, norm);
   solution.dependent = std::move(reduction.dependent);
   return solution;
