@@ -274,7 +274,7 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
 // The first recording without the output's linear trend; `drift` receives the change of that trend over all rows. Empty
 // where the trend is small, an input has a trend too, or there are fewer than 50 rows.
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
-  constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
+  constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance that a trend explains
   Recording recording = subject.recordings.front();
   Series time(recording.rows());
   for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);

@@ -22,7 +22,7 @@ namespace wisp {
 struct ArxOptions {
   ArxOrders orders;                     ///< see make_orders
   ArxOffset offset = ArxOffset::kMean;  ///< subtracted operating point, as the model is linear in deviations from it
-  ArxKernel kernel = ArxKernel::kNone;  ///< prior on every output's coefficients, tuned by marginal likelihood
+  ArxKernel kernel = ArxKernel::kNone;  ///< prior on outputs' coefficients, tuned by marginal likelihood
   std::vector<int> kernel_outputs{};    ///< outputs with the prior; empty: all
   std::vector<int> integrators{};       ///< poles per output fixed at integrator_pole, 0 to 2; empty: none. Allowed for
                                         ///< outputs without lags of other outputs

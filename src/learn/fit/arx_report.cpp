@@ -300,7 +300,7 @@ double loss_factor(const Eigen::MatrixXd& with, const Eigen::MatrixXd& without) 
   return std::exp(log);
 }
 
-// Percent. A one-step fit above kPromise with a free-run fit below kKept hides the model's failure.
+// Fits in percent: a one-step fit of at least kPromise hides the failure of a free-run fit below kKept.
 constexpr double kPromise = 80, kKept = 60;
 
 // Warns of outputs with a good one-step fit but a poor free-run fit, where both are known.

@@ -367,7 +367,7 @@ class Runner {
   std::vector<std::vector<Tap>> feedback_;  // per output
 };
 
-// First row at which a simulation that reaches `end` may start; `end` where there is none.
+// First row from `begin` on at which a simulation may start; `end` where there is none.
 std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, InitialState initial) {
   if (initial != InitialState::kMeasured) return begin;
   while (begin < end && !runner.past_is_measured(begin)) ++begin;
