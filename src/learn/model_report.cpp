@@ -139,17 +139,17 @@ ReportSection made_section(const Training& made) {
   return section;
 }
 
-// ---- model_contents(): what a file holds beyond the report ----
+// Parts of model_contents(): the fields of a file that model_report() omits.
 
 template <class Values>
 ReportList list(const Values& values) {
   return ReportList(values.begin(), values.end());
 }
 
-// Splits values into rows of `width` values; for a width of 0, returns the wanted number of empty rows.
+// Splits values into rows of `width` values; none for a width of 0.
 template <class Values>
-ReportList rows(const Values& values, std::size_t width, std::size_t empty_rows = 0) {
-  ReportList out(width == 0 ? empty_rows : 0, ReportList());
+ReportList rows(const Values& values, std::size_t width) {
+  ReportList out;
   for (std::size_t at = 0; width > 0 && at < values.size(); at += width) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(at);
     out.push_back(ReportList(begin, begin + static_cast<std::ptrdiff_t>(std::min(width, values.size() - at))));

@@ -17,10 +17,8 @@ namespace {
 
 using Series = std::vector<std::vector<double>>;  // one series per output
 
-constexpr int kSettled = 2000;  // steps after which the noise of free simulation has reached full variance
-
-// Half width of the 95 % interval of every prediction. A free run starts from known samples, so after n steps its
-// uncertainty is that of an n-step prediction.
+// Half width of the 95 % interval of every prediction. The initial state of a free run is taken as known, so after n
+// steps its uncertainty is that of an n-step prediction.
 Series half_widths(const Series& sd, const Recording& recording, const Series& predicted, int steps) {
   Series widths(predicted.size(), std::vector<double>(recording.rows(), kMissing));
   for (std::size_t i = 0; i < predicted.size(); ++i) {
@@ -66,7 +64,7 @@ Recording table_of(const Recording& measured, const ChannelChoice& channels, con
   return out;
 }
 
-Series sd_of(const ArxModel& arx, int steps) { return prediction_sd(arx, steps == kFreeRun ? kSettled : steps); }
+int horizon_of(int steps) { return steps == kFreeRun ? kSettledSteps : steps; }
 
 Result<Recording> predict_plain(const Model& model, const Recording& measured, const PredictionOptions& options) {
   const auto prepared = prepare(measured, model.training.preparation);
@@ -84,7 +82,7 @@ Result<Recording> predict_plain(const Model& model, const Recording& measured, c
     for (double& y : (*predicted)[i]) y -= moved[i];
   }
   return table_of(recording, channels, *predicted,
-                  half_widths(sd_of(arx, options.steps), recording, *predicted, options.steps));
+                  half_widths(prediction_sd(arx, horizon_of(options.steps)), recording, *predicted, options.steps));
 }
 
 Result<Recording> predict_modes(const Model& model, const Recording& recording, const PredictionOptions& options) {
@@ -114,7 +112,7 @@ Result<Recording> predict_outline(const Model& model, const Recording& recording
   Series predicted;
   for (const std::string& name : channels.outputs) predicted.push_back(samples_of(said, name));
   const OutlineDynamics dynamics{std::get<ArxModel>(model.dynamics), std::get<OutlineView>(model.view).shape};
-  Series sd = outline_prediction_sd(dynamics, options.steps == kFreeRun ? kSettled : options.steps);
+  Series sd = outline_prediction_sd(dynamics, horizon_of(options.steps));
   for (auto& one : sd) {
     for (double& x : one) x *= found->pixels_per_unit;
   }

@@ -17,7 +17,7 @@ namespace {
 
 using Samples = std::vector<double>;
 
-constexpr double kBelow = 0.4;  // cutoff of the low-pass before resampling, as a share of the lower rate
+constexpr double kBelow = 0.4;  // cutoff of the low-pass before resampling to a lower rate, as a share of that rate
 constexpr std::pair<const char*, double Preparation::*> kFrequencies[] = {{"highpass", &Preparation::highpass_hz},
                                                                           {"lowpass", &Preparation::lowpass_hz},
                                                                           {"resample", &Preparation::resample_hz}};
@@ -52,7 +52,7 @@ class Filter {
   double a_[2], b_[3];
 };
 
-// Filters forward and backward; the ends are extended by point reflection for three periods. A high-pass keeps means.
+// Filters forward and backward; point reflection extends the ends by three periods of the cutoff. Means are kept.
 void filter(Samples& x, double share, bool high) {
   const auto rows = x.size(), more = std::min(rows - 1, static_cast<std::size_t>(3 / share) + 1);
   const double level = high ? mean(x) : 0;

@@ -15,8 +15,6 @@
 namespace wisp {
 namespace {
 
-// ---- Several models on one recording, over the rows that all of them predict ----
-
 // Predictions of one model for one number of steps: a channel NAME.predicted per output.
 struct Said {
   std::size_t model;
@@ -155,7 +153,7 @@ void name_badly_fitted(const ReportTable& all, Report& report) {
   for (const auto& row : all.rows) {
     if (const auto* fit = std::get_if<double>(&row[column])) fits.push_back(*fit);
   }
-  const double middle = median(fits);
+  const double middle = median(present(std::move(fits)));  // a recording without common rows has no fit
   for (const auto& row : all.rows) {
     const auto* fit = std::get_if<double>(&row[column]);
     if (!fit || !(*fit < middle - kBadlyFitted)) continue;

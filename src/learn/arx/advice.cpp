@@ -22,7 +22,7 @@ namespace {
 
 using Series = std::vector<double>;
 
-constexpr std::size_t kManyRows = 8192;  // maximum in searches for feedback and delays, and in redundant_channels()
+constexpr std::size_t kManyRows = 8192;  // maximum number of rows searched for feedback, delays and redundant channels
 constexpr std::size_t kFewRows = 50;
 constexpr const char* kRoles[] = {"input", "output", "motion"};  // role names, indexed by Role
 
@@ -36,7 +36,7 @@ struct Subject {
     return channel ? &recording.channels[*channel].samples : nullptr;
   }
 
-  // Samples of one channel over all recordings, concatenated, without the first and the last ones of each.
+  // Concatenated samples of one channel over all recordings, less the `first` first and `last` last samples of each.
   Series all_of(const std::string& name, int first = 0, int last = 0) const {
     Series all;
     for (const Recording& one : recordings) {
@@ -46,7 +46,7 @@ struct Subject {
     return all;
   }
 
-  // The row of all_of(name), from 1 in its own recording, which is named if there are several.
+  // Text of a row of all_of(name): its number in its recording, from 1, and the recording's name if there are several.
   std::string place_of(const std::string& name, std::size_t row) const {
     for (const Recording& one : recordings) {
       const std::size_t rows = find(one, name) ? one.rows() : 0;
@@ -175,7 +175,7 @@ Line line_of(const Series& x, const Series& y) {
   return line;
 }
 
-// Reports `later` where it is a linear function of `earlier` some samples before.
+// Adds a remark where `later` is a linear function of `earlier`, `lag` samples before; returns whether it is.
 bool repeats(const Subject& subject, const std::string& later, const std::string& earlier, int lag,
              std::vector<Remark>& out) {
   constexpr double kSame = 1e-5;  // residual RMS over deviation: about what single precision leaves
@@ -195,7 +195,7 @@ bool repeats(const Subject& subject, const std::string& later, const std::string
   return true;
 }
 
-// Inputs are compared at lags too: where a model's lags of both overlap, it has the same samples twice.
+// Inputs are also compared at lags: where the lags of two inputs overlap, a model would have the same regressor twice.
 void look_for_redundancy(const Subject& subject, int lags, std::vector<Remark>& out) {
   const auto names = subject.names();
   for (std::size_t l = 1; l < names.size(); ++l) {
@@ -223,7 +223,8 @@ void look_at_excitation(const Subject& subject, std::vector<Remark>& out) {
   }
 }
 
-// Reports feedback where, in the first recording, an output's past improves the prediction of an input by its own past.
+// Adds a remark where, in the first recording, an output's past improves the prediction of an input from the input's
+// own past.
 void look_for_feedback(const Subject& subject, std::vector<Remark>& out) {
   constexpr int kLags = 5;
   constexpr double kShare = 0.05, kChance = 1e-6, kMinRows = 150;
@@ -273,7 +274,7 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
 // The first recording without the output's linear trend; `drift` receives the change of that trend over all rows. Empty
 // where the trend is small, an input has a trend too, or there are fewer than 50 rows.
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
-  constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance
+  constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance that a trend explains
   Recording recording = subject.recordings.front();
   Series time(recording.rows());
   for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);

@@ -62,7 +62,7 @@ RowPart share_of(std::size_t rows, const TableShare& share) {
   return {start(share.index), start(share.index + 1), share.index + 1 == share.count};
 }
 
-// Hash of a file's bytes (a second read). By it two parts recognise the same recording under any path.
+// Hash of a file's bytes (a second read), by which two parts recognise one recording under any path.
 Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> block(std::size_t{1} << 20);
@@ -111,7 +111,7 @@ Result<void> take_rows(const Recording& recording, const RowPart& part, PartStat
 
 // Adds rows of a table, counted from the reader's position, chunk by chunk. Returns the number of rows.
 Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState& state) {
-  // One row more than the history: otherwise an episode that continues would count as one that is too short.
+  // One row more than the history: otherwise the rest of a continuing episode would count as one that is too short.
   const auto kept = static_cast<std::size_t>(state.orders.history()) + 1;
   const std::size_t before = std::min(kept, part.begin);
   Recording window = reader.header();
@@ -181,7 +181,8 @@ Result<void> simulate(const std::vector<Table>& tables, const PartState& state, 
   return {};
 }
 
-// The fit of all rows in the part, as fit_arx() computes it, with free simulation judged over `tables` if any.
+// The fit of all rows in the part. Departures from fit_arx(): the poles of an unstable estimate are moved only as far
+// as stability needs, and free simulation is judged in double precision over `tables`, if any.
 Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options, const std::vector<Table>& tables,
                       const Progress& progress) {
   if (auto ok = check_options(options, state.names); !ok) return ok.error();

@@ -52,7 +52,8 @@ std::vector<int> find_integrators(std::span<const Recording> recordings, const C
       open[i] = statistic <= kDickeyFuller || held->summary.fit_percent[i] > kExact;
       before[i] = held->summary.loss[i];
     }
-    // Judged as they would be played: the second of two integrators is lost where stability moves an estimated pole.
+    // Free simulation is judged on the stabilised model, as it would be played: stabilisation moves estimated poles,
+    // and then the second of two integrators is lost.
     ArxOptions played = options;
     const auto kept = fit_integrators(recordings, channels, tried.integrators, played);
     for (std::size_t i = 0; kept && i < open.size(); ++i) {
@@ -70,7 +71,8 @@ Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const Chan
                                const std::vector<int>& integrators, ArxOptions& options) {
   options.integrators = integrators;
   options.offset = ArxOffset::kEstimate;
-  for (const double distance : {1e-5, 1e-4, 0x1p-12}) {  // of two poles at 1 - 2^-12, single precision holds 2p and p²
+  // Single precision holds the coefficients 2p and p² of two poles at p = 1 − 2⁻¹² exactly.
+  for (const double distance : {1e-5, 1e-4, 0x1p-12}) {
     options.integrator_pole = 1 - distance;
     auto fit = fit_arx(recordings, channels, options);
     if (!fit || !fit->summary.stable.changed) return fit;

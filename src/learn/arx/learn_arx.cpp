@@ -131,7 +131,7 @@ Result<Prepared> prepare(std::span<const Recording> recordings, const ArxRecipe&
   return out;
 }
 
-// The estimate by least squares or the requested kernel, with poles at 1 where an output integrates.
+// The estimate by least squares or with the requested kernel; outputs that integrate get fixed poles next to 1.
 Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Report& chosen) {
   ArxOptions& options = prepared.options;
   auto plain = fit_arx(prepared.seen, channels, options);
@@ -153,7 +153,7 @@ void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const Ar
   evidence.held_out = held_out_fits(prepared.judged, channels, options);
   evidence.integrators = options.integrators;
   const auto nb = options.orders.nb.values(), nk = options.orders.nk.values();
-  int lags = 0;  // between the first and the last of all inputs
+  int lags = 0;  // distance between the smallest and the largest lag of all inputs
   for (std::size_t p = 0; p < nk.size(); ++p) lags = std::max(lags, nk[p] + nb[p] - 1 - *std::ranges::min_element(nk));
   evidence.redundant = redundant_channels(prepared.seen, channels.inputs, lags);
   evidence.doubts = [&] {

@@ -15,8 +15,8 @@
 
 namespace wisp {
 
-/// Learns by the recipe. `ArxRecipe::search` first finds the best orders, and unset delays are estimated first. A model
-/// that cannot be played (an unstable one with stabilisation off) is returned too, with a verdict that says so. Errors:
+/// Learns by the recipe, after a search of orders if `search` is set, or an estimate of delays if `nk` is unset. A
+/// model that cannot be played (unstable, with stabilisation off) is returned too, with a verdict that says so. Errors:
 /// no recordings, channels missing from them, settings out of range, too few rows, kStopped.
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress = {});
 
@@ -34,8 +34,9 @@ namespace arx {
 ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders);
 
 /// Returns the number of poles at 1 per output, 0 to 2; empty where no output has any. Coupled outputs have none. A
-/// pole counts if fixing it at 1 raises the squared error by no more than the Dickey–Fuller test allows (5 %) and
-/// improves the fit of free simulation by over 2 percentage points on `plain`, fit_arx() with the same options.
+/// pole counts if fixing it at 1 raises the squared error by no more than the Dickey–Fuller test allows (5 %), or
+/// leaves a one-step fit above 99.9 %, and if it improves the fit of free simulation by over 2 percentage points.
+/// `plain`: fit_arx() with the same options.
 std::vector<int> find_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options, const ArxFit& plain);
 
@@ -48,8 +49,8 @@ Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const Chan
 int integrators_in(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                    const std::string& output);
 
-/// Sums of squares of one output over the same rows: about its mean, left by its own past, and left by that and each
-/// set of the inputs' lags.
+/// Sums of squares of one output over the same `rows`: `size` about its mean, `own` of what its own past leaves, `both`
+/// of what its own past and each set of the inputs' lags leave. percent(): share of `own` that the first set explains.
 struct PastEffect {
   double rows = 0, size = 0, own = 0;
   std::vector<double> both{};
@@ -62,8 +63,8 @@ struct PastEffect {
 std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, const ChannelChoice& channels,
                                          const std::vector<std::vector<LaggedChannel>>& sets, int own_lags = 20);
 
-/// A remark on the first output that its inputs explain, beside its own past, no better than they do as they were long
-/// before. A ramp or a sine is the same at every shift: whether it drives anything, no recording can tell.
+/// A remark on the first output that its inputs explain, beside its own past, no better than the same inputs shifted
+/// far into the past do. A ramp or a sine looks alike at every shift, so no recording shows whether it drives anything.
 std::optional<Remark> coincidence(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOrders& orders);
 

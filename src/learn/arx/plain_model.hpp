@@ -27,13 +27,13 @@ struct Sources {
   bool own_levels = false;  ///< whether each recording was centred on its own means
 };
 
-/// Errors: a range below 1e-120 but not 0, or a magnitude above 1e120: squares of such squares leave double precision.
+/// Errors: a range below 1e-120 but not 0, or a magnitude above 1e120, whose fourth powers leave double precision.
 Result<void> check_size(const std::string& name, const ChannelSpan& span);
 
 /// Sources of recordings in memory. Errors: as find_signals() and check_size().
 Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels);
 
-/// A model with name, rate, channels with units and ranges, and sources, in the recordings' units.
+/// A model without dynamics: name, rate, channels with units and ranges, and sources, in the recordings' units.
 Model plain_model(const std::string& name, const ChannelChoice& channels, const Sources& sources);
 
 /// Recordings shifted so that each channel has the mean `means` (outputs, then inputs) or, where that is empty, its

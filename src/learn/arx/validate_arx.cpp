@@ -17,7 +17,6 @@ namespace wisp {
 namespace arx {
 namespace {
 
-constexpr int kSettled = 2000;        // steps after which the noise of free simulation has reached full variance
 constexpr int kMaxPlottedSteps = 15;  // above this, a prediction is practically a simulation
 constexpr int kErrorSteps = 20;       // number of steps in the plot of errors over steps
 
@@ -28,7 +27,7 @@ struct Subject {
   const ChannelChoice& channels;
   const Recording& recording;
   const ValidationOptions& options;
-  std::vector<std::vector<double>> sd;  // of prediction errors: [output][step − 1]
+  std::vector<std::vector<double>> sd;  // standard deviations of prediction errors: [output][step − 1]
 
   const std::vector<double>& measured(std::size_t output) const {
     return recording.channels[*find_channel(recording, channels.outputs[output])].samples;
@@ -48,7 +47,7 @@ struct Judged {
 // Standard deviations of prediction errors up to the longest horizon; for free simulation, until they settle.
 std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector<int>& steps) {
   int longest = *std::max_element(steps.begin(), steps.end());
-  if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettled);
+  if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettledSteps);
   return prediction_sd(arx, longest);
 }
 
@@ -95,11 +94,10 @@ ReportTable channel_table(const Subject& subject, const Judged& judged) {
   const auto& tests = judged.tests;
   add_column(table, {"whiteness_p", "residual white, p"},
              [&](std::size_t i) { return tests ? tests->whiteness[i].p : kMissing; });
-  if (!tests) add_column(table, {"independence_p", ""}, [](std::size_t) { return kMissing; });
-  for (std::size_t k = 0; tests && k < subject.channels.inputs.size(); ++k) {
+  for (std::size_t k = 0; k < subject.channels.inputs.size(); ++k) {
     const std::string& input = subject.channels.inputs[k];
     add_column(table, {"independence_p." + as_id(input), "independent of " + input + ", p"},
-               [&](std::size_t i) { return tests->independence[i][k].p; });
+               [&](std::size_t i) { return tests ? tests->independence[i][k].p : kMissing; });
   }
   for (std::size_t s = 0; s < judged.figures.size(); ++s) {
     const int steps = subject.options.steps[s];

@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-// Gives nine accurate digits in standard errors: condition² · 2.2e-16 = 1e-9.
+// Maximum condition number for the Gram matrix. Standard errors keep nine digits: condition² · 2.2e-16 = 1e-9.
 constexpr double kMaxConditionForGram = 2e3;
 
 // A column of norm 1 counts as dependent if less than this remains after projecting out the columns before it: data are
@@ -26,8 +26,7 @@ constexpr double kPartOfDependence = 1e-6;
 DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>& kept, int column) {
   DependentColumn dependent{column, {}};
   const auto count = static_cast<Eigen::Index>(kept.size());
-  Eigen::MatrixXd factor(count, count);
-  for (Eigen::Index k = 0; k < count; ++k) factor.col(k) = reduced.col(kept[k]).head(count);
+  const Eigen::MatrixXd factor = reduced(Eigen::seqN(0, count), kept);
   if (reduced.col(column).head(count).norm() <= kNothingLeft) return dependent;
   const Eigen::VectorXd weights = factor.triangularView<Eigen::Upper>().solve(reduced.col(column).head(count));
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -48,7 +47,7 @@ double condition_number(const Eigen::MatrixXd& matrix) {
   return values[0] / values[values.size() - 1];
 }
 
-// Computes the solution from the triangular factor of the kept columns, scaled to norm 1.
+// Computes the solution from the triangular factor of the kept columns, whose norms were scaled to 1.
 SharedSolution finish(const SharedProblem& problem, const Eigen::MatrixXd& factor, const Eigen::MatrixXd& rotated,
                       const std::vector<int>& kept, const Eigen::VectorXd& norm) {
   const auto d = static_cast<Eigen::Index>(problem.columns.size());
@@ -163,7 +162,7 @@ SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scal
   return problem;
 }
 
-// Effective number of coefficients, the trace of (XᵀX + FᵀF)⁻¹ XᵀX; without a kernel it is their number.
+// Effective number of coefficients, the trace of (XᵀX + FᵀF)⁻¹ XᵀX; without a prior, the number of coefficients.
 double effective_number(const SharedProblem& problem, const SharedSolution& solution, const Eigen::MatrixXd& products) {
   const auto size = static_cast<double>(problem.columns.size());
   if (problem.prior.size() == 0) return size;
@@ -191,8 +190,8 @@ struct ResidualProducts {
   GroupThetas gradient;  // Σ x r, laid out like the coefficients
 };
 
-// Computes residuals for given coefficients in one pass over the data. They are computed row by row, so that their
-// products do not suffer from cancellation.
+// Computes products of the residuals for given coefficients in one pass over the data. Residuals are formed row by row,
+// so their products do not suffer from cancellation.
 ResidualProducts residual_products(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
                                    const GroupThetas& theta) {
   ResidualProducts products{Eigen::MatrixXd::Zero(signals.outputs, signals.outputs), {}};
@@ -232,7 +231,8 @@ ResidualProducts residual_products(const Signals& signals, const RowPlan& plan, 
   return products;
 }
 
-// Adds the refinement step to the coefficients, and its effect within groups to `products`. Returns its relative size.
+// Adds the refinement step to the coefficients, and its effect within groups to `products`. Returns the step's relative
+// size.
 double refine(const ArxDesign& design, const std::vector<SharedProblem>& problems, ResidualProducts& products,
               ArxEstimate& estimate) {
   double largest = 0;
@@ -318,8 +318,7 @@ SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const Shared
 
   Reduction reduction = reduce(std::move(stacked), static_cast<int>(d));
   const auto count = static_cast<Eigen::Index>(reduction.kept.size());
-  Eigen::MatrixXd factor(count, count);
-  for (Eigen::Index k = 0; k < count; ++k) factor.col(k) = reduction.matrix.col(reduction.kept[k]).head(count);
+  const Eigen::MatrixXd factor = reduction.matrix(Eigen::seqN(0, count), reduction.kept);
   SharedSolution solution = finish(problem, factor, reduction.matrix.block(0, d, count, targets), reduction.kept, norm);
   solution.dependent = std::move(reduction.dependent);
   return solution;

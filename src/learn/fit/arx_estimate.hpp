@@ -1,10 +1,10 @@
 #pragma once
 // Least squares for a whole design: choice of the factorisation, and the estimate.
 //
-// The Gram matrix of lagged channels is by far the cheapest to form (lag_gram.hpp). Its rounding errors enter the
-// coefficients multiplied by the squared condition number. One step of refinement with residuals from the data restores
-// the accuracy of QR for the coefficients, but not for the inverse (standard errors). So the Gram matrix is used up to
-// the measured condition number kMaxConditionForGram and Householder QR above it.
+// The Gram matrix of lagged channels is by far cheaper to form than their triangle (lag_gram.hpp). Its rounding errors
+// enter the coefficients multiplied by the squared condition number. A refinement step with residuals from the data
+// restores the accuracy of QR for the coefficients, but not for the inverse (standard errors). So the Gram matrix is
+// used up to the measured condition number kMaxConditionForGram and Householder QR above it.
 
 #include <Eigen/Core>
 #include <functional>
@@ -38,7 +38,7 @@ struct SharedProblem {
   Eigen::MatrixXd prior;     ///< F, square; empty: no prior
 };
 
-/// Solves with RᵀR = Gram, R the triangle of the whole regression.
+/// Solves the problem from the triangle R of the whole regression; RᵀR is the Gram matrix.
 SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
 
 /// Coefficients of every group of rows: regressors × rows, in scaled units, without A's sign.
@@ -46,7 +46,7 @@ using GroupThetas = std::vector<Eigen::MatrixXd>;
 
 struct ArxEstimate {
   std::vector<SharedSolution> groups;  ///< one solution per group of the design, in scaled units
-  std::vector<double> effective;       ///< effective number of coefficients per group; without a kernel their number
+  std::vector<double> effective;       ///< effective number of coefficients per output of each group
   Eigen::MatrixXd residual_gram;       ///< ny × ny: Σ r_i r_j
   Eigen::VectorXd target_square;       ///< Σ (y − ȳ)² per output
   std::string method;                  ///< name of the factorisation, and why it was chosen
@@ -82,7 +82,7 @@ Eigen::MatrixXd kernel_factor(const RegressionProducts& products, const std::vec
 
 struct EstimateOptions {
   bool joint = false;                   ///< also compute products of regressors across groups of rows
-  ArxKernel kernel = ArxKernel::kNone;  ///< prior; with one, every group has one output
+  ArxKernel kernel = ArxKernel::kNone;  ///< prior; all but kNone need a design with one output per group
   std::vector<int> kernel_outputs{};    ///< outputs with the prior; empty: all
 };
 

@@ -22,7 +22,7 @@ namespace wisp {
 struct ArxOptions {
   ArxOrders orders;                     ///< see make_orders
   ArxOffset offset = ArxOffset::kMean;  ///< subtracted operating point, as the model is linear in deviations from it
-  ArxKernel kernel = ArxKernel::kNone;  ///< prior on every output's coefficients, tuned by marginal likelihood
+  ArxKernel kernel = ArxKernel::kNone;  ///< prior on outputs' coefficients, tuned by marginal likelihood
   std::vector<int> kernel_outputs{};    ///< outputs with the prior; empty: all
   std::vector<int> integrators{};       ///< poles per output fixed at integrator_pole, 0 to 2; empty: none. Allowed for
                                         ///< outputs without lags of other outputs
@@ -65,8 +65,8 @@ struct ArxSummary : Criteria, RowCounts {
   std::vector<double> noise_covariance;  ///< ny × ny, row-major: mean products of residuals over rows used
   std::vector<double> row_fpe;           ///< V·(1 + d/n)/(1 − d/n) per output row with d of that row
   std::vector<double> fit_percent;       ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) one step ahead, per output
-  std::vector<double> free_run_fit_percent;  ///< fit_percent of free simulation from the input; empty without inputs
-  std::vector<double> played_fit_percent;    ///< fit_percent of the stored model in single precision, as it is played
+  std::vector<double> free_run_fit_percent;  ///< fit_percent of free simulation from the input; empty: not simulated
+  std::vector<double> played_fit_percent;    ///< fit_percent of free simulation in single precision, as it is played
   std::vector<double> condition;             ///< 2-norm condition number of each output row's regressors, data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;

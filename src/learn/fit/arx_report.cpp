@@ -102,7 +102,8 @@ void to_units(const FitFacts& facts, const ArxDesign& design, ArxModel& model) {
   model.input_mean.assign(facts.offset.begin() + facts.outputs, facts.offset.end());
 }
 
-// Scaled standard error of a coefficient in the unconstrained estimate: s² (XᵀX)⁻¹ with s² = Σr²/(n − d).
+// Scaled standard error of a coefficient in the unconstrained estimate: the square root of its element of s² (XᵀX)⁻¹,
+// s² = Σr²/(n − d).
 double scaled_error(const FitFacts& facts, const ArxEstimate& estimate, std::size_t group, int output, std::size_t p) {
   const auto index = static_cast<Eigen::Index>(p);
   const double freedom = static_cast<double>(facts.rows) - estimate.effective[group];
@@ -299,7 +300,7 @@ double loss_factor(const Eigen::MatrixXd& with, const Eigen::MatrixXd& without) 
   return std::exp(log);
 }
 
-// Percent. A one-step fit above kPromise with a free-run fit below kKept hides the model's failure.
+// Fits in percent: a one-step fit of at least kPromise hides the failure of a free-run fit below kKept.
 constexpr double kPromise = 80, kKept = 60;
 
 // Warns of outputs with a good one-step fit but a poor free-run fit, where both are known.

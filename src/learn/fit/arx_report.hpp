@@ -29,7 +29,7 @@ struct FitFacts : RowCounts {
 inline constexpr double kDiverges = -1000;
 std::string fit_text(double percent);
 
-/// Index of each output row's first coefficient in the joint covariance, and one past the last row's end.
+/// Index of each output row's first coefficient in the joint covariance; then, as last entry, the covariance's size.
 std::vector<Eigen::Index> row_starts(const ArxModel& model);
 
 /// Information criteria of residuals with covariance Λ (ny × ny, row-major) over n rows.
@@ -42,8 +42,8 @@ Eigen::MatrixXd companion_of(const ArxModel& model, const std::vector<int>& outp
 /// that the largest radius becomes share · max_radius. B and the constant move to their optimum for that A. `inverse`,
 /// per output row: (XᵀX)⁻¹ of its regressors, laid out and scaled as in the model, with an estimated constant last.
 ///
-/// Chosen on public data: least squares on the boundary of the stable set has the lower one-step loss but the larger
-/// simulation error on unseen rows (docs/studies/identification.md).
+/// This method was chosen on public data: least squares on the boundary of the stable set has the lower one-step loss
+/// but the larger simulation error on unseen rows (docs/studies/identification.md).
 ///
 /// Preconditions: 0 < max_radius < 1; one inverse per output row, positive semidefinite.
 void make_stable(ArxModel& model, const std::vector<Eigen::MatrixXd>& inverse, double max_radius, double share = 1);

@@ -10,14 +10,15 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kMinSimulationFit = 40;     // percent of free simulation over held-out rows, with inputs
-constexpr double kMinSkill = 5;              // percent below the squared error of last sample and mean; without inputs
-constexpr double kMinRowsACoefficient = 10;  // per coefficient of an output
+constexpr double kMinSimulationFit = 40;     // percent of fit in free simulation, for models with inputs
+constexpr double kMinSkill = 5;              // percent by which the squared error is less than that of persistence
+                                             // and of the mean, for models without inputs
+constexpr double kMinRowsACoefficient = 10;  // rows per coefficient of an output
 constexpr double kMaxMoved = 10;             // standard errors by which stabilisation may move a coefficient
-constexpr double kSameSample = 0.25;         // correlation that shows an input acting without delay
-constexpr double kTrace = 1e-4;       // share of the output's variance below which an effect is of rounding or means
-constexpr double kSetByOutput = 95;   // percent of an input that outputs explain, above which it tells nothing
-constexpr double kMaxLostInPlay = 1;  // percent of fit that single precision may lose against the estimate
+constexpr double kSameSample = 0.25;         // correlation above which an input counts as acting without delay
+constexpr double kTrace = 1e-4;              // share of the output's variance below which an effect may be rounding
+constexpr double kSetByOutput = 95;  // percent of an input explained by an output, above which its response is in doubt
+constexpr double kMaxLostInPlay = 1;  // percentage points of fit that single precision may lose
 
 // A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
 constexpr double kTimesBound = 2.5;
@@ -115,8 +116,8 @@ std::string is_redundant(const VerdictEvidence& evidence, const ArxSummary&) {
   return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }
 
-// The response to an input that follows the output, or that only drifts as it does, is not in such a recording, however
-// well the model fits.
+// Where an input is set by the output (feedback), or both merely drift alike, the recording does not determine the
+// response, however well the model fits.
 std::string is_doubtful(const VerdictEvidence& evidence, const ArxSummary&) {
   if (!evidence.doubts) return "";
   for (const Remark& one : evidence.doubts())

@@ -25,12 +25,12 @@ struct VerdictEvidence {
   std::vector<int> integrators{};                  ///< as in ArxOptions::integrators
   std::vector<Remark> redundant{};                 ///< redundant_channels() of the inputs
   std::function<std::vector<Remark>()> remarks{};  ///< computes remarks on the recordings; called only to find a cause
-  std::function<std::vector<Remark>()> doubts{};   ///< feedback_of() the recordings, then a coincidence(); called last
+  std::function<std::vector<Remark>()> doubts{};   ///< remarks of feedback_of() and coincidence(); called last
 };
 
-/// Marks a summary that is usable so far as not usable, with the reason, where a limit is exceeded. For a model that
-/// simulates badly, the reason names the first remark that explains it, with its remedy. For a model that remains
-/// usable, the fit of its free simulation is added to the reason.
+/// Marks a usable summary as not usable where a criterion fails, with the reason. For a model that simulates badly, the
+/// reason names the first remark that explains it, with its remedy. Where the model remains usable, the fit of its free
+/// simulation is added to the reason.
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);
 
 }  // namespace wisp::arx

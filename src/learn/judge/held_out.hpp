@@ -25,7 +25,7 @@ struct Fold {
 std::vector<Fold> folds_of(std::span<const Recording> recordings);
 
 /// Fit percentages of free simulation over held-out rows, per output: the last 30 % of every recording with a model of
-/// the rest, and the first 30 % likewise. Empty without inputs, or where that fails (too few rows).
+/// the rest, and the first 30 % likewise. Empty without inputs, or where a fit or a simulation fails (too few rows).
 std::vector<double> held_out_fits(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options);
 
@@ -35,7 +35,7 @@ std::vector<Recording> middles_of(std::span<const Recording> recordings, std::si
 /// Number of parts of a fold; errors are computed for each.
 inline constexpr int kParts = 8;
 
-/// Standard errors by which the more complex model must be better; chance alone reaches it once in 40.
+/// Number of standard errors by which the more complex model must be better; chance alone reaches it once in 40.
 inline constexpr double kSurelyBetter = 2;
 
 /// Mean squared errors of free simulation over kParts parts of all rows: a row per part, a column per output, divided

@@ -49,8 +49,8 @@ std::vector<double> free_run_fits(const ArxModel& model, const Signals& signals,
   return free_run_tally(model, signals, start).figures(kFreeRun).fit_percent;
 }
 
-// For an unstable estimate: moves the poles further inwards than stability needs, by the share (of five) with the best
-// free simulation of the judged rows. The effect of an error in a pole near the stability limit decays slowly.
+// For an unstable estimate: moves the poles further inwards than stability needs, by the one of five shares with the
+// best free simulation of the judged rows. The effect of an error in a pole near the stability limit decays slowly.
 ArxFit drawn_in(FitFacts facts, const ArxDesign& design, const ArxEstimate& estimate, const Signals& judged,
                 ArxFit fit) {
   constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and minimum gain of the sum

@@ -262,14 +262,14 @@ class Runner {
           feedback_[i].push_back({-back, -a[l]});
         }
       }
-      // The latest sample comes last: it was computed just before, and the processor can add the others meanwhile.
+      // The latest sample comes last: the processor can add the others while it is still being computed.
       std::sort(feedback_[i].begin(), feedback_[i].end(), [](const Tap& a, const Tap& b) { return a.back < b.back; });
     }
   }
 
   std::size_t memory() const { return memory_; }
 
-  /// Inputs before that row count as resting at the operating point.
+  /// Takes inputs before `row` as resting at the operating point.
   void rest_until(std::size_t row) { rest_until_ = row; }
 
   std::size_t outputs() const { return feedback_.size(); }
@@ -367,14 +367,15 @@ class Runner {
   std::vector<std::vector<Tap>> feedback_;  // per output
 };
 
-// First row at which a simulation that reaches `end` may start; `end` where there is none.
+// First row from `begin` on at which a simulation may start; `end` where there is none.
 std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, InitialState initial) {
   if (initial != InitialState::kMeasured) return begin;
   while (begin < end && !runner.past_is_measured(begin)) ++begin;
   return begin;
 }
 
-// A simulation from rest starts at the episode's first row, unless an input is missing before `run`.
+// A simulation from rest starts `first_sample` rows before `run`, in general the episode's first row, unless an input
+// is missing there.
 std::size_t rested_begin(const Signals& signals, const RowRun& run, int first_sample) {
   std::size_t begin = run.begin;
   const auto present = [&](std::size_t row) {
@@ -414,7 +415,6 @@ void simulate_stretch(const Runner& runner, const RowRun& run, InitialState init
 void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit) {
   Runner runner(model, signals, recording);
-  const LagLayout layout = layout_of_model(model);
   std::vector<double> played;
   // Play adds the operating point in single precision.
   const auto rounded = [&](std::size_t first, std::size_t rows, const double* values) {
@@ -425,8 +425,7 @@ void free_run(const ArxModel& model, const Signals& signals, std::size_t recordi
     }
     visit(first, rows, played.data());
   };
-  for (RowRun run : plan_input_rows(signals, layout, start.first_sample).runs) {
-    if (run.recording != recording) continue;
+  for (RowRun run : plan_input_rows(signals, recording, layout_of_model(model), start.first_sample).runs) {
     if (start.initial == InitialState::kZero) run.begin = rested_begin(signals, run, start.first_sample);
     runner.rest_until(start.initial == InitialState::kZero ? run.begin : 0);
     if (start.as_played) {

@@ -27,7 +27,7 @@ using SimulatedRows = std::function<void(std::size_t first, std::size_t rows, co
 
 struct FreeRunStart {
   InitialState initial = InitialState::kMeasured;
-  int first_sample = 0;    ///< first row of an episode, at least the model's history
+  int first_sample = 0;    ///< first simulated row of an episode, at least the model's history; kZero starts at row 0
   bool as_played = false;  ///< single precision, as run/ steps the stored model
 };
 
@@ -45,9 +45,10 @@ struct PredictOptions {
 
 /// Predicts all rows of a recording; history never crosses episodes.
 /// Returns one series per output, in its own unit, as long as the recording; NaN in an episode's first rows (longest
-/// lag + steps − 1 rows; for kFreeRun the longest lag), and where a sample of the last `steps` rows, this one included,
-/// or one at their lags is missing. A free simulation needs only inputs after its start, and restarts after a gap in
-/// them. Errors: a channel missing from the recording, channels that do not fit the model, steps out of range.
+/// lag + steps − 1 rows; for kFreeRun the longest lag, or none with kZero), and where a sample of the last `steps`
+/// rows, this one included, or a sample at their lags is missing. A free simulation needs only inputs after its start,
+/// and restarts after a gap in them. Errors: a channel missing from the recording, channels that do not fit the model,
+/// steps out of range.
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options = {});
 
@@ -73,13 +74,16 @@ Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model,
                                                           const ChannelChoice& channels,
                                                           const FigureOptions& options = {});
 
+/// Number of steps after which the noise of a free simulation has reached its full variance.
+inline constexpr int kSettledSteps = 2000;
+
 /// Standard deviations of k-step prediction errors for k = 1 … steps, from the model's own noise: [output][k − 1]. A
-/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take enough steps that they settle).
+/// prediction ±1.96 sd is its 95 % interval (for kFreeRun take kSettledSteps).
 ///
 /// Precondition: steps >= 1.
 std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps);
 
-/// Errors: no number of steps, or one that is neither 1 to 100000 nor kFreeRun.
+/// Errors: an empty list, or a number of steps that is neither 1 to 100000 nor kFreeRun.
 Result<void> check_steps(std::span<const int> all);
 
 /// Sums of errors over the rows for one number of steps.
@@ -109,9 +113,9 @@ class Tally {
   std::vector<double> size_;
 };
 
-/// Errors of free simulation over all recordings, from row `first_sample` of every episode on.
+/// Errors of free simulation over all recordings.
 ///
-/// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
+/// Preconditions: the signals' offsets are the model's operating point; start.first_sample >= the model's history.
 Tally free_run_tally(const ArxModel& model, const Signals& signals, const FreeRunStart& start);
 
 /// prediction_figures() of signals whose offsets are the model's operating point and whose scales are 1.

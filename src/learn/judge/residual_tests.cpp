@@ -34,15 +34,15 @@ std::vector<Stretch> stretches_of(const ArxModel& model, const Signals& signals)
     stretch.input.resize(rows, signals.inputs);
     for (int k = 0; k < signals.inputs; ++k) {
       const double* samples = signals.samples[run.recording][signals.outputs + k].data() + run.begin;
-      stretch.input.col(k) = Eigen::Map<const VectorXd>(samples, rows);
+      const Eigen::Map<const VectorXd> input(samples, rows);
+      // A sample that no coefficient uses may be missing: the operating point takes its place.
+      stretch.input.col(k) = input.array().isNaN().select(signals.offset[signals.outputs + k], input);
     }
-    // A sample of an input that no coefficient uses may be missing: 0 takes its place.
-    stretch.input = stretch.input.array().isNaN().select(0.0, stretch.input);
   }
   return all;
 }
 
-// Subtracts from a series its mean over all rows; both tests are about the means.
+// Subtracts from a series its mean over all rows: both tests use deviations from the means.
 void centre(std::vector<Stretch>& stretches, MatrixXd Stretch::*series) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero((stretches.front().*series).cols());
   Index rows = 0;
@@ -90,8 +90,7 @@ double variance_of(const Signals& signals, int channel) {
 }
 
 // Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of
-// that output's variance which the residual drives. That share is 1 without inputs, and small where an input drives the
-// output.
+// that output's variance that the residual causes: 1 without inputs, small where an input drives the output.
 double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
   constexpr int kSteps = 400;
   VectorXd driven = VectorXd::Zero(signals.outputs);

@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// Maximum number of terms. Near the mean both expansions need about √a; beyond this, terms are below rounding.
+// Maximum number of terms. Near the mean both expansions reach rounding after about 9√a terms: enough for a up to 1e8.
 constexpr int kMaxTerms = 100000;
 constexpr double kEnough = 1e-16;
 

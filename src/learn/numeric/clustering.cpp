@@ -11,9 +11,9 @@ namespace wisp {
 namespace {
 
 constexpr int kStarts = 10;      // random starts; the best one is taken
-constexpr int kMaxRounds = 300;  // maximum number of iterations of each
-// A start ends where the squared movements of the centroids sum to less than this share of the variance. The best start
-// is then iterated until no row changes cluster, or kMaxRounds is reached.
+constexpr int kMaxRounds = 300;  // maximum number of iterations of a start
+// A start ends where the squared movements of the centroids sum to at most this share of the variance. The best start
+// is then iterated until no centroid moves, or kMaxRounds is reached.
 constexpr double kTolerance = 1e-4;
 
 struct Rows {
@@ -59,7 +59,8 @@ double nearer(const Rows& rows, std::size_t to, const std::vector<double>& befor
   return sum;
 }
 
-// Greedy k-means++: draws a few rows in proportion to their squared distance, keeps the one that lowers its sum most.
+// Greedy k-means++: draws a few rows in proportion to their squared distance and keeps the row that leaves the smallest
+// sum of squared distances.
 std::vector<double> start_centroids(const Rows& rows, int clusters, std::mt19937_64& random) {
   const int trials = 2 + static_cast<int>(std::log(static_cast<double>(clusters)));
   std::vector<double> centroids, distance(rows.count, std::numeric_limits<double>::max());
@@ -136,7 +137,7 @@ double move_centroids(const Rows& rows, KMeans& found) {
   return moved;
 }
 
-// Alternates both steps until centroids move by at most `least`.
+// Alternates both steps until the squared movements of the centroids sum to at most `least`.
 void alternate(const Rows& rows, double least, KMeans& found) {
   while (found.rounds < kMaxRounds) {
     ++found.rounds;
@@ -221,7 +222,8 @@ double silhouette(std::span<const double> values, std::size_t columns, const KMe
       if (k != own && members[k] > 0) other = std::min(other, away[k] / members[k]);
     }
     const double inside = away[own] / members[own];
-    if (other < std::numeric_limits<double>::max()) sum += (other - inside) / std::max(other, inside);
+    if (other == std::numeric_limits<double>::max() || std::max(other, inside) == 0) continue;
+    sum += (other - inside) / std::max(other, inside);
   }
   return sum / static_cast<double>(used);
 }

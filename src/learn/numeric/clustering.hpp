@@ -23,7 +23,7 @@ struct KMeans {
   std::vector<std::uint16_t> cluster;  ///< cluster of each row
   std::vector<std::size_t> sizes;      ///< rows per cluster; none is empty
   double inertia = 0;                  ///< sum of squared distances to the centroids
-  int rounds = 0;                      ///< iterations of the best start
+  int rounds = 0;                      ///< number of iterations of the best start
 };
 
 /// Clusters rows, which are stored consecutively. A cluster that becomes empty gets the row farthest from its centroid.

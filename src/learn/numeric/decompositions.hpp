@@ -5,8 +5,8 @@
 
 namespace wisp {
 
-/// Singular values, largest first, each within rounding of the largest. Runs eight times longer than bidiagonalisation,
-/// which takes half a minute to compile.
+/// Singular values, largest first; their absolute error is the rounding error of the largest. Runs eight times longer
+/// than bidiagonalisation, which takes half a minute to compile.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);

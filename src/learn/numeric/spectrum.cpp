@@ -20,7 +20,7 @@ std::vector<double> hann(std::size_t length) {
   return window;
 }
 
-// Fourier sums by a table of cos and sin of 2π i / length: fast enough for segments of a few dozen samples.
+// Fourier sums by a table of cos and sin of 2π i / length: fast enough for segments of some hundred samples.
 struct Fourier {
   explicit Fourier(std::size_t length) : length_(length), cosine_(length), sine_(length) {
     for (std::size_t i = 0; i < length; ++i) {

@@ -35,7 +35,7 @@ Spectrum welch(Samples stretches, double rate_hz, std::size_t length);
 struct CrossSpectrum {
   double phase = 0;          ///< lag of the second series behind the first, −π to π radians
   double coherence = 0;      ///< magnitude squared, 0 to 1; 1 for a single segment
-  std::size_t segments = 0;  ///< number averaged: windowed as in welch(), without those with a missing sample
+  std::size_t segments = 0;  ///< number of averaged segments, cut as in welch(); one with a missing sample is skipped
 };
 CrossSpectrum cross_spectrum(std::span<const double> a, std::span<const double> b, double rate_hz, std::size_t length,
                              double frequency_hz);

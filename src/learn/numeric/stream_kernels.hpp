@@ -8,7 +8,7 @@
 
 namespace wisp {
 
-/// Two doubles in one register where the machine has such (SSE2, NEON, WebAssembly); elsewhere the compiler splits it.
+/// Two doubles, in one 128-bit register where the machine has them (SSE2, NEON, WebAssembly), elsewhere in two.
 /// Wider registers are avoided on purpose: a recording must give the same model on every machine.
 #ifdef __GNUC__
 using Pair = double __attribute__((vector_size(16)));
@@ -47,7 +47,7 @@ void add_products_of(const double* x, const double* const* y, std::size_t rows, 
   }
 }
 
-// Remainder loop for fewer than kMore series.
+// add_products() for the remaining series, fewer than kMore.
 template <std::size_t kMore>
 void add_products_of_rest(const double* x, std::span<const double* const> y, std::size_t rows, double* sums) {
   if (y.size() + 1 == kMore) return add_products_of<kMore - 1>(x, y.data(), rows, sums);

@@ -19,7 +19,7 @@ struct UniformOrders {
   int nb = 4;  ///< lags of inputs, 0 to 4096
   int nk = 1;  ///< delay of inputs in samples, 0 to 4096; 1: an input acts on the next sample
   Coupling coupling = Coupling::kFull;
-  int group = 1;  ///< consecutive outputs coupled with each other, ≥ 1: 2 where outputs are x, y of points
+  int group = 1;  ///< number of consecutive outputs that are always coupled, ≥ 1; 2 where outputs are x, y of points
 };
 
 /// Returns na (outputs × outputs), nb and nk (outputs × inputs).
@@ -51,7 +51,7 @@ inline double sign_of(const LaggedChannel& column, int outputs) {
 std::vector<SharedRows> shared_rows(const ArxOrders& orders, ArxOffset offset, const LagLayout& layout,
                                     bool apart = false);
 
-/// Design of the regression, on a layout of exactly its regressors.
+/// Design of the regression, on a layout of its regressors, its targets and the constant.
 ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart = false);
 
 /// Pairs of channels whose products the design's rows need.

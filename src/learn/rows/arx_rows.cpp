@@ -157,26 +157,16 @@ void add_runs(RowPlan& plan, const RowRun& rows, const std::vector<std::uint8_t>
   }
 }
 
-// History starts at an episode's first row and first_sample is at least every lag, so missing samples of the episode
-// before cannot reach into this one.
-RowPlan plan_channels(const Signals& signals, const LagLayout& layout, int first_sample, int first_channel) {
-  RowPlan plan;
-  plan.first_sample = first_sample;
-  for (std::size_t r = 0; r < signals.samples.size(); ++r) {
-    const auto bad = unusable_rows(signals, r, layout, first_channel);
-    for (const Episode& episode : signals.episodes[r]) {
-      const std::size_t before = plan.rows;
-      if (episode.size() > static_cast<std::size_t>(first_sample)) {
-        add_runs(plan, {r, episode.begin + static_cast<std::size_t>(first_sample), episode.end}, bad);
-      }
-      if (plan.rows > before) {
-        ++plan.episodes_used;
-      } else {
-        ++plan.episodes_skipped;
-      }
-    }
+// Adds the usable rows of a recording. History starts at an episode's first row and plan.first_sample is at least every
+// lag, so missing samples of the episode before cannot reach into this one.
+void plan_recording(const Signals& signals, std::size_t recording, const LagLayout& layout, int first_channel,
+                    RowPlan& plan) {
+  const auto bad = unusable_rows(signals, recording, layout, first_channel);
+  for (const Episode& episode : signals.episodes[recording]) {
+    const std::size_t before = plan.rows, first = static_cast<std::size_t>(plan.first_sample);
+    if (episode.size() > first) add_runs(plan, {recording, episode.begin + first, episode.end}, bad);
+    ++(plan.rows > before ? plan.episodes_used : plan.episodes_skipped);
   }
-  return plan;
 }
 
 void copy_scaled(const double* in, std::size_t rows, double offset, double scale, double* out) {
@@ -250,11 +240,12 @@ Result<Signals> gather_signals(std::span<const Recording> recordings, const Chan
 }
 
 Signals middle_of(const Signals& signals, std::size_t most) {
-  std::size_t total = 0;
-  for (const auto& channels : signals.samples) total += channels.front().size();
+  const std::size_t total = total_rows(signals);
   Signals out = signals;
   for (std::size_t r = 0; total > most && r < out.samples.size(); ++r) {
-    const std::size_t all = out.samples[r].front().size(), rows = all * most / total, first = (all - rows) / 2;
+    const std::size_t all = out.samples[r].front().size();
+    // all · most may overflow the 32 bits of WebAssembly's size_t.
+    const auto rows = static_cast<std::size_t>(std::uint64_t{all} * most / total), first = (all - rows) / 2;
     for (auto& samples : out.samples[r]) samples = samples.subspan(first, rows);
     for (Episode& episode : out.episodes[r]) {
       episode.begin = std::clamp(episode.begin, first, first + rows) - first;
@@ -266,12 +257,13 @@ Signals middle_of(const Signals& signals, std::size_t most) {
 }
 
 RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample) {
-  return plan_channels(signals, layout, first_sample, 0);
+  RowPlan plan{{.first_sample = first_sample}, {}};
+  for (std::size_t r = 0; r < signals.samples.size(); ++r) plan_recording(signals, r, layout, 0, plan);
+  return plan;
 }
 
 RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part) {
-  RowPlan plan;
-  plan.first_sample = first_sample;
+  RowPlan plan{{.first_sample = first_sample}, {}};
   const auto bad = unusable_rows(signals, 0, layout, 0);
   const auto within = [&](std::size_t row) { return row >= part.begin && row < part.end; };
   for (const Episode& episode : signals.episodes[0]) {
@@ -285,8 +277,10 @@ RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sam
   return plan;
 }
 
-RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample) {
-  return plan_channels(signals, layout, first_sample, signals.outputs);
+RowPlan plan_input_rows(const Signals& signals, std::size_t recording, const LagLayout& layout, int first_sample) {
+  RowPlan plan{{.first_sample = first_sample}, {}};
+  plan_recording(signals, recording, layout, signals.outputs, plan);
+  return plan;
 }
 
 void ScaledBlock::load(const RowRun& rows) {

@@ -118,7 +118,7 @@ Result<Signals> gather_signals(std::span<const Recording> recordings, const Chan
 /// Maximum number of rows that figures are computed from; more would not change them noticeably.
 inline constexpr std::size_t kJudgedRows = std::size_t{1} << 18;
 
-/// The central part of every recording, at most `most` rows together. Its spans view the samples of `signals`.
+/// The central part of every recording, at most `most` rows in total. The result's spans view the samples of `signals`.
 Signals middle_of(const Signals& signals, std::size_t most);
 
 /// Rows whose regressors and targets are all present, from row `first_sample` of every episode on.
@@ -133,12 +133,12 @@ struct RowPart {
   bool last = true;
 };
 
-/// plan_rows for one part. An episode counts for the part that has its first target row, complete or not, or, where it
-/// is too short to have one, the row after its end.
+/// plan_rows for one part. The part with an episode's first target row counts the episode as used, even if samples are
+/// missing. The part with the row after its end counts an episode without target rows as skipped.
 RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
 
-/// Rows whose inputs are all present, whether or not outputs are missing.
-RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample);
+/// Rows of one recording whose inputs are all present, whether or not outputs are missing.
+RowPlan plan_input_rows(const Signals& signals, std::size_t recording, const LagLayout& layout, int first_sample);
 
 /// Scaled samples of all channels over a block of rows and the history before it.
 class ScaledBlock {

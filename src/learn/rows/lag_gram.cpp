@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// One column, and the columns that it is multiplied with over all rows.
+// A column, and the columns whose products with it are summed over all rows.
 struct Products {
   int column = 0;
   std::vector<int> with;
@@ -21,7 +21,6 @@ class GramBuilder {
         before_(layout.size()),
         ends_(layout.size(), layout.size()) {
     for (int p = 0; p < layout.size(); ++p) before_[p] = layout.find({layout[p].channel, layout[p].lag - 1});
-    before_[0] = 0;  // the constant does not change with the lag
     for (int p = 1; p < layout.size(); ++p) {
       Products products{p, {}};
       for (int q = p; q < layout.size(); ++q) {
@@ -49,8 +48,8 @@ class GramBuilder {
     sums_(0, 0) += static_cast<double>(block_.rows());
   }
 
-  /// Adds the end corrections between a column and its neighbour one lag shorter, whose samples begin and end one row
-  /// later.
+  /// Adds the end corrections of a run. The samples of a column one lag shorter begin and end one row later, so
+  /// products gain those of the row at the run's begin and lose those of the row at its end.
   void add_ends(const RowRun& run) {
     block_.load({run.recording, run.begin, run.begin});
     ends_.selfadjointView<Eigen::Upper>().rankUpdate(row_at_load(), 1.0);
@@ -73,7 +72,7 @@ class GramBuilder {
   double sum(const double* series) const { return Eigen::Map<const Eigen::VectorXd>(series, size()).sum(); }
   Eigen::Index size() const { return static_cast<Eigen::Index>(block_.rows()); }
 
-  // Values of all columns in the row after the (empty) loaded block.
+  // Values of all columns in the row after the (empty) loaded block; 0 at lag 0, which needs no correction.
   Eigen::VectorXd row_at_load() const {
     Eigen::VectorXd row(layout_.size());
     row[0] = 1;

@@ -1,14 +1,13 @@
 #pragma once
 // Reduces a regression on lagged channels to a square matrix: its Gram matrix, by few long products, or the triangle R
-// with RᵀR the Gram matrix, without forming that (G. Golub & C. Van Loan, Matrix Computations (4th ed.), section 5.2;
-// rows are taken in block by block: A. Björck, Numerical Methods for Least Squares Problems, section 6.2).
+// with RᵀR the Gram matrix, computed from the rows (G. Golub & C. Van Loan, Matrix Computations (4th ed.), section 5.2;
+// block by block: A. Björck, Numerical Methods for Least Squares Problems, section 6.2).
 //
 // Neighbouring rows of a regression on lags share nearly all numbers: the product of channel c at lag l with channel c′
-// at lag l′ differs from that at lags l−1, l′−1 only at the two ends of the rows. So only products with a channel's
-// first lag are taken over all rows, channels² × lags of them instead of (channels × lags)²; the rest follows along the
-// diagonals by end corrections. The structure is that of L. Ljung, System Identification (2nd ed.), section 10.1
-// (covariance and autocorrelation method); the end terms are kept here, so the result is the exact Gram matrix but for
-// rounding.
+// at lag l′ differs from their product at lags l−1 and l′−1 only at the two ends of the rows. So only products with a
+// channel's first lag are summed over all rows, channels² × lags of them instead of (channels × lags)²; end corrections
+// give the others along the diagonals. The structure is that of L. Ljung, System Identification (2nd ed.), section 10.1
+// (covariance and autocorrelation method); the end terms are kept here, so the Gram matrix is exact but for rounding.
 
 #include <Eigen/Core>
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "learn/judge/judged_fit.hpp"
@@ -88,6 +89,22 @@ TEST(ResidualTests, FindTheCorrelationsOfAKnownSeries) {
   EXPECT_NEAR(tests->whiteness[0].correlation[0], -399.0 / 400, 1e-12);
   EXPECT_NEAR(tests->whiteness[0].correlation[1], 398.0 / 400, 1e-12);
   EXPECT_NEAR(tests->whiteness[0].p, 0, 1e-12);
+}
+
+TEST(ResidualTests, AMissingInputCountsAsItsMeanAtAnyLevel) {
+  const auto correlation = [](double level) {
+    Recording recording = simulate({}, 500, 4);
+    for (double& u : recording.channels[0].samples) u += level;
+    recording.channels[0].samples[250] = std::numeric_limits<double>::quiet_NaN();
+    ArxOptions options;
+    options.orders = make_orders({.outputs = 1, .inputs = 1, .na = 2, .nb = 2, .nk = 1});
+    const auto fit = fit_arx({&recording, 1}, {{"u"}, {"y"}}, options);
+    EXPECT_TRUE(fit);
+    return test_residuals(fit->model, {&recording, 1}, {{"u"}, {"y"}}, {.lags = 5})->independence[0][0].correlation;
+  };
+  const auto at_zero = correlation(0), far = correlation(1000);
+  ASSERT_EQ(at_zero.size(), far.size());
+  for (std::size_t lag = 0; lag < far.size(); ++lag) EXPECT_NEAR(at_zero[lag], far[lag], 1e-9) << lag;
 }
 
 TEST(ResidualTests, NeedRowsEnough) {

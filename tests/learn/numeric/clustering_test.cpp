@@ -76,6 +76,13 @@ TEST(KMeans, NoClusterIsEmptyEvenWhereRowsCoincide) {
   EXPECT_THAT(found->sizes, testing::Each(testing::Gt(0U)));
 }
 
+TEST(KMeans, TheSilhouetteOfClustersOnOnePointIsZero) {
+  const std::vector<double> rows(30, 1.0);
+  const auto found = k_means(rows, 3, {.clusters = 2});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(silhouette(rows, 3, *found), 0);
+}
+
 TEST(KMeans, MoreClustersThanRowsIsAnError) {
   const std::vector<double> rows(6, 0.5);
   const auto found = k_means(rows, 3, {.clusters = 3});
