@@ -64,7 +64,7 @@ endfunction()
 # With WISP_UNITY_BUILD the sources of a folder are compiled together, some twelve at a time, in parts of like size: headers and
 # template instances that they share are four tenths of the time. After a change the whole part is compiled again. Names in
 # anonymous namespaces must be unique within a folder; an overload that another source's replaces is an unused function,
-# which is an error. Sources of the folders named below share so little that twelve are compiled no faster than five.
+# which is an error.
 function(wisp_unity target)
   if(NOT WISP_UNITY_BUILD)
     return()
@@ -83,11 +83,8 @@ function(wisp_unity target)
     math(EXPR bytes_${folder} "0${bytes_${folder}} + ${bytes}")
   endforeach()
   list(REMOVE_DUPLICATES folders)
+  set(together 12)
   foreach(folder IN LISTS folders)
-    set(together 12)
-    if(folder MATCHES "^src_learn_(numeric|arx_simulation)$")
-      set(together 5)
-    endif()
     list(LENGTH in_${folder} count)
     math(EXPR parts "(${count} + ${together} - 1) / ${together}")
     set(before 0)
