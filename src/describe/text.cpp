@@ -20,7 +20,7 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-// A percentage below this comes from a diverging simulation and is shown as "diverges".
+// Returns whether a value is a percentage so low that it comes from a diverging simulation.
 bool diverges(const ReportValue& value, const std::string& unit) {
   constexpr double kRunsAway = -1000;
   const auto* number = std::get_if<double>(static_cast<const ReportValue::Base*>(&value));
@@ -32,7 +32,7 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-// Formats a value without its unit; "diverges" for percentages of a diverging simulation.
+// Formats a value without its unit; percentages of a diverging simulation become "diverges".
 std::string shown_in_unit(const ReportValue& value, const std::string& unit) {
   if (diverges(value, unit)) return "diverges";
   const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));

@@ -1,6 +1,6 @@
-// MAT-file format, The MathWorks, "MAT-File Level 5 File Format": elements of a tag (type and length) and data, padded
-// to eight bytes; an array is an element that contains elements: flags, dimensions, name, then numbers or fields. Read
-// from front to back, in one pass per variable, so that sizes that a file only claims allocate nothing.
+// MAT-file format, The MathWorks, "MAT-File Level 5 File Format". A file is a sequence of elements: a tag (type and
+// length) and data, padded to eight bytes. An array is an element that contains elements: flags, dimensions, name, then
+// numbers or fields. Each variable is read in one pass from front to back, so that false sizes allocate nothing.
 
 #include "matfile/level5.hpp"
 

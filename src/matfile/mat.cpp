@@ -19,7 +19,7 @@ using matfile::Name;
 using matfile::Path;
 using matfile::Table;
 
-// Bounds on unpacked size. zlib packs zeros 1000 to one; recordings, hardly more than ten.
+// Bounds on the unpacked size. zlib packs zeros 1000 to 1, recordings rarely more than 10 to 1.
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 30, kAlwaysUnpacked = std::size_t{1} << 26;
 constexpr std::size_t kExpansion = 64;
 

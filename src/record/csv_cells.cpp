@@ -136,7 +136,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// Returns a name in lower case and its suffix in round brackets, or after an underscore.
+// Splits a name, in lower case, into the word and the unit in round brackets or after an underscore.
 std::pair<std::string, std::string> taken_apart(std::string_view name) {
   const std::string text = lower(trimmed(name));
   const std::size_t bracket = text.find('('), line = text.find('_');
@@ -238,7 +238,7 @@ class LineError {
   double sum_ = 0, square_ = 0, error_ = 0, rows_ = 0;
 };
 
-// Returns whether most samples of a channel equal the previous one, as of an input that is set now and then. Linear
+// Returns whether most samples of a channel equal the previous one, as in an input that is set now and then. Linear
 // interpolation would give its jumps intermediate values.
 bool moves_in_steps(std::span<const double> samples) {
   std::size_t still = 0;
@@ -249,7 +249,7 @@ bool moves_in_steps(std::span<const double> samples) {
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
-  constexpr double kGap = 1.5, kUsual = 0.5;  // in steps
+  constexpr double kGap = 1.5, kUsual = 0.5;  // relative to the step
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {
     steps.push_back(times[t] - times[t - 1]);

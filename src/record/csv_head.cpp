@@ -84,7 +84,7 @@ std::vector<std::string> units_in(std::string_view line, char separator) {
   return units;
 }
 
-// Returns the separator that a line states for Excel, as `sep=;`; 0 for another line.
+// Returns the separator that a line such as `sep=;` states for Excel; NUL for any other line.
 char told_separator(std::string_view line) {
   const std::string_view said = cell_of(line).text;
   const bool told = said.size() == 5 && (said.substr(0, 4) == "sep=" || said.substr(0, 4) == "SEP=");
@@ -158,7 +158,7 @@ std::string as_named(const std::string& name) {
   return text + "\"";
 }
 
-// Returns whether a mean time step between whole numbers is typical of milliseconds, and not of seconds.
+// Returns whether a step between whole numbers is typical of milliseconds. Multiples of 15 are typical of seconds.
 bool counts_milliseconds(double step) { return step >= 2 && step <= 1000 && std::fmod(step, 15) != 0; }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -161,7 +161,7 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
 
 const Recording& CsvReader::header() const { return state_->header; }
 
-// Checks a cell of the time column that gives the rate.
+// Checks the current row's time step; if uneven_time, stores the time instead.
 Result<void> CsvReader::State::check_time(std::optional<double> now, std::string_view text) {
   const auto before = std::exchange(time->before, now);
   if (uneven_time && now) {
@@ -302,7 +302,7 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
   return {};
 }
 
-// 1,234 may mean a thousand or a number with decimals: a table uses one convention.
+// Returns an error if a table has both decimal commas and decimal points. 1,234 may mean 1234 or 1.234.
 Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
   const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
   commas |= comma;
