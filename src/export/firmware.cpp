@@ -1,8 +1,8 @@
-// Fixed point. P is a power of two above the output's range. The state is in units of P · 2^-29, coefficients in 2^-28
-// and sums in P · 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks are drawn by inversion from 17
-// quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986, section II.2), interpolated linearly and,
-// towards the first and the last, by a fourth power; bits by G. Marsaglia's xorshift32 (Journal of Statistical Software
-// 8, 2003).
+// Fixed point. P is the smallest power of two that the output's distance from its mean does not exceed. The state is in
+// units of P · 2^-29, coefficients in 2^-28 and sums in P · 2^-25, so that a product is the upper half of 32 by 32
+// bits. Shocks are drawn by inversion from 17 quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986,
+// section II.2), interpolated linearly, and by a fourth power towards the first and the last. Random bits are those of
+// G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
 
 #include <algorithm>
 #include <array>

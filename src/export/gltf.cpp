@@ -203,7 +203,8 @@ std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> 
   return q;
 }
 
-// Computes the keys of a body. If its period ends before the take does, a key just before has the period's end state.
+// Computes the keys of a body. If its period ends before the take does, an additional key just before that frame holds
+// the state at the period's end, so that the body does not slide back to its start.
 Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   constexpr double kJustBefore = 0.01;  // in steps
   assert(take.frames > 0);
@@ -244,7 +245,7 @@ double weight_of(const Mesh& mesh, std::size_t target, double value) {
   return range > 0 ? std::clamp((value - mesh.lowest[target]) / range, 0.0, 1.0) : 0;
 }
 
-// Sets the ranges of outputs in the front view, then in the side view, where a body's range is symmetric.
+// Sets the ranges of outputs in the front view, then in the side view, where x ranges are symmetric about 0.
 void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   const auto middle = operating_point(model);
   for (std::size_t k = 0; k < sides * model.outputs.size(); ++k) {
@@ -259,8 +260,8 @@ void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   }
 }
 
-// A flame is several nested bodies, each of which adds some light, so that it is bright where it is thick and has no
-// edge, in any drawing order; flame.png has a column for each.
+// Sizes of the nested shells of a flame. Each shell adds some light, so that the flame is bright where it is thick and
+// has no edge, in any drawing order. flame.png has a column per shell.
 constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
 // A row of vertices made from a ring. Some rows form a drop around the wick below the base, and one closes the tip.
@@ -296,9 +297,9 @@ std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   return ring_places(all, kSegments);
 }
 
-// Texture coordinates: a column per shell, and the height of a vertex row above the base in the outline at rest.
 constexpr double kFlameDrop = 0.12;  // lower edge of the picture, as a share of the distance from base to tip
 
+// Texture coordinates: a column per shell, and the height of a vertex row above the base in the outline at rest.
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
   const double base = rest[1], tip = std::max(rest[(kRings - 1) * kRingNumbers + 1] - base, 1e-6);
   std::vector<float> coordinates;

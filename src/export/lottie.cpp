@@ -136,7 +136,7 @@ void write_gradient(const Part& part, JsonText& json) {
   json.end().end();
 }
 
-// Colours of the flipbook's flame, from below its base to its tip and from its centre outwards: tools/flame_picture.py.
+// Colours of the flipbook's flame from below its base to its tip, as tools/flame_picture.py prints them.
 const std::vector<Stop> kBody = {
     {0, 0.248, 0.416, 1, 0.371},     {0.107, 0.248, 0.416, 1, 0.371}, {0.179, 0.547, 0.445, 1, 0.35},
     {0.25, 1, 0.463, 0.353, 0.677},  {0.33, 1, 0.577, 0.154, 0.927},  {0.464, 1, 0.852, 0.52, 0.978},

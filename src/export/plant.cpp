@@ -23,7 +23,8 @@ std::size_t largest_lag(const ArxOrders& orders, int i) {
   return static_cast<std::size_t>(most);
 }
 
-// Weights of lags 0, 1, 2, … (at least `size`) of an output, or an input, in an output's row of A(q) y = B(q) u.
+// Return the coefficients at lags 0, 1, 2, … (at least `size` of them) of output j or input k in row i of
+// A(q) y = B(q) u.
 std::vector<double> lags_of_output(const ArxModel& arx, int i, int j, std::size_t size) {
   std::vector<double> lags{i == j ? 1.0 : 0.0};
   lags.insert(lags.end(), arx.a(i, j).begin(), arx.a(i, j).end());
@@ -106,7 +107,7 @@ std::string names_of(const Channels& channels) {
   return exporting::comment_text(text);
 }
 
-// Template words that are common to all languages.
+// Values of the placeholders that the templates of all languages have.
 Words common_words(const Model& model, const ArxModel& arx) {
   const Usable& use = model.training.usable;
   return {{"MODEL", exporting::comment_text(model.name)},

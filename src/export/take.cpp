@@ -132,7 +132,8 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
-// The components of an outline's shape as a separate model: their dynamics are linear, the shape's clamps are not.
+// Returns a model whose outputs are the components of an outline's shape: their dynamics are linear, whereas control
+// points are clamped.
 Model model_of_components(const Model& model, const ShapeComponents& shape) {
   Model out = model;
   out.view = PlainView{};

@@ -52,7 +52,7 @@ Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
   return 1.10F * lip * turned * sided * (wax * way);
 }
 
-// The pool under the flame, and the ridge of wax around it.
+// Light from the candle's top: the pool under the flame, and the ridge of wax around it.
 Light top_light(const Spot& spot, const Light& wax, float lean) {
   const float near_wick = std::exp(-spot.round / 0.22F);
   const float ridge = smooth_step(0.60F, 0.74F, spot.round);
@@ -68,13 +68,13 @@ Light top_light(const Spot& spot, const Light& wax, float lean) {
   return sided * (base + (1 - ridge) * streak * Light{0.55F, 0.42F, 0.22F});
 }
 
-// The room: a weak, cool light from the upper left.
+// Light of the room on the wax: weak, cool, from the upper left.
 Light room_light(const Spot& spot, const Light& wax, float ambient, bool top) {
   const float lit = top ? 0.8F : 0.34F + 0.50F * spot.facing - 0.20F * spot.across;
   return ambient * lit * (wax * Light{0.58F, 0.76F, 1.25F});
 }
 
-// Light of a neighbour's flame from one side; it wraps around, since wax is translucent.
+// Light of a neighbour's flame on the wax, from one side; it wraps around, since wax is translucent.
 Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, const Body& body) {
   const float dx = (lamp.place.x - body.middle) / body.unit;
   const float dy = (body.top - lamp.place.y) / body.unit + spot.depth;

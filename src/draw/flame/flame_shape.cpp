@@ -144,8 +144,8 @@ Plane rasterised(std::span<const Point> pixels, float left, float top, float cel
 }
 
 // Solves ∇²φ = −1 with φ = 0 outside by red-black successive over-relaxation (Press et al., Numerical Recipes, section
-// 20.5), in squared cells. A cell that is covered in part holds its share, so that φ moves with the edge and does not
-// jump from cell to cell. The number of sweeps is fixed: enough for a body 40 cells wide.
+// 20.5), in squared cells. The value of a partly covered cell is scaled by its covered share, so that φ moves with the
+// edge and does not jump from cell to cell. The number of sweeps is fixed: enough for a body 40 cells wide.
 Plane solve_thickness(const Plane& inside) {
   constexpr float kRelaxation = 1.78F;
   constexpr int kSweeps = 44;

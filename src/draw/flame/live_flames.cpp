@@ -127,7 +127,7 @@ struct LiveFlames::State {
   std::vector<PixelBox> lit;
 };
 
-// Adds a part of the picture's luminance to the grid.
+// Transfers the luminance in a part of the picture to the grid.
 void LiveFlames::State::gather(Plane& luminance, PixelBox box) const {
   const PixelBox part = on_grid(box, width(), height());
   Plane soft = luminance_in(own, part);
@@ -190,7 +190,7 @@ void LiveFlames::State::draw_room(std::span<const Candle> candles) {
   }
 }
 
-// Computes screen codes of room and glow without objects before them.
+// Computes screen codes of room and glow where no candle or smoke is in front of them.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {

@@ -176,12 +176,12 @@ void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn)
   if (!(middle.depth > kNear)) return;
   const float scale = view.scale_at(middle.depth) / kShadowCell;
   const float flat = std::max(0.05F, std::abs(unit(spot - view.eye()).z));
-  // Half axes of the leaf projected from the lamp onto the floor, in grid cells.
+  // Half axes of the leaf projected from the lamp onto the floor, in metres.
   const Vec3 a = on_floor(leaf.size * half_length * turn({1, 0, 0}));
   const Vec3 b = on_floor(leaf.size * half_width * turn({0, 1, 0}));
   const float soft = 0.5F * kLampRadius * height / lamp.z;
 
-  // The variance along an axis is a quarter of its square; the rows of the picture foreshorten the floor.
+  // Covariance in cells: a quarter of the half axes' squares; the rows of the picture foreshorten the floor.
   const float xx = scale * scale * ((a.x * a.x + b.x * b.x) / 4 + soft * soft) + 0.4F;
   const float yy = scale * scale * flat * flat * ((a.y * a.y + b.y * b.y) / 4 + soft * soft) + 0.4F;
   const float xy = -scale * scale * flat * (a.x * a.y + b.x * b.y) / 4;
