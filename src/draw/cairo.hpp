@@ -29,6 +29,9 @@ CairoContext context_of(Image& image);
 
 void set_colour(cairo_t* context, Colour colour);
 
+/// Appends bytes that Cairo writes to the std::string at `text`.
+cairo_status_t append_bytes(void* text, const unsigned char* data, unsigned length);
+
 struct Font {
   double size = 10;  ///< line height without spacing
   bool bold = false;

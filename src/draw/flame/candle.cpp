@@ -2,7 +2,6 @@
 #include <cmath>
 #include <vector>
 
-#include "draw/cairo.hpp"
 #include "draw/flame/flame_layers.hpp"
 #include "draw/tone.hpp"
 
@@ -229,43 +228,6 @@ void draw_wax(Image& image, const Body& body, const Shader& shader) {
   }
 }
 
-// Share of each pixel inside a polygon, over a box of the picture.
-Plane filled(std::span<const Point> polygon, PixelBox box) {
-  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, box.width, box.height));
-  {
-    const CairoContext context(cairo_create(surface.get()));
-    cairo_translate(context.get(), -box.x, -box.y);
-    for (const Point p : polygon) cairo_line_to(context.get(), p.x, p.y);
-    cairo_fill(context.get());
-  }
-  cairo_surface_flush(surface.get());
-  const unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  Plane plane(box.width, box.height);
-  for (int y = 0; y < box.height; ++y) {
-    for (int x = 0; x < box.width; ++x) {
-      plane.row(y)[x] = static_cast<float>(data[static_cast<std::ptrdiff_t>(y) * stride + x]) / 255;
-    }
-  }
-  return plane;
-}
-
-PixelBox box_of(std::span<const Point> points, int width, int height) {
-  float left = points[0].x, right = left, top = points[0].y, bottom = top;
-  for (const Point p : points) {
-    left = std::min(left, p.x);
-    right = std::max(right, p.x);
-    top = std::min(top, p.y);
-    bottom = std::max(bottom, p.y);
-  }
-  const int x0 = std::max(0, static_cast<int>(std::floor(left)));
-  const int y0 = std::max(0, static_cast<int>(std::floor(top)));
-  const int x1 = std::min(width, static_cast<int>(std::ceil(right)));
-  const int y1 = std::min(height, static_cast<int>(std::ceil(bottom)));
-  if (x0 >= x1 || y0 >= y1) return {};
-  return {x0, y0, x1 - x0, y1 - y0};
-}
-
 void draw_wick(Image& image, const Wick& wick, const Lamp& own, float ambient) {
   const float length = std::max(1.0F, wick.root.y - wick.end.y);
   for (int row = 0; row < wick.box.height; ++row) {
@@ -309,8 +271,10 @@ Wick make_wick(const FlameScene& scene, int width, int height) {
     wick.end = p;
   }
   left.insert(left.end(), right.rbegin(), right.rend());
-  wick.box = box_of(left, width, height);
-  if (!wick.empty()) wick.coverage = filled(left, wick.box);
+  wick.box = visible_box(bounds_of(left), 0, width, height);
+  if (wick.empty()) return wick;
+  for (Point& p : left) p = {p.x - static_cast<float>(wick.box.x), p.y - static_cast<float>(wick.box.y)};
+  wick.coverage = coverage_of(left, wick.box.width, wick.box.height, false);
   return wick;
 }
 

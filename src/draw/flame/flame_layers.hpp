@@ -51,6 +51,22 @@ struct Plane {
   std::vector<float> values;
 };
 
+/// Returns the share of each cell of a grid inside a polygon whose coordinates are cells; `fine`: best antialiasing.
+Plane coverage_of(std::span<const Point> polygon, int columns, int rows, bool fine);
+
+/// Bounding box of points, pixels.
+struct Bounds {
+  float left = 0, top = 0, right = 0, bottom = 0;
+  float width() const { return right - left; }
+  float height() const { return bottom - top; }
+};
+
+/// Precondition: at least one point.
+Bounds bounds_of(std::span<const Point> points);
+
+/// Returns the pixels of a picture that bounds touch, and `margin` more on each side; zero width: none.
+PixelBox visible_box(const Bounds& bounds, int margin, int width, int height);
+
 /// Emitted light per pixel of a picture.
 struct LightField {
   LightField(int width, int height) : red(width, height), green(width, height), blue(width, height) {}

@@ -109,7 +109,6 @@ struct LiveFlames::State {
   void gather(Plane& luminance, PixelBox lit) const;
   void draw_room(std::span<const Candle> candles);
   void make_codes();
-  void show(Image& image);
   void show_row(Image& image, int y);
   void mark_bright(int y);
 
@@ -241,10 +240,6 @@ void LiveFlames::State::show_row(Image& image, int y) {
   }
 }
 
-void LiveFlames::State::show(Image& image) {
-  for (int y = 0; y < height(); ++y) show_row(image, y);
-}
-
 LiveFlames::LiveFlames(int width, int height, const FlameStyle& style)
     : state_(std::make_unique<State>(width, height, style)) {
   assert(width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide);
@@ -270,7 +265,7 @@ void LiveFlames::draw(Image& image, std::span<const Flame> flames) {
   if (state.lit.empty()) return;
   state.add_glow(candles);
   state.make_codes();
-  state.show(image);
+  for (int y = 0; y < state.height(); ++y) state.show_row(image, y);
 }
 
 }  // namespace wisp

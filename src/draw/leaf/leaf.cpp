@@ -193,13 +193,13 @@ void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn)
   if (dark < kFaintest) return;
   const float mx = middle.x / kShadowCell - 0.5F, my = middle.y / kShadowCell - 0.5F;
   const float reach = 2.4F;
-  const auto held = [](float at, int most) {
+  const auto cell = [](float at, int most) {
     return static_cast<int>(std::clamp(at, -1.0F, static_cast<float>(most)));
   };
-  const int left = std::max(0, held(mx - reach * std::sqrt(xx), shadows.width));
-  const int right = std::min(shadows.width - 1, held(mx + reach * std::sqrt(xx) + 1, shadows.width));
-  const int top = std::max(0, held(my - reach * std::sqrt(yy), shadows.height));
-  const int bottom = std::min(shadows.height - 1, held(my + reach * std::sqrt(yy) + 1, shadows.height));
+  const int left = std::max(0, cell(mx - reach * std::sqrt(xx), shadows.width));
+  const int right = std::min(shadows.width - 1, cell(mx + reach * std::sqrt(xx) + 1, shadows.width));
+  const int top = std::max(0, cell(my - reach * std::sqrt(yy), shadows.height));
+  const int bottom = std::min(shadows.height - 1, cell(my + reach * std::sqrt(yy) + 1, shadows.height));
   for (int y = top; y <= bottom; ++y) {
     float* row = shadows.row(y);
     const float dy = static_cast<float>(y) - my;
