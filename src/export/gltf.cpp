@@ -209,13 +209,14 @@ Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   constexpr double kJustBefore = 0.01;  // in steps
   assert(take.frames > 0);
   const Start start = start_of(take, instance);
+  const std::array<double, 3> travel = take.travel.empty() ? std::array<double, 3>{} : take.travel[instance];
   std::vector<float> places, turns, times;
   const auto add = [&](double key, std::size_t frame, bool round) {
     const auto row = take.at(frame % take.frames, instance);
     times.push_back(static_cast<float>(key / take.rate_hz));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double place = row[axis] + (axis < 2 ? start.place[axis] : 0);
-      places.push_back(static_cast<float>(place + (round ? take.travel[instance][axis] : 0)));
+      places.push_back(static_cast<float>(place + (round ? travel[axis] : 0)));
     }
     if (take.outputs < 7) return;
     const auto q = turn_of(row, turns);
