@@ -193,7 +193,7 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
   const std::string why = reason();
   const bool closed = std::fclose(file.release()) == 0;
   if (!written || !flushed || !closed) return file_error(path, "cannot be written whole: " + why);
-  return pending->commit();
+  return pending->commit(bytes.empty());
 }
 
 Result<void> write_file(const fs::path& path, std::string_view text) {
@@ -252,8 +252,10 @@ Result<PendingFile> PendingFile::create(const fs::path& given) {
   return pending;
 }
 
-Result<void> PendingFile::commit() {
+Result<void> PendingFile::commit(bool may_be_empty) {
   std::error_code code;
+  if (!may_be_empty && fs::is_empty(pending_, code))
+    return file_error(final_, "cannot be put in place: the new file is empty");
   const fs::file_status old = fs::status(final_, code);
   if (fs::is_regular_file(old)) fs::permissions(pending_, old.permissions(), code);
   // Without this a power failure could leave an empty file under the final name.
