@@ -54,8 +54,7 @@ void for_each_cell(std::string_view line, char separator, Visit visit) {
     visit(cell_of(line.substr(0, end)));
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
-    if (separator != kBlanks) continue;
-    line = trimmed(line);
+    if (separator == kBlanks) line = trimmed(line);
   }
 }
 

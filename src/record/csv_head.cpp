@@ -53,8 +53,6 @@ char separator_of(const std::vector<std::string>& lines) {
   return shape_of(row, ';').numbers && has_comma({row, false}) ? ';' : ',';
 }
 
-bool has_number(std::string_view line, char separator) { return shape_of(line, separator).any_number; }
-
 bool is_row(std::string_view line, char separator) {
   const Shape shape = shape_of(line, separator);
   return shape.numbers && shape.any_number;
@@ -68,7 +66,7 @@ bool is_row_of_units(std::string_view line, std::string_view next, char separato
     number |= !one && number_of(cell, separator).has_value();
     text |= !one && !is_missing(cell) && !number_of(cell, separator);
   });
-  return text && !number && has_number(next, separator);
+  return text && !number && shape_of(next, separator).any_number;
 }
 
 // Returns the units in such a line, without brackets; "-" becomes "1".

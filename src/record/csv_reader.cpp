@@ -47,8 +47,10 @@ bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" ||
 
 std::string shown(std::string_view text) {
   constexpr std::size_t kMax = 40;
+  std::size_t end = std::min(text.size(), kMax);
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // to the end of a UTF-8 character
   std::string out;
-  for (char c : text.substr(0, kMax)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  for (char c : text.substr(0, end)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return "\"" + out + (text.size() > kMax ? "…\"" : "\"");
 }
 
@@ -287,15 +289,11 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
   }
   auto& samples = recording.channels[column.index].samples;
   const auto value = csv::number_of(cell, separator);
-  if (!value && csv::is_missing(cell)) {
+  if (value ? std::isnan(*value) : csv::is_missing(cell)) {
     samples.push_back(kMissing);
     return {};
   }
   if (!value) return found("a number without separators of thousands, or nothing for a missing sample");
-  if (std::isnan(*value)) {
-    samples.push_back(kMissing);
-    return {};
-  }
   if (!std::isfinite(*value)) return found("a finite number; leave the cell empty where a sample is missing");
   if (auto ok = check_mark(cell, place); !ok) return ok;
   samples.push_back(*value);

@@ -12,7 +12,7 @@
 
 namespace wisp::csv {
 
-/// Returns text in quotes for a message, shortened to 40 bytes, with control characters as question marks.
+/// Returns text in quotes for a message, shortened to 40 bytes at most, with control characters as question marks.
 std::string shown(std::string_view text);
 
 class Lines {
