@@ -24,7 +24,7 @@ namespace {
 constexpr int kWeightBits = 28, kSumBits = 25, kOneBits = 12;
 constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
 constexpr double kMaxWeight = 8, kMaxSum = 24;
-// Quantiles of the normal distribution; the two ends are chosen for a kurtosis of 3.
+// Quantiles of the normal distribution, but for the first and the last: with these, shocks have a kurtosis of 3.
 constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503, -0.8871, -0.6745, -0.4888,
                                                       -0.3186, -0.1573, 0,       0.1573,  0.3186,  0.4888,
                                                       0.6745,  0.8871,  1.1503,  1.5341,  3.2};

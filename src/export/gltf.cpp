@@ -62,7 +62,7 @@ class Buffer {
     return close(std::move(accessor));
   }
 
-  /// Adds a file of another format: a picture. Precondition: it comes after all numbers.
+  /// Adds a picture file. Precondition: all numbers have been added.
   void add_picture(std::span<const std::byte> picture) {
     Accessor accessor{.offset = bytes_.size(), .bytes = picture.size()};
     bytes_.insert(bytes_.end(), picture.begin(), picture.end());
@@ -423,7 +423,7 @@ void write_mesh(const Mesh& mesh, JsonText& json) {
     json.end().value(true, "doubleSided").end().end();
     return;
   }
-  // A flame emits its picture's light; the picture's opacity is the base colour's, which is black.
+  // The flame emits the picture's light. The base colour is black and has the picture's opacity.
   json.object("baseColorTexture").value(0, "index").end().end();
   json.value("BLEND", "alphaMode").object("emissiveTexture").value(0, "index").end();
   json.values(std::array{1, 1, 1}, "emissiveFactor").object("extensions").object("KHR_materials_emissive_strength");

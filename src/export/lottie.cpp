@@ -143,8 +143,8 @@ const std::vector<Stop> kBody = {
     {0.643, 1, 0.875, 0.585, 0.978}, {0.821, 1, 0.839, 0.481, 0.978}, {1, 1, 0.607, 0.163, 0.939}};
 constexpr std::array kCores{std::array{44.0, 70.0}, std::array{62.0, 80.0}, std::array{80.0, 90.0}};  // scales, percent
 
-// Returns the parts, topmost first: copies of the outline as a bright core, several so that it has no edge; the body,
-// blue and translucent at the base, orange at the tip.
+// Returns the parts, topmost first: nested copies of the outline, which together are a bright core without an edge,
+// then the body, blue and translucent at the base, orange at the tip.
 std::vector<Part> parts_of(const Take& take, const Frame& frame) {
   double x = 0, y = 0, height = 0;  // mean base and mean height of the tip
   const double share = 1 / static_cast<double>(take.frames);

@@ -53,7 +53,7 @@ class ByteSource {
  public:
   explicit ByteSource(std::span<const std::byte> stored) : stored_(stored) {}
 
-  /// Unpacks `packed`. It yields no bytes if that is no zlib stream.
+  /// Returns a source of the unpacked bytes; read() fails if `packed` is no zlib stream.
   static ByteSource unpacking(std::span<const std::byte> packed) {
     ByteSource source(packed);
     source.packed_.reset(new z_stream{});

@@ -28,11 +28,11 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Returns the length of a cell that begins with a quote, up to the closing one and the blanks after it; 0 if it is not
-/// closed or other text follows.
+/// Returns the length of a quoted cell at the begin of a line, with the blanks after the closing quote; 0 if the quote
+/// is not closed or other text follows.
 std::size_t quoted_length(std::string_view line, char separator);
 
-/// Returns the cell of trimmed text.
+/// Removes quotes and blanks around a cell's text.
 Cell cell_of(std::string_view text);
 
 template <class Visit>

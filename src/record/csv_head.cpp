@@ -69,7 +69,7 @@ bool is_row_of_units(std::string_view line, std::string_view next, char separato
   return text && !number && shape_of(next, separator).any_number;
 }
 
-// Returns the units in such a line, without brackets; "-" becomes "1".
+// Returns the units in a line of units, without brackets; "-" becomes "1".
 std::vector<std::string> units_in(std::string_view line, char separator) {
   std::vector<std::string> units;
   for_each_cell(line, separator, [&](const Cell& cell) {
@@ -280,7 +280,7 @@ Result<void> CsvReader::State::add_column(const std::string& text, const CsvOpti
   return {};
 }
 
-// Errors: two columns of one name, one of which is wanted; a wanted column that is missing; no channel.
+// Errors: two columns of one name, of which one is wanted; a wanted column is missing; there is no channel.
 Result<void> CsvReader::State::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
   std::set<std::string> seen;
   std::vector<std::string> available;

@@ -1,5 +1,5 @@
 #pragma once
-// Sound level at which an acoustic input has the value 1: by it, recordings of one microphone get a common scale.
+// Sound level at which an acoustic input has the value 1. It gives recordings of one microphone a common scale.
 //
 // A wind tracker scales each recording so that its own strong wind is 1 (wisp/sound/wind_track.hpp): a phone and a
 // laptop then give similar inputs, but equal winds of two recordings get different values if the strong winds differ.

@@ -24,7 +24,7 @@ PixelBox grown(PixelBox box, int by, int width, int height) {
   return {left, top, right - left, bottom - top};
 }
 
-// Extends a box to whole cells, and by the spread of halving.
+// Extends a box to whole cells, and by the cells into which halved() spreads its light.
 PixelBox on_grid(PixelBox box, int width, int height) {
   const int left = std::max(0, box.x / kCell - 2) * kCell, top = std::max(0, box.y / kCell - 2) * kCell;
   const int right = std::min(width, (cells(box.x + box.width) + 2) * kCell);

@@ -20,7 +20,7 @@ constexpr int kAlong = 6, kAcross = 4;
 
 constexpr int kShadowCell = 4;        // pixels
 constexpr float kFaintest = 0.006F;   // weaker shadows are invisible
-constexpr float kBladeArea = 0.62F;   // area of the blade over its bounding rectangle's
+constexpr float kBladeArea = 0.62F;   // area that blocks light, as a share of length × width
 constexpr float kLampRadius = 0.10F;  // lamp radius over its distance, which determines the softness of shadows
 constexpr float kDarkest = 0.62F;     // maximum share of the floor's light removed by a shadow
 
@@ -299,7 +299,7 @@ void LeafFlock::State::draw_trail(Image& image, const FlockLeaf& leaf) const {
 }
 
 LeafCamera leaf_camera_from_side(float height) {
-  // The floor's near edge is in the lowest eighth of the picture.
+  // The floor below the target is in the lowest eighth of the picture.
   const float middle = 0.40F * height;
   return {{0, -3.2F * height, 0.86F * height}, {0, 0, middle}, height};
 }
