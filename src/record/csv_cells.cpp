@@ -246,6 +246,15 @@ bool moves_in_steps(std::span<const double> samples) {
   return 2 * still > samples.size();
 }
 
+// Returns a step rounded to the fewest digits, up to three, that change it by less than 1 %.
+double rounded_step(double step) {
+  for (int digits = 1; digits < 4; ++digits) {
+    const double near = rounded(step, digits);
+    if (std::abs(near - step) < 0.01 * step) return near;
+  }
+  return step;
+}
+
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
@@ -270,14 +279,7 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
         recording.source +
         ": time goes on by steps of no usual length; resample the table to one rate, or say --rate HZ or --dt S"};
   }
-  double step = sum / usual;
-  for (int digits = 1; digits < 4; ++digits) {
-    const double near = rounded(step, digits);
-    if (std::abs(near - step) < 0.01 * step) {
-      step = near;
-      break;
-    }
-  }
+  const double step = rounded_step(sum / usual);
   Recording out = slice(recording, 0, 0);
   out.rate_hz = 1 / step;
   const double length = std::floor((times.back() - times.front()) / step);
