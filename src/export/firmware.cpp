@@ -150,7 +150,7 @@ std::string table(const std::string& type, const std::string& name, std::size_t 
 constexpr const char* kSwitch = R"(  uint8_t k;
   word = next_random(lamp);
   for (k = 0; k < @LASTMODE@ && (uint16_t)word >= LAMP_16(&thresholds[lamp->mode][k]); ++k) continue;
-  /* The dial: not every move up is made, or not every move down. */
+  /* Below 128 breeze skips some moves to a higher mode, from 128 on some to a lower one. */
   const uint8_t chance = (uint8_t)(word >> 24) & 0x7f;
   if ((k > lamp->mode ? lamp->breeze : (uint8_t)~lamp->breeze) > chance) lamp->mode = k;
 )";

@@ -123,8 +123,8 @@ Words common_words(const Model& model, const ArxModel& arx) {
 }
 
 constexpr const char* kOctaveTransfer = R"(
-% G{k}: transfer function from input k. Gc{k}, with the dead time dead(k) in seconds, is the continuous one that has
-% these samples when its input is held from sample to sample (zero-order hold).
+% G{k}: discrete transfer function from input k. Gc{k}, followed by a dead time of dead(k) seconds, is the continuous
+% transfer function with the same samples under a zero-order hold.
 num = {@NUMERATORS@};
 den = {@DENOMINATORS@};
 lead = [@LEADS@];  % samples of dead time
@@ -146,7 +146,7 @@ for k = 1:@NU@
 end)";
 
 constexpr const char* kPythonTransfer = R"(
-# From every input: numerator and denominator in falling powers of z, and the dead time in samples.
+# Per input: numerator and denominator in falling powers of z, and the dead time in samples.
 transfer = [
 @PAIRS@]
 
@@ -190,7 +190,7 @@ std::string script_text(const Model& model, const ArxModel& arx, bool python) {
   Words words = common_words(model, arx);
   const bool single = model.outputs.size() == 1;
   const std::string many =
-      python ? "" : "G = tf(sys);  % of all pairs; continuous: d2c(sys, 'zoh'), where no pole is 0 or left of it";
+      python ? "" : "G = tf(sys);  % all pairs; continuous: d2c(sys, 'zoh'), if no pole is zero or negative real";
   words.insert(words.end(), {{"A", matrix_of(s.a, python)},
                              {"B", matrix_of(s.b, python)},
                              {"C", matrix_of(s.c, python)},
