@@ -107,7 +107,8 @@ Result<fs::path> follow_links(fs::path path) {
   return file_error(path, "cannot be written: it is a link that leads nowhere; remove it");
 }
 
-// Copies the permissions: others must not read a private file's new contents while they are written.
+// Creates the pending file with the old file's permissions, if there is an old file: others must not read a private
+// file's new contents while they are written.
 void make_alike(const fs::path& pending, const fs::path& old) {
   std::error_code code;
   const fs::file_status status = fs::status(old, code);
@@ -117,8 +118,8 @@ void make_alike(const fs::path& pending, const fs::path& old) {
   }
 }
 
-// Names of pending files for the signal handler, which can neither lock nor allocate. Files that find no free entry, or
-// whose names are longer, are left behind by an interruption.
+// Names of pending files for the signal handler, which can neither lock nor allocate. An interruption leaves a file
+// behind if no entry was free for it or its name has kMaxName characters or more.
 constexpr std::size_t kMaxListed = 32, kMaxName = 4096;
 struct Listed {
   std::atomic<int> state{0};  // 0 free, 1 being written, 2 holds a name
@@ -192,7 +193,7 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
   const std::string why = reason();
   const bool closed = std::fclose(file.release()) == 0;
   if (!written || !flushed || !closed) return file_error(path, "cannot be written whole: " + why);
-  return pending->commit();
+  return pending->commit(bytes.empty());
 }
 
 Result<void> write_file(const fs::path& path, std::string_view text) {
@@ -251,8 +252,10 @@ Result<PendingFile> PendingFile::create(const fs::path& given) {
   return pending;
 }
 
-Result<void> PendingFile::commit() {
+Result<void> PendingFile::commit(bool may_be_empty) {
   std::error_code code;
+  if (!may_be_empty && fs::is_empty(pending_, code))
+    return file_error(final_, "cannot be put in place: the new file is empty");
   const fs::file_status old = fs::status(final_, code);
   if (fs::is_regular_file(old)) fs::permissions(pending_, old.permissions(), code);
   // Without this a power failure could leave an empty file under the final name.

@@ -6,8 +6,12 @@
 #include <concepts>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace wisp {
+
+template <class T>
+concept JsonNumber = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 
 class JsonText {
  public:
@@ -22,10 +26,8 @@ class JsonText {
     return *this;
   }
 
-  template <class Number>
-  requires((std::integral<Number> ||
-            std::floating_point<Number>)&&!std::same_as<Number, bool>) JsonText& value(Number number,
-                                                                                       std::string_view key = {}) {
+  template <JsonNumber Number>
+  JsonText& value(Number number, std::string_view key = {}) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
     return put({digits, static_cast<std::size_t>(end - digits)}, key);

@@ -1,8 +1,8 @@
 #include "wisp/describe/text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 
 namespace wisp {
@@ -20,7 +20,7 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-// A percentage below this comes from a diverging simulation and is shown as "diverges".
+// Returns whether a value is a percentage so low that it comes from a diverging simulation.
 bool diverges(const ReportValue& value, const std::string& unit) {
   constexpr double kRunsAway = -1000;
   const auto* number = std::get_if<double>(static_cast<const ReportValue::Base*>(&value));
@@ -32,7 +32,7 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-// Formats a value without its unit; "diverges" for percentages of a diverging simulation.
+// Formats a value without its unit; percentages of a diverging simulation become "diverges".
 std::string shown_in_unit(const ReportValue& value, const std::string& unit) {
   if (diverges(value, unit)) return "diverges";
   const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));
@@ -42,14 +42,16 @@ std::string shown_in_unit(const ReportValue& value, const std::string& unit) {
   return out;
 }
 
-std::string shown_with_unit(const ReportValue& value, const std::string& unit) {
-  const std::string text = shown_in_unit(value, unit);
-  return text == "diverges" ? text : with_unit(text, unit);
+// Formats an entry's value with its unit and interval.
+std::string shown_whole(const ReportEntry& entry) {
+  std::string text = shown_in_unit(entry.value, entry.unit);
+  if (text != "diverges") text = with_unit(text, entry.unit);
+  if (entry.interval) text += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
+  return text;
 }
 
 std::string line_of(const ReportEntry& entry, std::size_t label_width) {
-  std::string line = "  " + padded(entry.label, label_width) + "  " + shown_with_unit(entry.value, entry.unit);
-  if (entry.interval) line += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
+  std::string line = "  " + padded(entry.label, label_width) + "  " + shown_whole(entry);
   if (!entry.meaning.empty()) line += "   " + entry.meaning;
   return line + "\n";
 }
@@ -97,9 +99,8 @@ std::string element(const char* name, std::string_view text) {
 }
 
 std::string row_of(const ReportEntry& entry) {
-  std::string value = shown_with_unit(entry.value, entry.unit);
-  if (entry.interval) value += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
-  return "<tr>" + element("th", entry.label) + element("td", value) + element("td", entry.meaning) + "</tr>\n";
+  return "<tr>" + element("th", entry.label) + element("td", shown_whole(entry)) + element("td", entry.meaning) +
+         "</tr>\n";
 }
 
 std::string html_of(const ReportTable& table) {
@@ -144,8 +145,7 @@ std::string shown(const ReportValue& value, int digits) {
     std::string operator()(double number) const {
       if (!std::isfinite(number)) return "none";
       char out[64];
-      std::snprintf(out, sizeof out, "%.*g", digits, number);
-      return out;
+      return {out, std::to_chars(out, out + sizeof out, number, std::chars_format::general, digits).ptr};
     }
     std::string operator()(const ReportList& list) const {
       std::string out;

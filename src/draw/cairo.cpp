@@ -19,6 +19,11 @@ void set_colour(cairo_t* context, Colour colour) {
   cairo_set_source_rgba(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, colour.opacity / 255.0);
 }
 
+cairo_status_t append_bytes(void* text, const unsigned char* data, unsigned length) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
 namespace {
 
 // Length of the UTF-8 sequence that begins the text, or 0 where there is none (RFC 3629).

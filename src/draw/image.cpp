@@ -24,13 +24,6 @@ std::uint32_t premultiplied(Colour colour) {
   return width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide;
 }
 
-cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
-  auto& bytes = *static_cast<std::vector<std::byte>*>(closure);
-  const auto* first = reinterpret_cast<const std::byte*>(data);
-  bytes.insert(bytes.end(), first, first + length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 }  // namespace
 
 Image::Image(int width, int height, Colour fill)
@@ -96,8 +89,8 @@ Result<void> write_png(const std::filesystem::path& path, const Image& image) {
   if (image.empty()) return Error{path.string() + ": cannot be written: the picture has no pixels"};
   Image source = image;
   const CairoSurface surface = surface_of(source);
-  std::vector<std::byte> bytes;
-  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
+  std::string bytes;
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes);
   if (status != CAIRO_STATUS_SUCCESS) {
     return Error{path.string() + ": cannot be written as PNG: " + cairo_status_to_string(status)};
   }

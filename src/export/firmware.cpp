@@ -1,8 +1,8 @@
-// Fixed point. P is a power of two above the output's range. The state is in units of P · 2^-29, coefficients in 2^-28
-// and sums in P · 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks are drawn by inversion from 17
-// quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986, section II.2), interpolated linearly and,
-// towards the first and the last, by a fourth power; bits by G. Marsaglia's xorshift32 (Journal of Statistical Software
-// 8, 2003).
+// Fixed point. P is the smallest power of two that the output's distance from its mean does not exceed. The state is in
+// units of P · 2^-29, coefficients in 2^-28 and sums in P · 2^-25, so that a product is the upper half of 32 by 32
+// bits. Shocks are drawn by inversion from 17 quantiles (L. Devroye, Non-Uniform Random Variate Generation, 1986,
+// section II.2), interpolated linearly, and by a fourth power towards the first and the last. Random bits are those of
+// G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace {
 constexpr int kWeightBits = 28, kSumBits = 25, kOneBits = 12;
 constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
 constexpr double kMaxWeight = 8, kMaxSum = 24;
-// Quantiles of the normal distribution; the two ends are chosen for a kurtosis of 3.
+// Quantiles of the normal distribution, but for the first and the last: with these, shocks have a kurtosis of 3.
 constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503, -0.8871, -0.6745, -0.4888,
                                                       -0.3186, -0.1573, 0,       0.1573,  0.3186,  0.4888,
                                                       0.6745,  0.8871,  1.1503,  1.5341,  3.2};
@@ -150,7 +150,7 @@ std::string table(const std::string& type, const std::string& name, std::size_t 
 constexpr const char* kSwitch = R"(  uint8_t k;
   word = next_random(lamp);
   for (k = 0; k < @LASTMODE@ && (uint16_t)word >= LAMP_16(&thresholds[lamp->mode][k]); ++k) continue;
-  /* The dial: not every move up is made, or not every move down. */
+  /* Below 128 breeze skips some moves to a higher mode, from 128 on some to a lower one. */
   const uint8_t chance = (uint8_t)(word >> 24) & 0x7f;
   if ((k > lamp->mode ? lamp->breeze : (uint8_t)~lamp->breeze) > chance) lamp->mode = k;
 )";

@@ -62,7 +62,7 @@ class Buffer {
     return close(std::move(accessor));
   }
 
-  /// Adds a file of another format: a picture. Precondition: it comes after all numbers.
+  /// Adds a picture file. Precondition: all numbers have been added.
   void add_picture(std::span<const std::byte> picture) {
     Accessor accessor{.offset = bytes_.size(), .bytes = picture.size()};
     bytes_.insert(bytes_.end(), picture.begin(), picture.end());
@@ -203,18 +203,20 @@ std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> 
   return q;
 }
 
-// Computes the keys of a body. If its period ends before the take does, a key just before has the period's end state.
+// Computes the keys of a body. If its period ends before the take does, an additional key just before that frame holds
+// the state at the period's end, so that the body does not slide back to its start.
 Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   constexpr double kJustBefore = 0.01;  // in steps
   assert(take.frames > 0);
   const Start start = start_of(take, instance);
+  const std::array<double, 3> travel = take.travel.empty() ? std::array<double, 3>{} : take.travel[instance];
   std::vector<float> places, turns, times;
   const auto add = [&](double key, std::size_t frame, bool round) {
     const auto row = take.at(frame % take.frames, instance);
     times.push_back(static_cast<float>(key / take.rate_hz));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double place = row[axis] + (axis < 2 ? start.place[axis] : 0);
-      places.push_back(static_cast<float>(place + (round ? take.travel[instance][axis] : 0)));
+      places.push_back(static_cast<float>(place + (round ? travel[axis] : 0)));
     }
     if (take.outputs < 7) return;
     const auto q = turn_of(row, turns);
@@ -244,7 +246,7 @@ double weight_of(const Mesh& mesh, std::size_t target, double value) {
   return range > 0 ? std::clamp((value - mesh.lowest[target]) / range, 0.0, 1.0) : 0;
 }
 
-// Sets the ranges of outputs in the front view, then in the side view, where a body's range is symmetric.
+// Sets the ranges of outputs in the front view, then in the side view, where x ranges are symmetric about 0.
 void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   const auto middle = operating_point(model);
   for (std::size_t k = 0; k < sides * model.outputs.size(); ++k) {
@@ -259,8 +261,8 @@ void set_ranges(const Model& model, std::size_t sides, Mesh& mesh) {
   }
 }
 
-// A flame is several nested bodies, each of which adds some light, so that it is bright where it is thick and has no
-// edge, in any drawing order; flame.png has a column for each.
+// Sizes of the nested shells of a flame. Each shell adds some light, so that the flame is bright where it is thick and
+// has no edge, in any drawing order. flame.png has a column per shell.
 constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 
 // A row of vertices made from a ring. Some rows form a drop around the wick below the base, and one closes the tip.
@@ -296,9 +298,9 @@ std::vector<float> mesh_vertices(const std::vector<float>& rings) {
   return ring_places(all, kSegments);
 }
 
-// Texture coordinates: a column per shell, and the height of a vertex row above the base in the outline at rest.
 constexpr double kFlameDrop = 0.12;  // lower edge of the picture, as a share of the distance from base to tip
 
+// Texture coordinates: a column per shell, and the height of a vertex row above the base in the outline at rest.
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
   const double base = rest[1], tip = std::max(rest[(kRings - 1) * kRingNumbers + 1] - base, 1e-6);
   std::vector<float> coordinates;
@@ -421,7 +423,7 @@ void write_mesh(const Mesh& mesh, JsonText& json) {
     json.end().value(true, "doubleSided").end().end();
     return;
   }
-  // A flame emits its picture's light; the picture's opacity is the base colour's, which is black.
+  // The flame emits the picture's light. The base colour is black and has the picture's opacity.
   json.object("baseColorTexture").value(0, "index").end().end();
   json.value("BLEND", "alphaMode").object("emissiveTexture").value(0, "index").end();
   json.values(std::array{1, 1, 1}, "emissiveFactor").object("extensions").object("KHR_materials_emissive_strength");

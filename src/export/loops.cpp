@@ -12,7 +12,7 @@ namespace {
 // A stable linear model driven by periodic shocks has one periodic orbit (W. J. Rugh, Linear System Theory, 2nd ed.,
 // chapter 5): one period of play, plus the free response that makes its two ends equal.
 
-// y(t) = Σ weight · y'(t − lag) for one output of one mode.
+// One term weight · y(t − lag) of the prediction of an output in a mode; `output` is the index of y.
 struct Tap {
   std::size_t output = 0;
   std::size_t lag = 1;
@@ -44,7 +44,7 @@ std::vector<Rows> taps_of(const Model& model) {
   return modes;
 }
 
-// Appends one row of the response without shocks.
+// Computes one row of the response without shocks from the rows before it.
 void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
   const std::size_t outputs = taps.size();
   for (std::size_t i = 0; i < outputs; ++i) {
@@ -148,8 +148,8 @@ struct Return {
   double cost = 0;
 };
 
-// Selects the cheapest return to the same row of a segment: rotation about the vertical, plus tilt and velocity change
-// with a weight. Visits of a row differ in these, since the joins to the neighbouring segments differ.
+// Selects the return to the same row of a segment with the lowest cost: rotation about the vertical plus weighted tilt
+// and velocity change. Visits of a row differ in these, since the joins to the neighbouring segments differ.
 std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t outputs, std::size_t frames) {
   constexpr double kSame = 0.1, kWeight = 20;
   std::optional<Return> best;

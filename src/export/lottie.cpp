@@ -136,15 +136,15 @@ void write_gradient(const Part& part, JsonText& json) {
   json.end().end();
 }
 
-// Colours of the flipbook's flame, from below its base to its tip and from its centre outwards: tools/flame_picture.py.
+// Colours of the flipbook's flame from below its base to its tip, as tools/flame_picture.py prints them.
 const std::vector<Stop> kBody = {
     {0, 0.248, 0.416, 1, 0.371},     {0.107, 0.248, 0.416, 1, 0.371}, {0.179, 0.547, 0.445, 1, 0.35},
     {0.25, 1, 0.463, 0.353, 0.677},  {0.33, 1, 0.577, 0.154, 0.927},  {0.464, 1, 0.852, 0.52, 0.978},
     {0.643, 1, 0.875, 0.585, 0.978}, {0.821, 1, 0.839, 0.481, 0.978}, {1, 1, 0.607, 0.163, 0.939}};
 constexpr std::array kCores{std::array{44.0, 70.0}, std::array{62.0, 80.0}, std::array{80.0, 90.0}};  // scales, percent
 
-// Returns the parts, topmost first: copies of the outline as a bright core, several so that it has no edge; the body,
-// blue and translucent at the base, orange at the tip.
+// Returns the parts, topmost first: nested copies of the outline, which together are a bright core without an edge,
+// then the body, blue and translucent at the base, orange at the tip.
 std::vector<Part> parts_of(const Take& take, const Frame& frame) {
   double x = 0, y = 0, height = 0;  // mean base and mean height of the tip
   const double share = 1 / static_cast<double>(take.frames);

@@ -26,8 +26,8 @@ std::vector<double> operating_point(const Model& model);
 
 inline constexpr int kRings = 12, kSegments = 12;  ///< mesh size of an exported flame
 
-/// Computes the circular rings of a body (wisp/run/body_facet.hpp) from its outline in front view and, for a model of a
-/// body, that in side view; for other models `side` is empty. The result is linear in both outlines.
+/// Computes the circular rings of a body (wisp/run/body_facet.hpp) from its outlines in front view and in side view.
+/// `side` is empty for a model without a side view. The result is linear in both outlines.
 std::vector<float> rings_of(const std::vector<double>& knots, std::span<const float> front,
                             std::span<const float> side);
 
@@ -41,8 +41,8 @@ struct Surface {
   std::vector<std::uint16_t> triangles;
 };
 
-/// Returns a leaf in a body's first two axes, folded along its midrib, the first axis, and bent along it; a small one
-/// if its size is unknown.
+/// Returns a leaf in a body's first two axes, folded and bent along its midrib, the first axis. Half sizes in metres;
+/// an unknown length (0) becomes 0.03, an unknown width the length.
 Surface leaf_blade(double half_first, double half_second);
 
 /// Errors: the number of outputs differs from the model's; no frames or instances; a wrong number of values.

@@ -23,7 +23,8 @@ std::size_t largest_lag(const ArxOrders& orders, int i) {
   return static_cast<std::size_t>(most);
 }
 
-// Weights of lags 0, 1, 2, … (at least `size`) of an output, or an input, in an output's row of A(q) y = B(q) u.
+// Return the coefficients at lags 0, 1, 2, … (at least `size` of them) of output j or input k in row i of
+// A(q) y = B(q) u.
 std::vector<double> lags_of_output(const ArxModel& arx, int i, int j, std::size_t size) {
   std::vector<double> lags{i == j ? 1.0 : 0.0};
   lags.insert(lags.end(), arx.a(i, j).begin(), arx.a(i, j).end());
@@ -106,7 +107,7 @@ std::string names_of(const Channels& channels) {
   return exporting::comment_text(text);
 }
 
-// Template words that are common to all languages.
+// Values of the placeholders that the templates of all languages have.
 Words common_words(const Model& model, const ArxModel& arx) {
   const Usable& use = model.training.usable;
   return {{"MODEL", exporting::comment_text(model.name)},
@@ -122,8 +123,8 @@ Words common_words(const Model& model, const ArxModel& arx) {
 }
 
 constexpr const char* kOctaveTransfer = R"(
-% G{k}: transfer function from input k. Gc{k}, with the dead time dead(k) in seconds, is the continuous one that has
-% these samples when its input is held from sample to sample (zero-order hold).
+% G{k}: discrete transfer function from input k. Gc{k}, followed by a dead time of dead(k) seconds, is the continuous
+% transfer function with the same samples under a zero-order hold.
 num = {@NUMERATORS@};
 den = {@DENOMINATORS@};
 lead = [@LEADS@];  % samples of dead time
@@ -145,7 +146,7 @@ for k = 1:@NU@
 end)";
 
 constexpr const char* kPythonTransfer = R"(
-# From every input: numerator and denominator in falling powers of z, and the dead time in samples.
+# Per input: numerator and denominator in falling powers of z, and the dead time in samples.
 transfer = [
 @PAIRS@]
 
@@ -189,7 +190,7 @@ std::string script_text(const Model& model, const ArxModel& arx, bool python) {
   Words words = common_words(model, arx);
   const bool single = model.outputs.size() == 1;
   const std::string many =
-      python ? "" : "G = tf(sys);  % of all pairs; continuous: d2c(sys, 'zoh'), where no pole is 0 or left of it";
+      python ? "" : "G = tf(sys);  % all pairs; continuous: d2c(sys, 'zoh'), if no pole is zero or negative real";
   words.insert(words.end(), {{"A", matrix_of(s.a, python)},
                              {"B", matrix_of(s.b, python)},
                              {"C", matrix_of(s.c, python)},

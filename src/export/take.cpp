@@ -94,7 +94,7 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
 }
 
 // Clamps like a bank, since the orbit may exceed the range of its play slightly.
-float held_to(const Output& output, double value) {
+float clamped_to(const Output& output, double value) {
   const double room = kRangeMargin * (output.highest - output.lowest);
   return static_cast<float>(std::clamp(value, output.lowest - room, output.highest + room));
 }
@@ -125,14 +125,15 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
     for (std::size_t frame = 0; frame < taken.frames; ++frame) {
       for (std::size_t i = 0; i < taken.outputs; ++i) {
         taken.values[frame * width + k * taken.outputs + i] =
-            held_to(model.outputs[i], rows[k][(lags - 1 + frame) * taken.outputs + i]);
+            clamped_to(model.outputs[i], rows[k][(lags - 1 + frame) * taken.outputs + i]);
       }
     }
   }
   return taken;
 }
 
-// The components of an outline's shape as a separate model: their dynamics are linear, the shape's clamps are not.
+// Returns a model whose outputs are the components of an outline's shape: their dynamics are linear, whereas control
+// points are clamped.
 Model model_of_components(const Model& model, const ShapeComponents& shape) {
   Model out = model;
   out.view = PlainView{};

@@ -1,6 +1,6 @@
-// MAT-file format, The MathWorks, "MAT-File Level 5 File Format": elements of a tag (type and length) and data, padded
-// to eight bytes; an array is an element that contains elements: flags, dimensions, name, then numbers or fields. Read
-// from front to back, in one pass per variable, so that sizes that a file only claims allocate nothing.
+// MAT-file format, The MathWorks, "MAT-File Level 5 File Format". A file is a sequence of elements: a tag (type and
+// length) and data, padded to eight bytes. An array is an element that contains elements: flags, dimensions, name, then
+// numbers or fields. Each variable is read in one pass from front to back, so that false sizes allocate nothing.
 
 #include "matfile/level5.hpp"
 
@@ -53,7 +53,7 @@ class ByteSource {
  public:
   explicit ByteSource(std::span<const std::byte> stored) : stored_(stored) {}
 
-  /// Unpacks `packed`. It yields no bytes if that is no zlib stream.
+  /// Returns a source of the unpacked bytes; read() fails if `packed` is no zlib stream.
   static ByteSource unpacking(std::span<const std::byte> packed) {
     ByteSource source(packed);
     source.packed_.reset(new z_stream{});

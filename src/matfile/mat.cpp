@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 
+#include "base/path_text.hpp"
 #include "matfile/level5.hpp"
 #include "record/csv_cells.hpp"
 #include "record/number_text.hpp"
@@ -19,26 +20,28 @@ using matfile::Name;
 using matfile::Path;
 using matfile::Table;
 
-// Bounds on unpacked size. zlib packs zeros 1000 to one; recordings, hardly more than ten.
-constexpr std::size_t kMostUnpacked = std::size_t{1} << 30, kAlwaysUnpacked = std::size_t{1} << 26;
+// Bounds on the unpacked size. zlib packs zeros 1000 to 1, recordings rarely more than 10 to 1.
+constexpr std::size_t kMaxUnpacked = std::size_t{1} << 30, kMinUnpacked = std::size_t{1} << 26;
 constexpr std::size_t kExpansion = 64;
 
 class File {
  public:
   static Result<File> open(const std::filesystem::path& path, std::size_t max_bytes = 0) {
-    if (!std::filesystem::is_regular_file(path)) return Error{path.string() + ": there is no such file"};
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(path, code)) return Error{path_text(path) + ": there is no such file"};
     auto bytes = read_file(path);
     if (!bytes) return bytes.error();
     if (is_level73(*bytes)) {
-      return Error{path.string() + ": this is a MATLAB file of level 7.3, which is HDF5; save it with -v7, or as CSV"};
+      return Error{path_text(path) +
+                   ": this is a MATLAB file of level 7.3, which is HDF5; save it with -v7, or as CSV"};
     }
     if (!matfile::is_level5(*bytes)) {
-      return Error{path.string() + ": this is not a MATLAB file of level 5; save it with -v7"};
+      return Error{path_text(path) + ": this is not a MATLAB file of level 5; save it with -v7"};
     }
     if (!matfile::is_whole_level5(*bytes)) {
-      return Error{path.string() + ": the file is cut short or damaged: its parts do not end where it ends"};
+      return Error{path_text(path) + ": the file is cut short or damaged: its parts do not end where it ends"};
     }
-    const std::size_t usual = std::clamp(kExpansion * bytes->size(), kAlwaysUnpacked, kMostUnpacked);
+    const std::size_t usual = std::clamp(kExpansion * bytes->size(), kMinUnpacked, kMaxUnpacked);
     return File(path, std::move(*bytes), max_bytes > 0 ? max_bytes : usual);
   }
 
@@ -148,7 +151,7 @@ class Reader {
   }
 
   Error at(const std::string& name, const std::string& what) const {
-    return Error{file_.path().string() + ", variable " + name + ": " + what};
+    return Error{path_text(file_.path()) + ", variable " + name + ": " + what};
   }
 
  private:
@@ -220,11 +223,11 @@ Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& 
   auto file = File::open(path, options.max_bytes);
   if (!file) return file.error();
   if (options.inputs.empty() && options.outputs.empty()) {
-    return Error{path.string() + ": name the variables that are inputs and outputs; the file has: " + listed(*file)};
+    return Error{path_text(path) + ": name the variables that are inputs and outputs; the file has: " + listed(*file)};
   }
   const Reader reader(*file);
   Recording recording;
-  recording.source = path.string();
+  recording.source = path_text(path);
   recording.rate_hz = options.rate_hz;
   if (recording.rate_hz == 0) {
     if (const auto seconds = reader.scalar("Ts")) recording.rate_hz = 1 / *seconds;
@@ -237,7 +240,7 @@ Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& 
   }
   if (!(recording.rate_hz > 0) || !std::isfinite(recording.rate_hz)) {
     return Error{
-        path.string() +
+        path_text(path) +
         ": no rate; give it, or store a scalar Ts (seconds) or fs (samples a second), or a vector t of seconds"};
   }
   for (const auto& [names, role] : {std::pair{&options.inputs, Role::kInput}, {&options.outputs, Role::kOutput}}) {
@@ -245,7 +248,7 @@ Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& 
       if (auto ok = add_channels(reader, name, role, recording); !ok) return ok.error();
     }
   }
-  if (auto ok = check(recording); !ok) return Error{path.string() + ": " + ok.error().message};
+  if (auto ok = check(recording); !ok) return Error{path_text(path) + ": " + ok.error().message};
   return recording;
 }
 

@@ -136,7 +136,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-// Returns a name in lower case and its suffix in round brackets, or after an underscore.
+// Splits a name, in lower case, into the word and the unit in round brackets or after an underscore.
 std::pair<std::string, std::string> taken_apart(std::string_view name) {
   const std::string text = lower(trimmed(name));
   const std::size_t bracket = text.find('('), line = text.find('_');
@@ -207,11 +207,11 @@ std::optional<double> seconds_of_date(std::string_view text) {
       count >= 3 && before[1] == before[2] && std::string_view("-/.").find(before[1]) != std::string_view::npos;
   const bool year_first = part[0] > 31;
   if (!dated || (!year_first && before[1] != '.') || (count > 3 && count < 5)) return std::nullopt;
-  const auto year = std::chrono::year(static_cast<int>(year_first ? part[0] : part[2]));
-  const auto month = std::chrono::month(static_cast<unsigned>(part[1]));
-  const auto day = std::chrono::day(static_cast<unsigned>(year_first ? part[2] : part[0]));
-  if (!(year / month / day).ok()) return std::nullopt;
-  const auto days = std::chrono::sys_days(year / month / day).time_since_epoch().count();
+  const double year = year_first ? part[0] : part[2], day = year_first ? part[2] : part[0];
+  if (year > 9999 || part[1] > 12 || day > 31) return std::nullopt;
+  const auto date = std::chrono::year(static_cast<int>(year)) / static_cast<int>(part[1]) / static_cast<int>(day);
+  if (!date.ok()) return std::nullopt;
+  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
   return 86400.0 * static_cast<double>(days) + 3600 * part[3] + 60 * part[4] + part[5] + fraction;
 }
 
@@ -238,7 +238,7 @@ class LineError {
   double sum_ = 0, square_ = 0, error_ = 0, rows_ = 0;
 };
 
-// Returns whether most samples of a channel equal the previous one, as of an input that is set now and then. Linear
+// Returns whether most samples of a channel equal the previous one, as in an input that is set now and then. Linear
 // interpolation would give its jumps intermediate values.
 bool moves_in_steps(std::span<const double> samples) {
   std::size_t still = 0;
@@ -246,10 +246,20 @@ bool moves_in_steps(std::span<const double> samples) {
   return 2 * still > samples.size();
 }
 
+// Returns a step rounded to the fewest digits, up to three, that change it by less than 1 %.
+double rounded_step(double step) {
+  for (int digits = 1; digits < 4; ++digits) {
+    const double near = rounded(step, digits);
+    if (std::abs(near - step) < 0.01 * step) return near;
+  }
+  return step;
+}
+
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
-  constexpr double kGap = 1.5, kUsual = 0.5;  // in steps
+  constexpr double kGap = 1.5, kUsual = 0.5;  // relative to the step
+  constexpr double kMaxGrowth = 1000;         // bounds memory
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {
     steps.push_back(times[t] - times[t - 1]);
@@ -269,17 +279,16 @@ Result<Recording> resampled(const Recording& recording, const std::vector<double
         recording.source +
         ": time goes on by steps of no usual length; resample the table to one rate, or say --rate HZ or --dt S"};
   }
-  double step = sum / usual;
-  for (int digits = 1; digits < 4; ++digits) {
-    const double near = rounded(step, digits);
-    if (std::abs(near - step) < 0.01 * step) {
-      step = near;
-      break;
-    }
-  }
+  const double step = rounded_step(sum / usual);
   Recording out = slice(recording, 0, 0);
   out.rate_hz = 1 / step;
-  const auto rows = static_cast<std::size_t>(std::floor((times.back() - times.front()) / step)) + 1;
+  const double length = std::floor((times.back() - times.front()) / step);
+  if (length > kMaxGrowth * static_cast<double>(times.size())) {
+    return Error{recording.source +
+                 ": time has gaps of 1000 times as many rows as there are; split the table there, or say --rate HZ or "
+                 "--dt S"};
+  }
+  const auto rows = static_cast<std::size_t>(length) + 1;
   std::vector<LineError> errors(recording.channels.size());
   std::vector<bool> in_steps;
   for (const Channel& channel : recording.channels) in_steps.push_back(moves_in_steps(channel.samples));

@@ -1,6 +1,6 @@
 #pragma once
-// Cells of tables as written by programs: separators, quotes, numbers with a point or a comma; and their time column:
-// the step between rows, and whether it is constant.
+// Cells of tables that other programs wrote: separators, quotes, numbers with a decimal point or comma. Also their time
+// column: the step between rows, and whether it is constant.
 
 #include <cstddef>
 #include <optional>
@@ -28,11 +28,11 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Returns the length of a cell that begins with a quote, up to the closing one and the blanks after it; 0 if it is not
-/// closed or other text follows.
+/// Returns the length of a quoted cell at the begin of a line, with the blanks after the closing quote; 0 if the quote
+/// is not closed or other text follows.
 std::size_t quoted_length(std::string_view line, char separator);
 
-/// Returns the cell of trimmed text.
+/// Removes quotes and blanks around a cell's text.
 Cell cell_of(std::string_view text);
 
 template <class Visit>
@@ -54,8 +54,7 @@ void for_each_cell(std::string_view line, char separator, Visit visit) {
     visit(cell_of(line.substr(0, end)));
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
-    if (separator != kBlanks) continue;
-    line = trimmed(line);
+    if (separator == kBlanks) line = trimmed(line);
   }
 }
 
@@ -66,14 +65,14 @@ std::string text_of(const Cell& cell);
 bool is_missing(const Cell& cell);
 
 /// Parses the whole of a cell as a double, with a decimal point or, if it is quoted or commas are no separators, a
-/// decimal comma; nothing if it is no number. Too small for a double is zero, too large is infinite.
+/// decimal comma; nothing if it is no number. A number too small for a double is 0, a too large one infinite.
 std::optional<double> number_of(const Cell& cell, char separator);
 
-/// A decimal number, with or without a sign, a point and an exponent, with so few digits that one exact multiplication
-/// or division gives the nearest double.
+/// A decimal number, with or without a minus, a point and an exponent, for which one multiplication or division of two
+/// exact doubles gives the nearest double.
 struct PlainNumber {
   double value = 0;
-  std::size_t length = 0;  ///< 0: no number, or too many digits
+  std::size_t length = 0;  ///< characters of the text; 0: no such number
   bool point = false;
 };
 
@@ -97,26 +96,26 @@ std::optional<double> seconds_of(std::string_view unit);
 /// 2024/01/31T13:05Z or 31.01.2024, or since midnight of a time of day alone; nothing for other text.
 std::optional<double> seconds_of_date(std::string_view text);
 
-/// Resamples rows at `times`, in seconds, to even steps: the mean of those near the median, rounded within 1 %.
-/// Interpolates linearly, or repeats the last sample of a channel that moves in steps. rate_note reports the unevenness
-/// of the clock and the interpolation error. Gaps of more than 1.5 steps are missing samples. Errors: time does not
-/// increase; most steps are far from the median.
+/// Resamples rows recorded at `times`, in seconds, to an even step: the mean of the steps near the median, rounded by
+/// at most 1 %. Interpolates linearly, or repeats the last sample of a channel that moves in steps. rate_note reports
+/// the unevenness of the clock and the interpolation error. Gaps of more than 1.5 steps are missing samples. Errors:
+/// time does not increase; most steps are far from the median.
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Step of time, in the column's unit.
 struct TimeStep {
   double step = 0;       ///< between rows
-  double tolerance = 0;  ///< largest deviation of an even step: 1 % or, up to half a step, the digits' rounding error
+  double tolerance = 0;  ///< largest deviation of an even step: 1 %, or the digits' rounding error up to half a step
 };
 
-/// Determines the time step from the first rows, up to the first uneven step: of the steps that agree with the written
-/// digits, the one with the fewest digits as a step or as rows per second. 0.033, 0.067, 0.100 give 30 rows per second.
-/// Nothing if the second time is not later. `resolution`: value of the last written digit; `seconds`: per unit of time.
+/// Determines the time step from the first rows, up to the first uneven step. Of all steps that agree with the written
+/// digits, selects the one with the fewest digits, as a step or as a rate: 0.033, 0.067, 0.100 give 30 rows per second.
+/// Nothing if the second time is not later. `resolution`: as of resolution_of(); `seconds`: seconds per unit of time.
 ///
 /// Precondition: two times or more.
 std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);
 
-/// Returns the value of the last written digit of a number; 0 if it has an exponent.
+/// Returns the place value of a number's last digit, 0.001 for 0.033; 0 if the number has an exponent.
 double resolution_of(std::string_view number);
 
 }  // namespace wisp::csv

@@ -53,8 +53,6 @@ char separator_of(const std::vector<std::string>& lines) {
   return shape_of(row, ';').numbers && has_comma({row, false}) ? ';' : ',';
 }
 
-bool has_number(std::string_view line, char separator) { return shape_of(line, separator).any_number; }
-
 bool is_row(std::string_view line, char separator) {
   const Shape shape = shape_of(line, separator);
   return shape.numbers && shape.any_number;
@@ -68,10 +66,10 @@ bool is_row_of_units(std::string_view line, std::string_view next, char separato
     number |= !one && number_of(cell, separator).has_value();
     text |= !one && !is_missing(cell) && !number_of(cell, separator);
   });
-  return text && !number && has_number(next, separator);
+  return text && !number && shape_of(next, separator).any_number;
 }
 
-// Returns the units in such a line, without brackets; "-" becomes "1".
+// Returns the units in a line of units, without brackets; "-" becomes "1".
 std::vector<std::string> units_in(std::string_view line, char separator) {
   std::vector<std::string> units;
   for_each_cell(line, separator, [&](const Cell& cell) {
@@ -84,7 +82,7 @@ std::vector<std::string> units_in(std::string_view line, char separator) {
   return units;
 }
 
-// Returns the separator that a line states for Excel, as `sep=;`; 0 for another line.
+// Returns the separator that a line such as `sep=;` states for Excel; NUL for any other line.
 char told_separator(std::string_view line) {
   const std::string_view said = cell_of(line).text;
   const bool told = said.size() == 5 && (said.substr(0, 4) == "sep=" || said.substr(0, 4) == "SEP=");
@@ -158,7 +156,7 @@ std::string as_named(const std::string& name) {
   return text + "\"";
 }
 
-// Returns whether a mean time step between whole numbers is typical of milliseconds, and not of seconds.
+// Returns whether a step between whole numbers is typical of milliseconds. Multiples of 15 are typical of seconds.
 bool counts_milliseconds(double step) { return step >= 2 && step <= 1000 && std::fmod(step, 15) != 0; }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -282,7 +280,7 @@ Result<void> CsvReader::State::add_column(const std::string& text, const CsvOpti
   return {};
 }
 
-// Errors: two columns of one name, one of which is wanted; a wanted column that is missing; no channel.
+// Errors: two columns of one name, of which one is wanted; a wanted column is missing; there is no channel.
 Result<void> CsvReader::State::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
   std::set<std::string> seen;
   std::vector<std::string> available;

@@ -47,8 +47,10 @@ bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" ||
 
 std::string shown(std::string_view text) {
   constexpr std::size_t kMax = 40;
+  std::size_t end = std::min(text.size(), kMax);
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // to the end of a UTF-8 character
   std::string out;
-  for (char c : text.substr(0, kMax)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  for (char c : text.substr(0, end)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return "\"" + out + (text.size() > kMax ? "…\"" : "\"");
 }
 
@@ -161,7 +163,7 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
 
 const Recording& CsvReader::header() const { return state_->header; }
 
-// Checks a cell of the time column that gives the rate.
+// Checks the current row's time step; if uneven_time, stores the time instead.
 Result<void> CsvReader::State::check_time(std::optional<double> now, std::string_view text) {
   const auto before = std::exchange(time->before, now);
   if (uneven_time && now) {
@@ -287,22 +289,18 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
   }
   auto& samples = recording.channels[column.index].samples;
   const auto value = csv::number_of(cell, separator);
-  if (!value && csv::is_missing(cell)) {
+  if (value ? std::isnan(*value) : csv::is_missing(cell)) {
     samples.push_back(kMissing);
     return {};
   }
   if (!value) return found("a number without separators of thousands, or nothing for a missing sample");
-  if (std::isnan(*value)) {
-    samples.push_back(kMissing);
-    return {};
-  }
   if (!std::isfinite(*value)) return found("a finite number; leave the cell empty where a sample is missing");
   if (auto ok = check_mark(cell, place); !ok) return ok;
   samples.push_back(*value);
   return {};
 }
 
-// 1,234 may mean a thousand or a number with decimals: a table uses one convention.
+// Returns an error if a table has both decimal commas and decimal points. 1,234 may mean 1234 or 1.234.
 Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
   const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
   commas |= comma;

@@ -12,7 +12,7 @@
 
 namespace wisp::csv {
 
-/// Shortens text for a message of one line.
+/// Returns text in quotes for a message, shortened to 40 bytes at most, with control characters as question marks.
 std::string shown(std::string_view text);
 
 class Lines {
@@ -54,9 +54,9 @@ class Lines {
   std::istream* stream_;
   std::string name_;
   std::string buffer_;
-  std::size_t begin_ = 0, length_ = 0;  // begin and length of the line
-  std::size_t at_ = 0;                  // begin of the next line
-  std::size_t keep_ = std::string::npos;
+  std::size_t begin_ = 0, length_ = 0;    // begin and length of the line
+  std::size_t at_ = 0;                    // begin of the next line
+  std::size_t keep_ = std::string::npos;  // begin of text that fill() must keep; npos: none
   std::size_t row_ = 0;
   bool over_ = false;  // the stream has ended
   bool plain_ = true;  // so far only text bytes, and no CR without LF
@@ -96,12 +96,12 @@ struct CsvReader::State {
   std::optional<Time> time{};
   char separator = '\0';
   bool own_form = false;
-  bool uneven_time = false, time_was_uneven = false;
-  std::vector<double> times{};
+  bool uneven_time = false, time_was_uneven = false;  // steps are not checked; a checked step was uneven
+  std::vector<double> times{};                        // seconds of all rows, if uneven_time
   bool plain_columns = false;  // channels and skipped columns only, between separators other than blanks
-  bool commas = false;         // numbers so far had decimal commas, or points
-  bool points = false;
-  bool decimals = false;       // some comma so far can only be a decimal one
+  bool commas = false;         // a number so far had a comma
+  bool points = false;         // a number so far had a point
+  bool decimals = false;       // a comma so far can only be a decimal one
   std::vector<Marks> marks{};  // one per column
   std::vector<double> row{};
 

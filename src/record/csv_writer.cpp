@@ -81,7 +81,7 @@ void append_row(std::string& text, const Recording& recording, std::size_t row) 
   text += '\n';
 }
 
-// Errors: a name or value that cannot be represented in the form.
+// Returns an error if the text contains one of the forbidden characters.
 Result<void> check_text(const std::string& text, std::string_view forbidden, const std::string& what) {
   const std::size_t bad = text.find_first_of(forbidden);
   if (bad == std::string::npos) return {};

@@ -1,8 +1,8 @@
 #pragma once
-// Sound level at which an acoustic input has the value 1: by it, recordings of one microphone get a common scale.
+// Sound level at which an acoustic input has the value 1. It gives recordings of one microphone a common scale.
 //
-// A tracker's 1 is the strong wind of its own recording (wisp/sound/wind_track.hpp), so that a phone and a laptop give
-// similar inputs. In recordings of one microphone, equal winds then have different values if the strong winds differ.
+// A wind tracker scales each recording so that its own strong wind is 1 (wisp/sound/wind_track.hpp): a phone and a
+// laptop then give similar inputs, but equal winds of two recordings get different values if the strong winds differ.
 
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ Result<std::optional<double>> one_rms(const Recording& recording, const std::str
 /// Precondition: rms > 0.
 void set_one_rms(Recording& recording, const std::string& input, double rms);
 
-/// Returns the factor after which an input is 1 at sound level `rms`; 1 if the recording does not state its level.
+/// Returns the factor that rescales an input to 1 at sound level `rms`; 1 if the recording does not state its level.
 /// Errors: those of one_rms().
 ///
 /// Precondition: rms > 0.

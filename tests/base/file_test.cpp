@@ -1,5 +1,6 @@
 #include "wisp/base/file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #ifndef _WIN32
 #include <sys/stat.h>
@@ -65,6 +66,21 @@ TEST_F(FileTest, APendingFileThatIsNotCommittedLeavesTheOldOneAndNothingElse) {
   }
   EXPECT_EQ(files(), 1u);
   EXPECT_EQ(text_of(*read_file(folder_ / "a.txt")), "old");
+}
+
+TEST_F(FileTest, CommittingAFileToWhichNothingWasWrittenKeepsTheOldOne) {
+  ASSERT_TRUE(write_file(folder_ / "a.txt", "old"));
+  {
+    auto pending = PendingFile::create(folder_ / "a.txt");
+    ASSERT_TRUE(pending);
+    const auto outcome = pending->commit();
+    ASSERT_FALSE(outcome);
+    EXPECT_THAT(outcome.error().message, testing::HasSubstr("the new file is empty"));
+  }
+  EXPECT_EQ(text_of(*read_file(folder_ / "a.txt")), "old");
+  EXPECT_TRUE(write_file(folder_ / "a.txt", ""));
+  EXPECT_EQ(text_of(*read_file(folder_ / "a.txt")), "");
+  EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(FileTest, WritingIntoAMissingFolderSaysSo) {

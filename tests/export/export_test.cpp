@@ -113,6 +113,28 @@ TEST(Gltf, ALoopEndsWithItsFirstFrameAgain) {
   EXPECT_NEAR(std::abs(along), 1, 1e-6);
 }
 
+TEST(Gltf, ALoopOfABodyThatIsNoChainEndsWhereItBegins) {
+  Model model = leaf();
+  ArxModel arx;
+  arx.orders = {OrderMatrix(7, 7), OrderMatrix(7, 0), OrderMatrix(7, 0)};
+  for (int k = 0; k < 7; ++k) arx.orders.na(k, k) = 1;
+  arx.theta.assign(7, {-0.5});
+  arx.constant.assign(7, 0.0);
+  arx.output_mean = {0, 0, 0, 1, 0, 0, 0};
+  arx.noise.sd.assign(7, 0.01);
+  model.dynamics = arx;
+  model.inputs.clear();
+  model.training = {};
+  for (Output& output : model.outputs) output.lowest = -2, output.highest = 2;
+  const auto taken = take(model, {.seconds = 2, .loop = true});
+  ASSERT_TRUE(taken) << taken.error().message;
+  const auto bytes = gltf_bytes(model, *taken);
+  ASSERT_TRUE(bytes);
+  const auto places = keys(opened(*bytes), 0);
+  ASSERT_EQ(places.size(), (taken->frames + 1) * 3);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(places[places.size() - 3 + k], places[k]);
+}
+
 // "Twenty leaves that fall for ever": they begin apart, and the last frame is the first one.
 TEST(Gltf, LeavesOfALoopBeginApartAndTheSceneReturns) {
   const Model model = leaf();

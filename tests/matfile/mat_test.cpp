@@ -326,6 +326,7 @@ TEST(Mat, RefusesWhatIsNotAMatlabFile) {
   EXPECT_FALSE(list_mat(path));
   std::filesystem::remove(path);
   EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"y"}}), HasSubstr("no such file"));
+  EXPECT_THAT(error_of(std::string(5000, 'x'), {.rate_hz = 1, .outputs = {"y"}}), HasSubstr("no such file"));
 }
 
 }  // namespace

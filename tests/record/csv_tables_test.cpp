@@ -162,6 +162,28 @@ TEST(CsvTable, AllColumnsWriteNumbersInOneWayAlsoThoseThatAreNotUsed) {
   EXPECT_EQ(complaint("when;u;y\n1.12.2026;1;0,5\n2.12.2026;1;0,7\n"), "no complaint");  // a date is no number
 }
 
+TEST(CsvTable, ALongCellIsCutBetweenCharacters) {
+  const std::string cell(39, 'x');
+  EXPECT_THAT(complaint("u,y\n1,2\n" + cell + "é and more,4\n"), HasSubstr("found \"" + cell + "…\""));
+}
+
+TEST(CsvTable, ADateBeyondTheCalendarIsNoTime) {
+  const CsvOptions two{.inputs = {"u"}, .outputs = {"y"}};
+  EXPECT_EQ(complaint("date,u,y\n2024-01-01,1,2\n2024-01-02,2,3\n", two), "no complaint");
+  for (const char* date : {"2024-257", "2024-13", "67890-01", "12345678901-01"}) {
+    const std::string day(date);
+    EXPECT_THAT(complaint("date,u,y\n" + day + "-01,1,2\n" + day + "-02,2,3\n", two),
+                HasSubstr("\"date\" is no number of seconds"));
+  }
+  EXPECT_THAT(complaint("date,u,y\n2024-01-257,1,2\n2024-01-258,2,3\n", two), HasSubstr("is no number of seconds"));
+}
+
+TEST(CsvTable, AJumpOfTheClockByYearsIsNamed) {
+  EXPECT_THAT(complaint("t,u,y\n0.0,1,2\n0.1,2,3\n0.2,2,3\n1.7e9,1,2\n1700000000.1,1,2\n1700000000.2,1,2\n",
+                        {.inputs = {"u"}, .outputs = {"y"}}),
+              HasSubstr("time has gaps of 1000 times as many rows as there are"));
+}
+
 TEST(CsvTable, ACommentBetweenRowsIsPassedOver) {
   EXPECT_EQ(complaint("u,y\n1,2\n# lamp switched on, a little late\n3,4\n% done\n#\n"), "no complaint");
   EXPECT_THAT(complaint("u,y\n1,2\n# here\n3,x\n"), HasSubstr("row 4"));

@@ -43,8 +43,8 @@ class PendingFile {
   const std::filesystem::path& path() const { return pending_; }
 
   /// Flushes the pending file to the disk and renames it to its final name.
-  /// Errors: the pending file does not exist, the disk failed, or the rename failed.
-  Result<void> commit();
+  /// Errors: the pending file does not exist or, unless `may_be_empty`, has no bytes; the disk or the rename failed.
+  Result<void> commit(bool may_be_empty = false);
 
  private:
   PendingFile(std::filesystem::path pending, std::filesystem::path final_path);

@@ -1,6 +1,6 @@
 #pragma once
 // The results of capturing, learning and validating as data: named figures, tables, series, warnings, and a verdict.
-// describe/ renders them as text, JSON and pictures; no other code formats figures.
+// describe/ renders a report as text, JSON or HTML; the command line plots its series.
 
 #include <array>
 #include <concepts>
@@ -39,8 +39,8 @@ struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, st
 
 /// A named figure or fact.
 struct ReportEntry {
-  std::string id;  ///< path in the JSON document: dots nest, "stable.radius", brackets are elements, "step[0].sd", and
-                   ///< a backslash takes the next character literally
+  std::string id;  ///< path in the JSON document: a dot begins a nested field ("stable.radius"), brackets name a list
+                   ///< element ("step[0].sd"), a backslash escapes the next character
   ReportValue value;
   std::string label;                                ///< name in words; empty: for programs only
   std::string unit;                                 ///< unit of the value, such as "%"; empty: none

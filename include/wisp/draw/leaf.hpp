@@ -2,9 +2,9 @@
 // Draws leaves in the air over a floor, from poses: with midrib, two sides, soft shadows and trails.
 //
 // A leaf is painted once, large and flat; in the air it is a bent card of a few triangles textured with that picture
-// and shaded by its attitude. Shadows are soft ellipses with the light blocked by the leaf, accumulated on a coarse
-// grid. Hundreds are drawn in a few milliseconds. Poses may come from a simulator, a model or a recording. Equal calls
-// draw equal bytes.
+// and shaded by its attitude. Shadows are soft ellipses, as dark as the leaf blocks light, summed on a coarse grid.
+// Hundreds are drawn in a few milliseconds. Poses may come from a simulator, a model or a recording. Equal calls draw
+// equal bytes.
 
 #include <array>
 #include <cstdint>

@@ -2,9 +2,9 @@
 // Candles in a dark room, at a window's frame rate: wall and table lit by the flames, the candles' shadows on the
 // table, and a little moonlight, overlaid with the picture of draw_flames(). Dithered against banding in video.
 //
-// Soft light is computed on a grid of a quarter of the picture's size and, over the plain dark room, interpolated in
-// screen codes; memory and room are reused. At 1280 × 800 that takes a seventh of the time of computing all pixels, and
-// no pixel differs by more than a few codes.
+// Soft light is computed on a grid of a quarter of the picture's width and height and, over the plain dark room,
+// interpolated in screen codes; memory and room are reused. At 1280 × 800 that takes a seventh of the time of computing
+// all pixels, and no pixel differs by more than a few codes.
 
 #include <memory>
 #include <span>

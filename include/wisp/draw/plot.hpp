@@ -41,7 +41,7 @@ struct PlotMark {
   Dash dash = Dash::kDashed;
 };
 
-/// One axis. Unset ends follow the data, rounded to ticks.
+/// One axis. Unset ends follow the data, with a margin.
 struct PlotAxis {
   std::string label{};
   std::optional<double> lowest{};

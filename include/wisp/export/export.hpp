@@ -22,7 +22,7 @@ struct TakeOptions {
   std::uint64_t seed = 1;        ///< seed of the random streams
   bool noise = true;             ///< add the residual noise; a loop without it is constant
   std::vector<double> inputs{};  ///< constant inputs of the model, in their units; missing ones are 0
-  bool round = false;  ///< play a flame as a body where possible, for glTF and vertex shaders: its wind is to the right
+  bool round = false;  ///< play a flame as a body where possible, for glTF and vertex shaders; wind blows to the right
   /// Rows of all inputs, one per frame, after settling under `inputs`; the last stays set. Not for loops.
   std::vector<float> schedule{};
 };
@@ -55,9 +55,10 @@ Result<Take> take(const Model& model, const TakeOptions& options);
 /// Exports a take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with all times at the
 /// model's rate. A body is a node with translation and rotation; its mesh, a leaf, lies in its first two axes. An
 /// outline is a body of revolution, of translucent emissive shells, with one morph target per output of the model,
-/// named after it, and as many for the side view of a flame played as a body. A weight is the output's position between
-/// `lowest` (0) and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive the same mesh
-/// live. For bodies the root node turns Wisp's z up into glTF's y up. A loop ends with its first frame again.
+/// named after the output; a flame played as a body has as many again for its side view. A weight is the output's
+/// position between `lowest` (0) and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive
+/// the same mesh live. For bodies the root node turns Wisp's z up into glTF's y up. A loop ends with its first frame
+/// again.
 /// Errors: the model's outputs are neither an outline nor a body; the take is not of this model.
 Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
 
@@ -68,7 +69,7 @@ Result<std::string> lottie_text(const Model& model, const Take& take, int height
 
 /// Vertex positions of a take's first instance for a vertex shader: a picture of one column per vertex and, from above,
 /// one row per frame with the upper bytes of x, y, z as red, green, blue, then one row per frame with the lower bytes.
-/// 0 means `lowest` and 65535 `highest`, in `json` with frames, rate, travel of a loop and triangles.
+/// 0 means `lowest` and 65535 `highest`. `json` states both, the frames, their rate, a loop's travel and the triangles.
 struct VertexAnimation {
   std::size_t columns = 0, rows = 0;
   std::vector<std::uint8_t> rgb{};  ///< rows × columns × 3
@@ -83,7 +84,7 @@ Result<VertexAnimation> vertex_animation(const Model& model, const Take& take);
 struct FirmwareSource {
   std::string header;         ///< NAME.h
   std::string source;         ///< NAME.c, which includes it
-  std::size_t state_bytes{};  ///< memory of one candle's state without padding, bytes
+  std::size_t state_bytes{};  ///< memory of one lamp's state without padding, bytes
 };
 
 /// Exports a model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library,

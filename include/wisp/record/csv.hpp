@@ -15,9 +15,9 @@
 namespace wisp {
 
 /// Interpretation of a table that does not describe itself. The file's own statements take precedence, except over
-/// `columns`, `inputs` and `outputs`. The latter two, if given, choose the channels other than motion, and their roles.
+/// `columns`, `inputs` and `outputs`. If `inputs` or `outputs` is given, they select all channels except motion.
 struct CsvOptions {
-  double rate_hz = 0;                        ///< samples per second; 0: the file must state it, or have a time column
+  double rate_hz = 0;                        ///< samples per second; 0: from a time column, or usual_rate_hz
   double usual_rate_hz = 0;                  ///< rate assumed if the file has neither; 0: an error then
   std::vector<std::string> inputs{};         ///< columns that are inputs
   std::vector<std::string> outputs{};        ///< columns that are outputs
@@ -39,8 +39,8 @@ class CsvReader {
   /// states the separator for Excel, a line of units, and comment lines that begin with # or %, also between rows. If
   /// nothing else states the rate, a time column does (t, time, date and the like; in s unless its name or the line of
   /// units says ms, us, min or h, or its whole steps suggest ms), if its steps are equal; a count of rows is no
-  /// time column. Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no
-  /// names, no rate, an unknown version, an unknown or repeated column, time that does not increase.
+  /// time column. Errors, each with file and row (1-based, as an editor counts lines): not text, neither a header nor
+  /// `columns`, no rate, an unknown version, an unknown or repeated column, time that does not increase.
   ///
   /// Precondition: `stream` outlives the reader.
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});

@@ -27,7 +27,7 @@ struct MatOptions {
 /// no rate, uneven time, no variable named.
 Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& options);
 
-/// Returns names and sizes of the numeric variables and structure fields, ten thousand at most: "u (1000 × 2)".
+/// Returns names and sizes of the numeric variables and structure fields, about ten thousand at most: "u (1000 × 2)".
 /// Errors: not a MATLAB file of level 5.
 Result<std::vector<std::string>> list_mat(const std::filesystem::path& path);
 

@@ -34,7 +34,7 @@ struct RowFlag {
   std::vector<std::uint8_t> rows;
 };
 
-/// Name of the flag of rows whose picture is missing or repeats the one before: they tell nothing of what was there.
+/// Name of the flag of rows whose picture is missing or repeats the previous picture: they hold no measurement.
 inline constexpr std::string_view kLostRows = "lost";
 
 /// A named fact about the whole recording (a CSV comment line `# NAME VALUE…`). The value of an attribute named
@@ -45,7 +45,7 @@ struct Attribute {
 };
 inline constexpr std::string_view kNotNumbers = "not_numbers";
 
-/// Rows [begin, end) of one episode: a stretch within which samples are consecutive history.
+/// Rows [begin, end) of one episode, which was recorded without interruption.
 struct Episode {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -66,7 +66,7 @@ struct Recording {
   std::vector<RowFlag> flags{};
   std::vector<std::int64_t> episode_ids{};  ///< one per row; empty: a single episode
   std::vector<Attribute> attributes{};
-  std::size_t first_row = 0;  ///< for a slice: index of its first row in the whole
+  std::size_t first_row = 0;  ///< for a slice: index of its first row in the original recording
   RateNote rate_note{};
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
@@ -87,14 +87,14 @@ bool is_flagged(const Recording& recording, std::string_view flag, std::size_t r
 /// Returns the attribute's value, or nothing.
 std::optional<std::string_view> find_attribute(const Recording& recording, std::string_view name);
 
-/// Returns the attribute's value as numbers separated by blanks; nothing if there is no such attribute.
-/// Errors: part of it is not a finite number.
+/// Returns the numbers in the attribute's value, which are separated by blanks; nothing if there is no such attribute.
+/// Errors: a part of the value is not a finite number.
 Result<std::optional<std::vector<double>>> numbers_attribute(const Recording& recording, std::string_view name);
 
 /// Sets an attribute to numbers that numbers_attribute() reads back bit for bit.
 void set_numbers_attribute(Recording& recording, std::string_view name, std::span<const double> values);
 
-/// Returns the time of every row, in seconds since the first row of the whole.
+/// Returns the time of every row, in seconds since the first row of the original recording (see first_row).
 std::vector<double> seconds_of(const Recording& recording);
 
 /// Returns rows [first, last) of a recording, with its channels, flags, episodes and attributes.
@@ -102,8 +102,8 @@ std::vector<double> seconds_of(const Recording& recording);
 /// Precondition: first <= last <= recording.rows().
 Recording slice(const Recording& recording, std::size_t first, std::size_t last);
 
-/// Checks the invariants of a recording: rate finite and positive, channels and flags of one length, names present and
-/// unique, no infinite sample. Errors name the channel and row (1-based).
+/// Checks the invariants of a recording: rate finite and positive; channels, flags and episode ids of one length;
+/// channel names present and unique; no infinite sample. Errors name the channel or flag, and the sample (1-based).
 Result<void> check(const Recording& recording);
 
 }  // namespace wisp

@@ -24,7 +24,7 @@ struct Layout {
   int cell_height = 0;
   int margin = 0;
   int caption = 0;  // height of a line of captions with its margins
-  int times = 0;
+  int times = 0;    // height of the line of times; 0: none
   int width = 0;
   long height = 0;
   double text = 0;  // height of captions

@@ -35,7 +35,7 @@ Result<void> check(const std::filesystem::path& path, const Flipbook& book) {
   return {};
 }
 
-// One picture as a PNG file's bytes, without colour conversion; empty on failure.
+// One picture as a PNG file's bytes, its opacity left premultiplied; empty on failure.
 std::vector<std::byte> png_bytes(const Image& image) {
   const Owned<AVCodecContext> codec(avcodec_alloc_context3(avcodec_find_encoder(AV_CODEC_ID_PNG)));
   const Owned<AVFrame> frame(av_frame_alloc());

@@ -26,21 +26,14 @@ bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   cairo_new_path(context);
-  bool broken = true;
   bool whole = !points.empty();
   for (const Point p : points) {
-    if (!finite(p)) {
-      broken = true;
+    if (finite(p)) {
+      cairo_line_to(context, std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest));
+    } else {
+      cairo_new_sub_path(context);
       whole = false;
-      continue;
     }
-    const double x = std::clamp(p.x, -kFarthest, kFarthest);
-    const double y = std::clamp(p.y, -kFarthest, kFarthest);
-    if (broken)
-      cairo_move_to(context, x, y);
-    else
-      cairo_line_to(context, x, y);
-    broken = false;
   }
   if (closed && whole) cairo_close_path(context);
 }

@@ -119,7 +119,7 @@ struct VideoWriter::Encoder {
   Result<void> start_track(Track& track, const AVCodec* codec, AVDictionary** settings);
   Result<void> next_frame();
   Result<void> send(Track& track, const AVFrame* frame);
-  Result<void> send_sound(std::size_t samples);
+  Result<void> send_sound();
   bool opacity() const { return kind.pixels != AV_PIX_FMT_YUV420P; }
   int padded_width() const { return options.width + (opacity() ? 0 : options.width % 2); }
   int padded_height() const { return options.height + (opacity() ? 0 : options.height % 2); }
@@ -257,19 +257,20 @@ Result<void> VideoWriter::Encoder::send(Track& track, const AVFrame* frame) {
   }
 }
 
-Result<void> VideoWriter::Encoder::send_sound(std::size_t samples) {
+// Sends the waiting samples as one frame.
+Result<void> VideoWriter::Encoder::send_sound() {
   AVFrame& frame = *sound.frame;
   av_frame_unref(&frame);
   frame.format = sound.codec->sample_fmt;
   frame.sample_rate = options.sound_rate_hz;
-  frame.nb_samples = static_cast<int>(samples);
+  frame.nb_samples = static_cast<int>(waiting.size());
   av_channel_layout_copy(&frame.ch_layout, &sound.codec->ch_layout);
   const int code = av_frame_get_buffer(&frame, 0);
   if (code < 0) return error("cannot be encoded", code);
-  std::memcpy(frame.data[0], waiting.data(), samples * sizeof(float));
+  std::memcpy(frame.data[0], waiting.data(), waiting.size() * sizeof(float));
   frame.pts = sound.next;
-  sound.next += static_cast<std::int64_t>(samples);
-  waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(samples));
+  sound.next += frame.nb_samples;
+  waiting.clear();
   return send(sound, &frame);
 }
 
@@ -319,12 +320,11 @@ Result<void> VideoWriter::write_sound(std::span<const float> samples) {
   Encoder& e = *encoder_;
   if (!e.sound.codec) return Error{e.path.string() + ": has no sound track; set its rate when the file is opened"};
   if (e.finished) return Error{e.path.string() + ": is finished already; nothing can be added"};
+  const auto whole = static_cast<std::size_t>(e.sound.codec->frame_size);
   for (const float sample : samples) {
     e.waiting.push_back(std::isnan(sample) ? 0.0F : std::clamp(sample, -1.0F, 1.0F));
-  }
-  const auto whole = static_cast<std::size_t>(e.sound.codec->frame_size);
-  while (e.waiting.size() >= whole) {
-    if (auto sent = e.send_sound(whole); !sent) return sent;
+    if (e.waiting.size() < whole) continue;
+    if (auto sent = e.send_sound(); !sent) return sent;
   }
   return {};
 }
@@ -337,7 +337,7 @@ Result<void> VideoWriter::finish() {
   if (auto sent = e.send(e.video, nullptr); !sent) return sent;
   if (e.sound.codec) {
     if (!e.waiting.empty()) {
-      if (auto sent = e.send_sound(e.waiting.size()); !sent) return sent;
+      if (auto sent = e.send_sound(); !sent) return sent;
     }
     if (auto sent = e.send(e.sound, nullptr); !sent) return sent;
   }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <vector>
 
-#include "draw/cairo.hpp"
 #include "draw/flame/flame_layers.hpp"
 #include "draw/tone.hpp"
 
@@ -52,7 +51,7 @@ Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
   return 1.10F * lip * turned * sided * (wax * way);
 }
 
-// The pool under the flame, and the ridge of wax around it.
+// Light from the candle's top: the pool under the flame, and the ridge of wax around it.
 Light top_light(const Spot& spot, const Light& wax, float lean) {
   const float near_wick = std::exp(-spot.round / 0.22F);
   const float ridge = smooth_step(0.60F, 0.74F, spot.round);
@@ -68,13 +67,13 @@ Light top_light(const Spot& spot, const Light& wax, float lean) {
   return sided * (base + (1 - ridge) * streak * Light{0.55F, 0.42F, 0.22F});
 }
 
-// The room: a weak, cool light from the upper left.
+// Light of the room on the wax: weak, cool, from the upper left.
 Light room_light(const Spot& spot, const Light& wax, float ambient, bool top) {
   const float lit = top ? 0.8F : 0.34F + 0.50F * spot.facing - 0.20F * spot.across;
   return ambient * lit * (wax * Light{0.58F, 0.76F, 1.25F});
 }
 
-// Light of a neighbour's flame from one side; it wraps around, since wax is translucent.
+// Light of a neighbour's flame on the wax, from one side; it wraps around, since wax is translucent.
 Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, const Body& body) {
   const float dx = (lamp.place.x - body.middle) / body.unit;
   const float dy = (body.top - lamp.place.y) / body.unit + spot.depth;
@@ -229,43 +228,6 @@ void draw_wax(Image& image, const Body& body, const Shader& shader) {
   }
 }
 
-// Share of each pixel inside a polygon, over a box of the picture.
-Plane filled(std::span<const Point> polygon, PixelBox box) {
-  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, box.width, box.height));
-  {
-    const CairoContext context(cairo_create(surface.get()));
-    cairo_translate(context.get(), -box.x, -box.y);
-    for (const Point p : polygon) cairo_line_to(context.get(), p.x, p.y);
-    cairo_fill(context.get());
-  }
-  cairo_surface_flush(surface.get());
-  const unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  Plane plane(box.width, box.height);
-  for (int y = 0; y < box.height; ++y) {
-    for (int x = 0; x < box.width; ++x) {
-      plane.row(y)[x] = static_cast<float>(data[static_cast<std::ptrdiff_t>(y) * stride + x]) / 255;
-    }
-  }
-  return plane;
-}
-
-PixelBox box_of(std::span<const Point> points, int width, int height) {
-  float left = points[0].x, right = left, top = points[0].y, bottom = top;
-  for (const Point p : points) {
-    left = std::min(left, p.x);
-    right = std::max(right, p.x);
-    top = std::min(top, p.y);
-    bottom = std::max(bottom, p.y);
-  }
-  const int x0 = std::max(0, static_cast<int>(std::floor(left)));
-  const int y0 = std::max(0, static_cast<int>(std::floor(top)));
-  const int x1 = std::min(width, static_cast<int>(std::ceil(right)));
-  const int y1 = std::min(height, static_cast<int>(std::ceil(bottom)));
-  if (x0 >= x1 || y0 >= y1) return {};
-  return {x0, y0, x1 - x0, y1 - y0};
-}
-
 void draw_wick(Image& image, const Wick& wick, const Lamp& own, float ambient) {
   const float length = std::max(1.0F, wick.root.y - wick.end.y);
   for (int row = 0; row < wick.box.height; ++row) {
@@ -309,8 +271,10 @@ Wick make_wick(const FlameScene& scene, int width, int height) {
     wick.end = p;
   }
   left.insert(left.end(), right.rbegin(), right.rend());
-  wick.box = box_of(left, width, height);
-  if (!wick.empty()) wick.coverage = filled(left, wick.box);
+  wick.box = visible_box(bounds_of(left), 0, width, height);
+  if (wick.empty()) return wick;
+  for (Point& p : left) p = {p.x - static_cast<float>(wick.box.x), p.y - static_cast<float>(wick.box.y)};
+  wick.coverage = coverage_of(left, wick.box.width, wick.box.height, false);
   return wick;
 }
 

@@ -99,7 +99,8 @@ float soot_profile(float t) {
   return rise * burn_off;
 }
 
-// Depth of soot: the whole flame above, only the inside of the blue mantle below, which soot would turn purple.
+// Depth of soot: the whole thickness in the upper flame; near the base only the inside of the blue mantle, which soot
+// would turn purple.
 float soot_depth(float t, float thick) {
   const float shell = 0.50F * (1 - smooth_step(0.05F, 0.34F, t));
   return std::max(0.0F, thick - shell) / (1 - shell);

@@ -25,7 +25,7 @@ inline constexpr Colour kBase{84, 168, 255};  ///< the blue of burning gas witho
 inline constexpr Colour kHalo{255, 140, 52};  ///< light scattered in the air and the lens around the flame
 
 // Lengths are in model units.
-inline constexpr float kCandleHeight = 0.95F;  ///< the part below the picture is cut off
+inline constexpr float kCandleHeight = 0.95F;  ///< candle height; the part below the picture is cut off
 inline constexpr float kWickGap = 0.12F;       ///< distance from the candle's top to the flame's base
 inline constexpr float kWickHeight = 0.24F;    ///< distance from the candle's top to the wick's end
 inline constexpr float kAmbient = 0.06F;       ///< room light on the candle, which keeps it visible without a flame
@@ -50,6 +50,22 @@ struct Plane {
   int height = 0;
   std::vector<float> values;
 };
+
+/// Returns the share of each cell of a grid inside a polygon whose coordinates are cells; `fine`: best antialiasing.
+Plane coverage_of(std::span<const Point> polygon, int columns, int rows, bool fine);
+
+/// Bounding box of points, pixels.
+struct Bounds {
+  float left = 0, top = 0, right = 0, bottom = 0;
+  float width() const { return right - left; }
+  float height() const { return bottom - top; }
+};
+
+/// Precondition: at least one point.
+Bounds bounds_of(std::span<const Point> points);
+
+/// Returns the pixels of a picture that bounds touch, and `margin` more on each side; zero width: none.
+PixelBox visible_box(const Bounds& bounds, int margin, int width, int height);
 
 /// Emitted light per pixel of a picture.
 struct LightField {
@@ -171,7 +187,7 @@ FlameStyle clamped(FlameStyle style);
 /// Rasterises a flame for a picture of that size.
 Candle prepared(const Flame& flame, int width, int height);
 
-/// Returns the pixels of the largest model unit among the candles, at least 1.
+/// Returns the largest pixels_per_unit among the candles, at least 1.
 float largest_unit(std::span<const Candle> candles);
 
 /// Draws every candle, lit by all flames, then all smoke.
@@ -210,8 +226,8 @@ struct Row {
   std::array<std::vector<float>, 3> channels;
 };
 
-/// Spreads a row of cells over pixels, linear between the middles of cells. `scratch` has two values more than the grid
-/// has columns.
+/// Interpolates a row of cells linearly between cell centres to pixels. `scratch` has two values more than the grid has
+/// columns.
 void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
 
 /// Writes codes with their fraction as pixels, rounded by `dither`.

@@ -20,12 +20,6 @@ constexpr float kFarthest = 8;
 constexpr float kCellsPerUnit = 96;
 constexpr int kMaxCells = 240;
 
-struct Bounds {
-  float left = 0, top = 0, right = 0, bottom = 0;
-  float width() const { return right - left; }
-  float height() const { return bottom - top; }
-};
-
 std::vector<Point> finite_points(std::span<const Point> outline) {
   std::vector<Point> points;
   points.reserve(outline.size() + 1);
@@ -44,17 +38,6 @@ float area_of(std::span<const Point> points) {
     twice += a.x * b.y - b.x * a.y;
   }
   return std::abs(twice) / 2;
-}
-
-Bounds bounds_of(std::span<const Point> points) {
-  Bounds b{points[0].x, points[0].y, points[0].x, points[0].y};
-  for (const Point p : points) {
-    b.left = std::min(b.left, p.x);
-    b.right = std::max(b.right, p.x);
-    b.top = std::min(b.top, p.y);
-    b.bottom = std::max(b.bottom, p.y);
-  }
-  return b;
 }
 
 // Junction of one side of the flame with its rounded base.
@@ -123,29 +106,14 @@ void close_base(std::vector<Point>& points, float cap) {
 }
 
 // Share of each cell inside the polygon; the grid's origin is (left, top), a cell is `cell` pixels.
-Plane rasterised(std::span<const Point> pixels, float left, float top, float cell, int columns, int rows) {
-  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, columns, rows));
-  {
-    const CairoContext context(cairo_create(surface.get()));
-    cairo_set_antialias(context.get(), CAIRO_ANTIALIAS_BEST);
-    for (const Point p : pixels) cairo_line_to(context.get(), (p.x - left) / cell, (p.y - top) / cell);
-    cairo_close_path(context.get());
-    cairo_fill(context.get());
-  }
-  cairo_surface_flush(surface.get());
-  const unsigned char* data = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  Plane plane(columns, rows);
-  for (int y = 0; y < rows; ++y) {
-    const unsigned char* from = data + static_cast<std::ptrdiff_t>(y) * stride;
-    for (int x = 0; x < columns; ++x) plane.row(y)[x] = static_cast<float>(from[x]) / 255;
-  }
-  return plane;
+Plane rasterised(std::vector<Point> pixels, float left, float top, float cell, int columns, int rows) {
+  for (Point& p : pixels) p = {(p.x - left) / cell, (p.y - top) / cell};
+  return coverage_of(pixels, columns, rows, true);
 }
 
 // Solves ∇²φ = −1 with φ = 0 outside by red-black successive over-relaxation (Press et al., Numerical Recipes, section
-// 20.5), in squared cells. A cell that is covered in part holds its share, so that φ moves with the edge and does not
-// jump from cell to cell. The number of sweeps is fixed: enough for a body 40 cells wide.
+// 20.5), in squared cells. The value of a partly covered cell is scaled by its covered share, so that φ moves with the
+// edge and does not jump from cell to cell. The number of sweeps is fixed: enough for a body 40 cells wide.
 Plane solve_thickness(const Plane& inside) {
   constexpr float kRelaxation = 1.78F;
   constexpr int kSweeps = 44;
@@ -182,15 +150,6 @@ float sampled(const Plane& bordered, float x, float y) {
   return (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * bottom[0] + a * bottom[1]);
 }
 
-PixelBox visible_box(const Bounds& bounds, int width, int height) {
-  const int left = std::max(0, static_cast<int>(std::floor(bounds.left)) - 1);
-  const int top = std::max(0, static_cast<int>(std::floor(bounds.top)) - 1);
-  const int right = std::min(width, static_cast<int>(std::ceil(bounds.right)) + 1);
-  const int bottom = std::min(height, static_cast<int>(std::ceil(bounds.bottom)) + 1);
-  if (left >= right || top >= bottom) return {};
-  return {left, top, right - left, bottom - top};
-}
-
 Point to_pixel(const FlameScene& scene, Point p) {
   return {scene.base.x + scene.pixels_per_unit * p.x, scene.base.y - scene.pixels_per_unit * p.y};
 }
@@ -207,7 +166,7 @@ void measure(FlameShape& shape, std::span<const Point> model) {
   }
 }
 
-void fill_thickness(FlameShape& shape, std::span<const Point> pixels, const Bounds& bounds, float unit) {
+void fill_thickness(FlameShape& shape, const std::vector<Point>& pixels, const Bounds& bounds, float unit) {
   const float finest = std::max(1.0F, unit / kCellsPerUnit);
   const float cell = std::max({finest, bounds.width() / kMaxCells, bounds.height() / kMaxCells});
   const int columns = static_cast<int>(std::ceil(bounds.width() / cell)) + 2;
@@ -232,6 +191,45 @@ void fill_thickness(FlameShape& shape, std::span<const Point> pixels, const Boun
 
 }  // namespace
 
+Plane coverage_of(std::span<const Point> polygon, int columns, int rows, bool fine) {
+  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, columns, rows));
+  {
+    const CairoContext context(cairo_create(surface.get()));
+    if (fine) cairo_set_antialias(context.get(), CAIRO_ANTIALIAS_BEST);
+    for (const Point p : polygon) cairo_line_to(context.get(), p.x, p.y);
+    cairo_fill(context.get());
+  }
+  cairo_surface_flush(surface.get());
+  const unsigned char* data = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  Plane plane(columns, rows);
+  for (int y = 0; y < rows; ++y) {
+    const unsigned char* from = data + static_cast<std::ptrdiff_t>(y) * stride;
+    for (int x = 0; x < columns; ++x) plane.row(y)[x] = static_cast<float>(from[x]) / 255;
+  }
+  return plane;
+}
+
+Bounds bounds_of(std::span<const Point> points) {
+  Bounds b{points[0].x, points[0].y, points[0].x, points[0].y};
+  for (const Point p : points) {
+    b.left = std::min(b.left, p.x);
+    b.right = std::max(b.right, p.x);
+    b.top = std::min(b.top, p.y);
+    b.bottom = std::max(b.bottom, p.y);
+  }
+  return b;
+}
+
+PixelBox visible_box(const Bounds& bounds, int margin, int width, int height) {
+  const int left = std::max(0, static_cast<int>(std::floor(bounds.left)) - margin);
+  const int top = std::max(0, static_cast<int>(std::floor(bounds.top)) - margin);
+  const int right = std::min(width, static_cast<int>(std::ceil(bounds.right)) + margin);
+  const int bottom = std::min(height, static_cast<int>(std::ceil(bounds.bottom)) + margin);
+  if (left >= right || top >= bottom) return {};
+  return {left, top, right - left, bottom - top};
+}
+
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
                        int height) {
   constexpr float kMinArea = 1e-5F;
@@ -248,7 +246,7 @@ FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, 
   std::ranges::transform(points, points.begin(), [&](Point p) { return to_pixel(scene, p); });
   const float unit = scene.pixels_per_unit;
   const Bounds bounds = bounds_of(points);
-  shape.box = visible_box(bounds, width, height);
+  shape.box = visible_box(bounds, 1, width, height);
   if (shape.empty()) return shape;
   shape.coverage = rasterised(points, static_cast<float>(shape.box.x), static_cast<float>(shape.box.y), 1,
                               shape.box.width, shape.box.height);

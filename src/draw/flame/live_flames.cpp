@@ -24,7 +24,7 @@ PixelBox grown(PixelBox box, int by, int width, int height) {
   return {left, top, right - left, bottom - top};
 }
 
-// Extends a box to whole cells, and by the spread of halving.
+// Extends a box to whole cells, and by the cells into which halved() spreads its light.
 PixelBox on_grid(PixelBox box, int width, int height) {
   const int left = std::max(0, box.x / kCell - 2) * kCell, top = std::max(0, box.y / kCell - 2) * kCell;
   const int right = std::min(width, (cells(box.x + box.width) + 2) * kCell);
@@ -109,7 +109,6 @@ struct LiveFlames::State {
   void gather(Plane& luminance, PixelBox lit) const;
   void draw_room(std::span<const Candle> candles);
   void make_codes();
-  void show(Image& image);
   void show_row(Image& image, int y);
   void mark_bright(int y);
 
@@ -127,7 +126,7 @@ struct LiveFlames::State {
   std::vector<PixelBox> lit;
 };
 
-// Adds a part of the picture's luminance to the grid.
+// Transfers the luminance in a part of the picture to the grid.
 void LiveFlames::State::gather(Plane& luminance, PixelBox box) const {
   const PixelBox part = on_grid(box, width(), height());
   Plane soft = luminance_in(own, part);
@@ -190,7 +189,7 @@ void LiveFlames::State::draw_room(std::span<const Candle> candles) {
   }
 }
 
-// Computes screen codes of room and glow without objects before them.
+// Computes screen codes of room and glow where no candle or smoke is in front of them.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {
@@ -241,10 +240,6 @@ void LiveFlames::State::show_row(Image& image, int y) {
   }
 }
 
-void LiveFlames::State::show(Image& image) {
-  for (int y = 0; y < height(); ++y) show_row(image, y);
-}
-
 LiveFlames::LiveFlames(int width, int height, const FlameStyle& style)
     : state_(std::make_unique<State>(width, height, style)) {
   assert(width >= 1 && height >= 1 && width <= kLargestImageSide && height <= kLargestImageSide);
@@ -270,7 +265,7 @@ void LiveFlames::draw(Image& image, std::span<const Flame> flames) {
   if (state.lit.empty()) return;
   state.add_glow(candles);
   state.make_codes();
-  state.show(image);
+  for (int y = 0; y < state.height(); ++y) state.show_row(image, y);
 }
 
 }  // namespace wisp

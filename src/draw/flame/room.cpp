@@ -61,7 +61,8 @@ float pane_at(float x, float y) {
   return bar(u) * bar(v);
 }
 
-// A pixel's position on the table, relative to the middle of the picture at the depth of a foot, in model units.
+// A pixel's position on the table in model units. The origin is in the middle of the picture, as deep as a candle's
+// foot.
 struct TableSpot {
   float x = 0;
   float z = 0;  // towards the eye
@@ -178,8 +179,8 @@ void Room::light_wall(std::span<const Stand> stands) {
   }
 }
 
-// The candle's shadow lies where the line to the flame passes through the circle of its rim, so it moves against the
-// flame.
+// The candle's shadow covers table points whose line to the flame passes through the circle of the candle's rim, so it
+// moves against the flame.
 void Room::light_table(const Stand& stand) {
   constexpr int kPixels = 2 * kCell;
   if (stand.lamp.power <= 0) return;
@@ -247,7 +248,7 @@ Plane luminance_of(const LightField& field) {
   return plane;
 }
 
-// Adds `coarse`, enlarged bilinearly to twice its size and scaled, to `fine`: the inverse placement of halved().
+// Adds `coarse`, enlarged bilinearly to twice its size, to `fine`: the inverse placement of halved().
 void add_doubled(const Plane& coarse, Plane& fine) {
   std::vector<float> blend(coarse.width + 2);
   for (int y = 0; y < fine.height; ++y) {

@@ -20,7 +20,7 @@ constexpr int kAlong = 6, kAcross = 4;
 
 constexpr int kShadowCell = 4;        // pixels
 constexpr float kFaintest = 0.006F;   // weaker shadows are invisible
-constexpr float kBladeArea = 0.62F;   // area of the blade over its bounding rectangle's
+constexpr float kBladeArea = 0.62F;   // area that blocks light, as a share of length × width
 constexpr float kLampRadius = 0.10F;  // lamp radius over its distance, which determines the softness of shadows
 constexpr float kDarkest = 0.62F;     // maximum share of the floor's light removed by a shadow
 
@@ -176,12 +176,12 @@ void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn)
   if (!(middle.depth > kNear)) return;
   const float scale = view.scale_at(middle.depth) / kShadowCell;
   const float flat = std::max(0.05F, std::abs(unit(spot - view.eye()).z));
-  // Half axes of the leaf projected from the lamp onto the floor, in grid cells.
+  // Half axes of the leaf projected from the lamp onto the floor, in metres.
   const Vec3 a = on_floor(leaf.size * half_length * turn({1, 0, 0}));
   const Vec3 b = on_floor(leaf.size * half_width * turn({0, 1, 0}));
   const float soft = 0.5F * kLampRadius * height / lamp.z;
 
-  // The variance along an axis is a quarter of its square; the rows of the picture foreshorten the floor.
+  // Covariance in cells: a quarter of the half axes' squares; the rows of the picture foreshorten the floor.
   const float xx = scale * scale * ((a.x * a.x + b.x * b.x) / 4 + soft * soft) + 0.4F;
   const float yy = scale * scale * flat * flat * ((a.y * a.y + b.y * b.y) / 4 + soft * soft) + 0.4F;
   const float xy = -scale * scale * flat * (a.x * a.y + b.x * b.y) / 4;
@@ -193,13 +193,13 @@ void LeafFlock::State::cast(const FlockLeaf& leaf, Vec3 place, const Turn& turn)
   if (dark < kFaintest) return;
   const float mx = middle.x / kShadowCell - 0.5F, my = middle.y / kShadowCell - 0.5F;
   const float reach = 2.4F;
-  const auto held = [](float at, int most) {
+  const auto cell = [](float at, int most) {
     return static_cast<int>(std::clamp(at, -1.0F, static_cast<float>(most)));
   };
-  const int left = std::max(0, held(mx - reach * std::sqrt(xx), shadows.width));
-  const int right = std::min(shadows.width - 1, held(mx + reach * std::sqrt(xx) + 1, shadows.width));
-  const int top = std::max(0, held(my - reach * std::sqrt(yy), shadows.height));
-  const int bottom = std::min(shadows.height - 1, held(my + reach * std::sqrt(yy) + 1, shadows.height));
+  const int left = std::max(0, cell(mx - reach * std::sqrt(xx), shadows.width));
+  const int right = std::min(shadows.width - 1, cell(mx + reach * std::sqrt(xx) + 1, shadows.width));
+  const int top = std::max(0, cell(my - reach * std::sqrt(yy), shadows.height));
+  const int bottom = std::min(shadows.height - 1, cell(my + reach * std::sqrt(yy) + 1, shadows.height));
   for (int y = top; y <= bottom; ++y) {
     float* row = shadows.row(y);
     const float dy = static_cast<float>(y) - my;
@@ -299,7 +299,7 @@ void LeafFlock::State::draw_trail(Image& image, const FlockLeaf& leaf) const {
 }
 
 LeafCamera leaf_camera_from_side(float height) {
-  // The floor's near edge is in the lowest eighth of the picture.
+  // The floor below the target is in the lowest eighth of the picture.
   const float middle = 0.40F * height;
   return {{0, -3.2F * height, 0.86F * height}, {0, 0, middle}, height};
 }

@@ -75,10 +75,10 @@ float blotch(float u, float v) {
          3;
 }
 
-// Half width over the blade, 0 … 1: rounded at the base, drawn out at the tip.
+// Half width over the blade, as a share of the style's, at most 0.77: rounded at the base, drawn out at the tip.
 float half_width(float u) {
   const float base = std::pow(u, 0.62F), tip = std::pow(1 - u, 0.95F);
-  constexpr float kWidest = 0.4527F;  // maximum of the product, at u = 0.62 / 1.57
+  constexpr float kWidest = 0.4527F;  // 1.3 times the product's maximum, which is at u = 0.62 / 1.57
   return std::min(1.0F, base * tip / (kWidest * (0.75F + 0.25F * std::min(1.0F, (1 - u) * 5))));
 }
 

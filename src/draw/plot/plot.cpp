@@ -92,11 +92,6 @@ void draw_sheet(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at)
   }
 }
 
-cairo_status_t append(void* closure, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 // Cairo numbers SVG elements across the life of the program. Renumbering from 1 in each file makes the same plot the
 // same bytes.
 std::string with_own_numbers(const std::string& svg, std::string_view name) {
@@ -122,7 +117,7 @@ std::string with_own_numbers(const std::string& svg, std::string_view name) {
 
 Result<void> write_svg(const std::filesystem::path& path, const PlotSheet& sheet, const SheetLayout& at) {
   std::string text;
-  const CairoSurface surface(cairo_svg_surface_create_for_stream(append, &text, at.width(), at.height()));
+  const CairoSurface surface(cairo_svg_surface_create_for_stream(append_bytes, &text, at.width(), at.height()));
   {
     const CairoContext context(cairo_create(surface.get()));
     draw_sheet(context.get(), sheet, at);

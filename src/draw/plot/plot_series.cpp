@@ -46,14 +46,13 @@ bool dense(const PlotSeries& series, const Scale& x) {
   return static_cast<double>(size_of(series)) > kDensest * width && std::is_sorted(series.x.begin(), series.x.end());
 }
 
-// Draws the first, lowest, highest and last sample of each narrow column. The picture equals that of all samples, in a
-// smaller file.
+// Draws the first, lowest, highest and last sample of each narrow column: the same picture to the eye in a smaller
+// file.
 void trace_envelope(cairo_t* context, const PlotSeries& series, const Scale& x, const Scale& y) {
   const std::size_t size = size_of(series);
-  bool broken = true;
   for (std::size_t k = 0; k < size;) {
     if (!shown(series, k, x, y)) {
-      broken = true;
+      cairo_new_sub_path(context);
       ++k;
       continue;
     }
@@ -66,14 +65,7 @@ void trace_envelope(cairo_t* context, const PlotSeries& series, const Scale& x, 
       highest = std::max(highest, last);
     }
     const double at = (column + 0.5) * kEnvelopeColumn;
-    if (broken)
-      cairo_move_to(context, at, first);
-    else
-      cairo_line_to(context, at, first);
-    cairo_line_to(context, at, lowest);
-    cairo_line_to(context, at, highest);
-    cairo_line_to(context, at, last);
-    broken = false;
+    for (const double height : {first, lowest, highest, last}) cairo_line_to(context, at, height);
   }
 }
 
@@ -82,24 +74,13 @@ void draw_line(cairo_t* context, const PlotSeries& series, Colour colour, const 
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   set_dash(context, series.dash, series.width);
   cairo_new_path(context);
-  if (dense(series, x)) {
-    trace_envelope(context, series, x, y);
-    set_colour(context, colour);
-    cairo_stroke(context);
-    return;
-  }
-  bool broken = true;
-  for (std::size_t k = 0; k < size_of(series); ++k) {
-    if (!shown(series, k, x, y)) {
-      broken = true;
-      continue;
-    }
-    if (broken) {
-      cairo_move_to(context, x(series.x[k]), y(series.y[k]));
-    } else {
+  const bool envelope = dense(series, x);
+  if (envelope) trace_envelope(context, series, x, y);
+  for (std::size_t k = 0; !envelope && k < size_of(series); ++k) {
+    if (shown(series, k, x, y))
       cairo_line_to(context, x(series.x[k]), y(series.y[k]));
-    }
-    broken = false;
+    else
+      cairo_new_sub_path(context);
   }
   set_colour(context, colour);
   cairo_stroke(context);
