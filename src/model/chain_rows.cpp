@@ -101,7 +101,7 @@ std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_
   }
 }
 
-// Factors from told_rate() to a stored rate, as integers in units of 2^−kShifts: of velocities, and of angular
+// Factors that convert told_rate() to a stored rate, in units of 2^−kShifts: one for velocities, one for angular
 // velocities.
 using RateFactors = std::array<std::int32_t, 2>;
 
@@ -138,7 +138,7 @@ std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, -32768, 32767));
 }
 
-// Calls use(number, prediction, kind) for all rows and rates, each before any number that is predicted by it.
+// Calls use(number, prediction, kind) for all rows and rates, each before the numbers that are predicted from it.
 template <class Use>
 void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int16_t* rows, std::int16_t* rates,
                    Use use) {
@@ -186,7 +186,7 @@ RateFactors factors_of(const ChainModel& chain) {
   return factors;
 }
 
-// Returns the index of each mode's first segment, and one past the last of all.
+// Returns the index of each mode's first segment, and one past the last segment.
 std::vector<std::size_t> first_of_modes(const ChainModel& chain) {
   std::vector<std::size_t> first(static_cast<std::size_t>(chain.modes) + 1);
   for (std::uint16_t mode : chain.segments.mode) {

@@ -26,7 +26,7 @@ struct FlameEvents {
 
   std::vector<std::uint8_t> sizes;    ///< a stored 255 is the full size
   std::vector<std::uint32_t> ends{};  ///< one past the last size of each event, ascending
-  std::vector<double> scale{};        ///< per component of the view's shape: a stored 1, >= 0; empty: sizes alone
+  std::vector<double> scale{};        ///< value of a stored 1 per component of the view's shape, >= 0; empty: no shapes
   std::vector<std::int8_t> shapes{};  ///< sizes × components
 
   bool empty() const { return ends.empty(); }
@@ -58,7 +58,7 @@ FlameEvents dying_of(const Extinction& rule, double rate_hz);
 FlameEvents catching_of(const Extinction& rule, double rate_hz);
 
 /// Checks that every number is finite and in its range, that the rule's input is below `inputs`, that recorded shapes
-/// have one number for each of the `components` of the outline's shape in the plane, and that decay has no shapes.
+/// have one number for each of the `components` of the outline's shape in the plane, and that `dying` has no shapes.
 /// Errors name the number, what was found and what was expected.
 Result<void> check(const Extinction& rule, std::size_t inputs, std::size_t components);
 

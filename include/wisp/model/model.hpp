@@ -87,7 +87,8 @@ struct Model {
 /// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
 /// become vectors of the horizontal plane, and so does the wind, in two inputs. Wind along x reproduces the numbers of
 /// `plane`, in its camera's view, to the bit. A body's model is returned unchanged. Errors: those of check(); no ARX
-/// outline of uncoupled symmetric and antisymmetric components with resampled residuals; inputs other than one wind.
+/// outline of uncoupled symmetric and antisymmetric components with resampled residuals; an input other than one wind
+/// from either side.
 Result<Model> in_the_round(const Model& plane);
 
 /// Returns whether a model is a body: its outputs are its outline in the view from one side.

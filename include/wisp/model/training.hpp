@@ -76,8 +76,8 @@ struct ExtinctionTraining {
 struct Preparation {
   bool detrend = false;    ///< remove a linear trend from every channel; means stay
   double highpass_hz = 0;  ///< ≥ 0; 0: none
-  double lowpass_hz = 0;
-  double resample_hz = 0;
+  double lowpass_hz = 0;   ///< ≥ 0; 0: none
+  double resample_hz = 0;  ///< ≥ 0; 0: none
 
   bool operator==(const Preparation&) const = default;
 };

@@ -146,7 +146,8 @@ class ResampledLanes {
 
   static constexpr int kVectorRegressors = 3;  // regressors per component of a vector
 
-  // A search for rows: number 0 finds residuals along the wind; 1, for a body only, those across it. `at`: its state.
+  // A search for rows: number 0 finds residuals along the wind; 1, for a body only, those across it. `at`: index of the
+  // search's state.
   struct Life {
     int block;
     int at;
@@ -288,7 +289,7 @@ class ResampledLanes {
     Real mirrored[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t next = places.next[lane];
-      // A lane that must jump may be in its stretch's last row: reads that row; the result is unused.
+      // A lane that must jump may have no next row. It reads the current one; the result is unused.
       wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
       mirrored[lane] = Real(next % 2 != 0 && program_.across == 0 ? 1.0f : 0.0f);
     }
@@ -444,7 +445,7 @@ class ResampledLanes {
     for (int first = 0; first < seekers.count; first += N::kPartLanes) rank_part(row + first, nearest, first);
   }
 
-  // Always ranks whole vectors of lanes; results of lanes without a seeker are not read.
+  // Ranks whole vectors of seekers; results beyond the last seeker are not read.
   static void rank_part(const float* const* row, Nearest& nearest, int first) {
     using Values = Pack<typename N::RealPart, 1>;
     Values best[kNearestRows], which[kNearestRows];

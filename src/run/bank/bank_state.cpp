@@ -1,5 +1,5 @@
-// Serialised state of a bank. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of the part after the header, 8
-// its hash; then the bank's own fields, then one record of equal size for every slot.
+// The state of a bank, and its serialised form. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of the part
+// after the header, 8 hash of that part; then the bank's own fields, then one record of equal size for every slot.
 
 #include <algorithm>
 #include <array>

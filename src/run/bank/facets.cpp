@@ -42,7 +42,7 @@ std::optional<ChainPlace> ChainFacet::place_of(InstanceId id) const {
   ChainPlace place = chain.place_of(block_of(id), lane_of(id));
   const auto [velocity, spin] = chain.rates(block_of(id), lane_of(id));
   place.velocity = velocity, place.spin = spin;
-  // Steps since it touched the ground, to be compared with the number of steps of the last call.
+  // `ago`: steps since the body touched the ground. It landed in the last call if that made more steps.
   const float settled = chain.settled(block_of(id), lane_of(id));
   const float ago = settled * kSettleSeconds / (static_cast<float>(state_->step_time) * 1e-9f);
   place.lies = settled >= 1;

@@ -15,7 +15,7 @@
 
 namespace wisp {
 
-/// What a step does with each lane of a block, as masks of 1 or 0; uninitialised, since a step has many of them.
+/// Effects of a step on each lane of a block, as masks of 1 or 0. Left uninitialised, since a step has many courses.
 template <class N>
 struct ChainCourse {
   using Real = typename N::Real;

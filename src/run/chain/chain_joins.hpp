@@ -56,7 +56,8 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// Returns the rotations of segments `next` that follow `before`, rotated by `turn`, and the gaps at those joins.
+  /// Returns the rotations of segments `next`, which follow the segments `before` of rotation `turn`, and the gaps at
+  /// those joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);

@@ -278,7 +278,7 @@ class ChainMover {
   }
 
   /// Returns the squared distance of a segment's beginning from a body's state: the sum of the squared differences of
-  /// attitude (radians), velocity and spin, the latter two in units of their typical sizes.
+  /// attitude (radians; only if heading is free), velocity and spin, the latter two in units of their typical sizes.
   Real misfit(std::uint32_t segment, const Body& body) const {
     Lane lane;
     const HalfTurn<Real> turn = turn_to(segment, body);
@@ -302,7 +302,7 @@ class ChainMover {
     return turn_between(quaternion(row_of(segment, 0)), body.orientation);
   }
 
-  /// Returns where a row of the lane's segment lies, moved by `more`, in stored units, times `share`.
+  /// Returns the position of a row of the lane's segment, moved by share · `more` (stored units).
   Vector3<Real> place_at(const Lane& lane, std::uint32_t row, const std::int16_t* more, Real share) const {
     const std::int16_t* at = row_of(index(lane.segment, program_.segments()), row);
     return placed(lane, added(vector(at), scaled(vector(more), share)));
@@ -314,7 +314,7 @@ class ChainMover {
     return whole < bound ? whole : bound - 1;
   }
 
-  /// Clamps numbers to ±bound, which no valid model exceeds, so that their squares do not overflow single precision.
+  /// Clamps numbers to ±bound. Valid models stay within the default bound, whose square fits single precision.
   template <class Numbers>
   static Numbers bounded(Numbers numbers, float bound = kMaxDifference) {
     const Real most(bound), least(-bound);

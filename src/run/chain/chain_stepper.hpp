@@ -114,8 +114,8 @@ class ChainStepper : private ChainLives<N> {
   /// Reads the outputs of a frame at the model's own rate.
   void show_frame(int block, Real* out) const { show(block, out); }
 
-  /// Starts one lane at the origin, or above it at its recorded height if that is bounded, with a random heading and a
-  /// segment of a mode drawn from those that begin recordings.
+  /// Starts one lane at the origin, or above it at its segment's recorded height if heights are bounded, with a random
+  /// heading and a segment of a mode drawn from those that begin recordings.
   void start(int block, int lane, const Moment<N>& moment) {
     const Party party = Party::of(block, lane);
     const Drawn words = Joining::draw(party, block, moment, 1);

@@ -65,7 +65,7 @@ inline void philox(const RandomKeys& keys, Pack<Part, kParts> (&words)[4]) {
 /// Counters that distinguish the lanes' random numbers: the instance's stream, and its age in steps.
 struct LaneCounters {
   const std::uint64_t* stream;
-  const std::uint64_t* born;  ///< the bank's step at which the instance was spawned
+  const std::uint64_t* born;  ///< the bank's step at which the instance was spawned or reset
   std::uint64_t step;         ///< the bank's step now
 };
 
@@ -86,7 +86,7 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
 /// Number of channels whose deviates come from one group of words.
 inline constexpr int kGroupChannels = 8;
 
-/// Draws the random words of one group, below 2^16.
+/// Draws the random words of one group. Precondition: group < 2^16.
 template <class N>
 inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
                          Words<N> (&words)[4]) {
