@@ -485,7 +485,7 @@ class ResampledLanes {
     const std::uint32_t count = nearest.count(seeker);
     if (count == 0) return ahead ? on : arrive(life, lane, heard, rows.place[rows.count - 1], word);
     if (ahead && value_of(*ahead - Real(nearest.apart[0][seeker])) <= program_.tolerance) return on;
-    const auto which = static_cast<std::uint32_t>(nearest.candidate[scaled(word, count)][seeker]);
+    const auto which = static_cast<std::uint32_t>(nearest.candidate[share_of(word, count)][seeker]);
     return arrive(life, lane, heard, rows.place[which], word);
   }
 
@@ -496,11 +496,6 @@ class ResampledLanes {
     const Real side(place % 2 != 0 ? -1.0f : 1.0f);
     for (int axis = 0; axis < 2; ++axis) from(life.at, axis)[lane] = side * heard.from[axis][lane];
     return place / 2 * 2 + (life.number == 0 ? 0 : word % 2);
-  }
-
-  // Scales a word to a whole number below `count`.
-  static std::uint32_t scaled(std::uint32_t word, std::uint32_t count) {
-    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word) * count) >> 32);
   }
 
   ResampledProgram program_;

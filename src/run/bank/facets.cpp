@@ -9,7 +9,7 @@
 namespace wisp {
 namespace {
 
-constexpr float kLeastNear = 0.001f;  // metres
+constexpr float kMinNear = 0.001f;  // metres
 constexpr float kMaxNear = 1000.0f;
 constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
 constexpr float kMinOrientation = 1e-6f;  // bound of its squared norm
@@ -30,7 +30,7 @@ bool is_sound(const BodyMoment& body) {
 }
 
 bool is_sound(const SteerTarget& target) {
-  return is_near_enough(target.position) && target.near >= kLeastNear && target.near <= kMaxNear &&
+  return is_near_enough(target.position) && target.near >= kMinNear && target.near <= kMaxNear &&
          target.in > std::chrono::nanoseconds::zero() && target.in <= kLongestSteering;
 }
 
@@ -69,7 +69,7 @@ bool ChainFacet::steer(InstanceId id, const SteerTarget& target) {
 
 bool ChainFacet::release(InstanceId id) {
   if (!state_->valid(id)) return false;
-  if (can_steer()) state_->chain_stepper()->steer(block_of(id), lane_of(id), {}, 0.0f, kLeastNear);
+  if (can_steer()) state_->chain_stepper()->steer(block_of(id), lane_of(id), {}, 0.0f, kMinNear);
   return true;
 }
 

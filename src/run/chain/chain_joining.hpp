@@ -29,7 +29,7 @@ class ChainJoining {
   using Lane = ChainLane<Real>;
   using Party = ChainParty<PartNumbers<N>>;
   static constexpr int kLanes = N::kLanes;
-  static constexpr int kMembers = Party::kMost;
+  static constexpr int kMembers = Party::kMax;
   using Drawn = std::array<std::array<std::uint32_t, kMembers>, 4>;  ///< [word][member]
 
   ChainJoining(ChainLives<N>& lives, const ChainChoice& choice, ChainSteering<Real>& steering)

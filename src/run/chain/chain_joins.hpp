@@ -21,10 +21,10 @@
 
 namespace wisp {
 
-/// Lanes, from several blocks, that join or begin to fade in this step: at most kMost, computed in parallel.
+/// Lanes, from several blocks, that join or begin to fade in this step: at most kMax, computed in parallel.
 template <class N>
 struct ChainParty {
-  static constexpr int kMost = N::kLanes;
+  static constexpr int kMax = N::kLanes;
 
   std::size_t count = 0;
   std::array<int, N::kLanes> block{};
@@ -36,7 +36,7 @@ struct ChainParty {
     return party;
   }
 
-  bool is_full() const { return count == kMost; }
+  bool is_full() const { return count == kMax; }
 
   /// Precondition: !is_full().
   void add(int of_block, int of_lane) {

@@ -182,12 +182,6 @@ class ChainMover {
     return mode;
   }
 
-  /// Draws the next mode and a segment of it, and updates the history.
-  std::uint32_t draw(Real& of_state, std::uint32_t before, const ChainChoice& choice, const ChainWords& words) const {
-    const std::uint32_t mode = draw_mode(of_state, choice, words);
-    return choice.successor(program_, before, mode, words);
-  }
-
   /// Returns where a segment begins: at its recorded height, if heights are bounded.
   Vector3<Real> beginning_of(std::uint32_t segment) const {
     if (program_.height.empty()) return {};

@@ -210,7 +210,7 @@ class ChainStepper : private ChainLives<N> {
     Lane life = lane_of(block, lane);
     const auto segments = static_cast<float>(program_.segments() - 1);
     visit(life.segment, 0.0f, segments, 1.0f);
-    visit(life.row, 0.0f, 65535.0f, 1.0f);
+    visit(life.row, 0.0f, static_cast<float>(kMaxSegmentSteps), 1.0f);
     visit(life.state, 0.0f, static_cast<float>(program_.states() - 1), 1.0f);
     for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
     visit_turn(life.turn, visit);

@@ -95,6 +95,22 @@ inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], 
   philox(keys, words);
 }
 
+/// Scales a random word to a whole number below `count`.
+inline std::uint32_t share_of(std::uint32_t word, std::uint32_t count) {
+  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word) * count >> 32);
+}
+
+/// Returns the mode of the largest probability; `threshold`: cumulative probabilities as words.
+inline std::uint32_t likeliest(const std::uint32_t* threshold, std::uint32_t modes) {
+  std::uint32_t best = 0, most = threshold[0];
+  for (std::uint32_t mode = 1; mode < modes; ++mode) {
+    if (threshold[mode] - threshold[mode - 1] <= most) continue;
+    most = threshold[mode] - threshold[mode - 1];
+    best = mode;
+  }
+  return best;
+}
+
 /// Two standard normal deviates per lane.
 template <class Values>
 struct NormalPair {
