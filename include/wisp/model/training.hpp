@@ -64,9 +64,9 @@ enum class Origin : std::uint8_t {
 struct ExtinctionTraining {
   Origin origin = Origin::kDefault;
   std::uint32_t deaths = 0;      ///< number of recorded extinctions
-  std::uint32_t died = 0;        ///< number of those that the rule reproduces
+  std::uint32_t died = 0;        ///< number of recorded extinctions that the rule reproduces
   std::uint32_t gusts = 0;       ///< number of recorded gusts that were survived
-  std::uint32_t spared = 0;      ///< number of those that the rule survives
+  std::uint32_t spared = 0;      ///< number of survived gusts in which the rule extinguishes nothing
   double vanishing_seconds = 0;  ///< time for which an extinguished flame stays visible to the camera
 
   bool operator==(const ExtinctionTraining&) const = default;

@@ -67,7 +67,7 @@ struct Bank::State {
   bool lives_whole(int block) const;
   void read_whole_block(int block, float* rows) const;
   template <class Work>
-  std::uint64_t share(Work work);  // returns the sum of work(first block, one past its last) over all blocks
+  std::uint64_t share(Work work);  // returns the sum of work(first, end) over ranges of blocks that cover all
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
   void live_block(int block, const float* newest, std::uint64_t moment);
   void go_out(int slot, const float* newest, std::uint64_t moment);

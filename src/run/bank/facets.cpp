@@ -111,7 +111,7 @@ namespace {
 
 constexpr int kBodyLanes = Bank::State::kLanes;
 
-// Computes a ring from two points each of the outlines in front and side view, equally far from the tip.
+// Computes a ring from four points equally far from the tip: left and right in front view, left and right in side view.
 std::array<float, kRingNumbers> ring_of(const Bank::State& s, int ring, int lane) {
   const int points = s.polyline.points;
   const auto at = [&](int side, int point, int coordinate) {
