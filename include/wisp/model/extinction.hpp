@@ -19,7 +19,7 @@
 namespace wisp {
 
 /// Recorded events, step by step: the apparent size of the flame and, for re-ignition, its shape. The recorded outline
-/// is that of the shape, multiplied by the size.
+/// is the shape's outline times the size.
 struct FlameEvents {
   static constexpr std::size_t kMaxEvents = 64;    ///< largest number of events
   static constexpr std::size_t kMaxSizes = 65536;  ///< largest number of sizes in all events
@@ -53,7 +53,7 @@ struct Extinction {
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
 
-/// Returns the events to play at a rate: the rule's own, or if it has none those of a simulated candle.
+/// Returns the events to play at a rate: the rule's own, or if it has none, events of a simulated candle.
 FlameEvents dying_of(const Extinction& rule, double rate_hz);
 FlameEvents catching_of(const Extinction& rule, double rate_hz);
 

@@ -81,7 +81,7 @@ struct Model {
   Dynamics dynamics;
   View view;
   Training training;
-  std::optional<Extinction> extinction;  ///< none: it is never extinguished
+  std::optional<Extinction> extinction;  ///< none: the object is never extinguished
 };
 
 /// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
@@ -91,7 +91,7 @@ struct Model {
 /// from either side.
 Result<Model> in_the_round(const Model& plane);
 
-/// Returns whether a model is a body: its outputs are its outline in the view from one side.
+/// Returns whether a model is a body, whose outputs are its outline seen from one side.
 bool is_in_the_round(const Model& model);
 
 /// Returns the number of regressors of all inputs: the number of inputs of the dynamics.

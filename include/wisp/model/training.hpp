@@ -93,7 +93,7 @@ struct Training {
   std::vector<Note> recipe;          ///< settings, given or chosen
   std::vector<Figure> figures;       ///< finite figures
   Usable usable;
-  std::vector<InputTraining> inputs;  ///< one per input of the model; empty: it was not learned from recordings
+  std::vector<InputTraining> inputs;  ///< one per input of the model; empty: the model was not learned from recordings
   std::vector<double> residual_sd;    ///< one-step residual standard deviation per output; chains: empty
   std::optional<bool> underside;      ///< outlines: whether they include the flame's underside; none: mixed
   Preparation preparation{};

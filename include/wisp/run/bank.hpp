@@ -28,7 +28,7 @@ class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
 
-/// Names one instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot has
+/// Names one instance of a bank, by value. The id of an ended instance stays invalid: the next instance in its slot has
 /// another generation.
 struct InstanceId {
   std::uint32_t slot = 0;
@@ -213,7 +213,7 @@ class Bank {
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;
 
-  /// Restores a state written by save() of a bank with the same model and capacity (the seed comes with it).
+  /// Restores a state, seed included, that save() wrote for a bank with the same model and capacity.
   /// Errors: too short or too long, not a bank's state, a version that this build does not read, another model or
   /// capacity, damaged. The bank is then unchanged.
   Result<void> restore(std::span<const std::byte> bytes);

@@ -101,7 +101,7 @@ void Bank::State::start(int slot) {
   show_block(block);
 }
 
-// The instance starts from rest, like a new one. Its random stream continues, so that it does not repeat its first
+// The dynamics restart at the operating point. The random stream continues, so that the flame does not repeat its first
 // flicker.
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;

@@ -49,7 +49,7 @@ class ChainChoice {
     return static_cast<float>(width) * (1.0f / 4294967296.0f);
   }
 
-  /// Returns candidate k among a mode's possible successors: the k-th best-joining, or if any may follow, a random one.
+  /// Returns candidate k among a mode's successors: the k-th best-joining, or without a list a random segment of it.
   std::uint32_t candidate(const ChainProgram& program, std::uint32_t before, std::uint32_t mode, std::uint32_t k,
                           const ChainWords& words) const {
     if (program.breadth == 0) return any(program, mode, words.segment + k * 0x9E3779B9U);

@@ -160,7 +160,8 @@ class ChainJoins {
 
   static std::size_t edge_number(std::uint32_t segment, bool end) { return std::size_t{2} * segment + (end ? 1 : 0); }
 
-  // Returns the rotation of a successor. Where heading is kept it changes by 0, or by 360° to keep a quaternion's sign.
+  // Returns the rotation of a successor. If heading is not free, the rotation changes by 0, or by 360° where a
+  // quaternion's sign demands it.
   ChainTurn<Values> turn_after(const ChainTurn<Values>& turn, const Edge& end, const Edge& start) const {
     const Turn more = turn_between_edges(start, end);
     const auto cos = turn.half_cos * more.cos - turn.half_sin * more.sin;

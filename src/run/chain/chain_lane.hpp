@@ -49,7 +49,7 @@ struct ChainGap {
   Vector3<Real> slip{};
 };
 
-/// The join after a segment: the next one's placement, and the difference.
+/// The join after a segment: the next segment's rotation, and the gap.
 template <class Number>
 struct ChainAhead {
   ChainTurn<Number> turn{};
@@ -89,7 +89,7 @@ struct ChainPlan {
   Vector3<Real> target{};  ///< steering: target position
 };
 
-/// Number of values in `ahead` and those read with it.
+/// Number of values that joins read of a plan: those of `ahead`, and the three after it.
 inline constexpr std::size_t kAheadNumbers = 20;
 
 template <class Real>
@@ -224,8 +224,8 @@ class ChainMover {
     float quiet_from;  ///< the first row without an offset
     float quiet_to;    ///< the last row without an offset; 0 if the offsets of both joins overlap
     float turn;        ///< the first row of the latter half of a curve
-    float last_turn;   ///< the same for the second curve
-    float curve;  ///< the row after which the curve to the next segment begins, if it does not begin with the segment
+    float last_turn;   ///< as `turn`, for the curve towards the next segment
+    float curve;       ///< the row after which that curve begins, unless it begins with the segment
   };
   Rows rows_of(std::uint32_t segment) const {
     const std::uint32_t blend = program_.blend_steps, steps = program_.steps(segment);
@@ -302,7 +302,7 @@ class ChainMover {
     return placed(lane, added(vector(at), scaled(vector(more), share)));
   }
 
-  /// Converts a whole number that is stored as a real one; returns bound − 1 for any that is not below the bound.
+  /// Converts a whole number that is stored as a Real. Returns bound − 1 for a number that is not below the bound.
   static std::uint32_t index(Real number, std::uint32_t bound) {
     const auto whole = static_cast<std::uint32_t>(value_of(number));
     return whole < bound ? whole : bound - 1;

@@ -183,7 +183,7 @@ class Presentation {
  private:
   Values mean_, scale_, lowest_, highest_;
   bool scales_;
-  bool own_;  // z is in its own unit and range
+  bool own_;  // z is already in the output's unit and range
 };
 
 /// Loads one part of the values of consecutive blocks, `after` numbers from the beginning of each.
