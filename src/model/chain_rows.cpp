@@ -233,12 +233,13 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   ChainSegments& segments = chain.segments;
   // With at most kMaxSegments segments, the number of rows fits in 32 bits.
   if (segments.steps.size() != segments.size() || segments.size() > kMaxSegments) return damaged;
-  const std::size_t rows = std::size_t{segment_rows(segments).back()} * channels;
+  const std::size_t rows = segment_rows(segments).back();
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
-  // Each number takes at least one bit, so a size that the bytes cannot hold allocates nothing.
-  if (rows + rates > 8 * bytes.size()) return damaged;
+  // Each number takes at least one bit, so a size that the bytes cannot hold allocates nothing. The quotient comes
+  // first: rows · channels may exceed 32 bits.
+  if (rows > 8 * bytes.size() / channels || rows * channels + rates > 8 * bytes.size()) return damaged;
   segments.rates.assign(rates, 0);
-  segments.rows.assign(rows, 0);
+  segments.rows.assign(rows * channels, 0);
   BitReader in(bytes);
   RateFactors factors{};
   for (std::int32_t& factor : factors) {
