@@ -101,7 +101,7 @@ std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_
   }
 }
 
-// Factors from told_rate() to a stored rate, as integers in units of 2^−kShifts: of velocities, and of angular
+// Factors that convert told_rate() to a stored rate, in units of 2^−kShifts: one for velocities, one for angular
 // velocities.
 using RateFactors = std::array<std::int32_t, 2>;
 
@@ -138,7 +138,7 @@ std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, -32768, 32767));
 }
 
-// Calls use(number, prediction, kind) for all rows and rates, each before any number that is predicted by it.
+// Calls use(number, prediction, kind) for all rows and rates, each before the numbers that are predicted from it.
 template <class Use>
 void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int16_t* rows, std::int16_t* rates,
                    Use use) {
@@ -186,7 +186,7 @@ RateFactors factors_of(const ChainModel& chain) {
   return factors;
 }
 
-// Returns the index of each mode's first segment, and one past the last of all.
+// Returns the index of each mode's first segment, and one past the last segment.
 std::vector<std::size_t> first_of_modes(const ChainModel& chain) {
   std::vector<std::size_t> first(static_cast<std::size_t>(chain.modes) + 1);
   for (std::uint16_t mode : chain.segments.mode) {
@@ -233,12 +233,13 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   ChainSegments& segments = chain.segments;
   // With at most kMaxSegments segments, the number of rows fits in 32 bits.
   if (segments.steps.size() != segments.size() || segments.size() > kMaxSegments) return damaged;
-  const std::size_t rows = std::size_t{segment_rows(segments).back()} * channels;
+  const std::size_t rows = segment_rows(segments).back();
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
-  // Each number takes at least one bit, so a size that the bytes cannot hold allocates nothing.
-  if (rows + rates > 8 * bytes.size()) return damaged;
+  // Each number takes at least one bit, so a size that the bytes cannot hold allocates nothing. The quotient comes
+  // first: rows · channels may exceed 32 bits.
+  if (rows > 8 * bytes.size() / channels || rows * channels + rates > 8 * bytes.size()) return damaged;
   segments.rates.assign(rates, 0);
-  segments.rows.assign(rows, 0);
+  segments.rows.assign(rows * channels, 0);
   BitReader in(bytes);
   RateFactors factors{};
   for (std::int32_t& factor : factors) {

@@ -15,7 +15,7 @@ struct Range {
   double highest;
 };
 
-// Sizes of the simulated candle at 60 rows per second: a clip of --wind puffs.
+// Sizes of a simulated candle in puffs of wind, 60 per second.
 constexpr double kBorrowedHz = 60;
 constexpr std::uint8_t kDying[] = {191, 128, 64, 237, 178, 119, 59, 242, 161, 121, 81, 40, 230, 173, 115, 58};
 constexpr std::uint32_t kDyingEnds[] = {3, 7, 12, 16};

@@ -9,6 +9,8 @@ namespace {
 
 namespace fb = wisp_flatbuffers;
 
+constexpr int kMaxStoredChannels = 4096;  // as in check(); the orders of a row, 16 bits each, then add up to an int
+
 std::vector<std::uint16_t> flat(const OrderMatrix& matrix) { return {matrix.values().begin(), matrix.values().end()}; }
 
 template <class Row>
@@ -135,7 +137,7 @@ fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optio
 
 std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
 
-Error wrong_size(const std::string& what, std::size_t found, std::size_t expected) {
+Error wrong_size(const std::string& what, std::size_t found, std::uint64_t expected) {
   return {"is damaged: " + what + " holds " + std::to_string(found) + " values, expected " + std::to_string(expected)};
 }
 
@@ -153,8 +155,8 @@ Result<OrderMatrix> read_orders(const fb::Vector<std::uint16_t>& values, int row
 Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& stored, const ArxOrders& orders,
                                                    const std::string& name) {
   const std::vector<double> values = copied(&stored);
-  std::size_t expected = 0;
-  for (int i = 0; i < orders.outputs(); ++i) expected += orders.row_size(i);
+  std::uint64_t expected = 0;  // may exceed 32 bits
+  for (int i = 0; i < orders.outputs(); ++i) expected += static_cast<std::uint64_t>(orders.row_size(i));
   if (values.size() != expected) return wrong_size(name, values.size(), expected);
   std::vector<std::vector<double>> rows;
   auto next = values.begin();
@@ -350,6 +352,10 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
   const int ny =
       shape ? shape->symmetric() + shape->antisymmetric() + shape->across() : static_cast<int>(model.outputs.size());
   const int nu = static_cast<int>(regressor_count(model.inputs));
+  if (ny > kMaxStoredChannels || nu > kMaxStoredChannels) {
+    return Error{"has dynamics of " + std::to_string(ny) + " outputs and " + std::to_string(nu) +
+                 " inputs, expected at most 4096"};
+  }
   if (const auto* switched = stored.dynamics_as_SwitchedArx()) return take(read_switched(*switched, ny, nu));
   const auto* arx = stored.dynamics_as_Arx();
   if (!arx) return Error{"has a kind of dynamics that this program does not know; update Wisp"};

@@ -14,8 +14,8 @@
 
 namespace wisp {
 
-/// The numbers of a stored vector; none if it is absent. The verifier bounds a vector but does not align its elements
-/// beyond 4 bytes, so they are copied out as bytes.
+/// Returns the numbers of a stored vector; none if it is absent. They are copied as bytes, since a verified vector may
+/// still have elements that are only aligned to 4 bytes.
 template <class Number>
 std::vector<Number> copied(const wisp_flatbuffers::Vector<Number>* stored) {
   std::vector<Number> out(stored ? stored->size() : 0);
@@ -25,7 +25,8 @@ std::vector<Number> copied(const wisp_flatbuffers::Vector<Number>* stored) {
 
 std::vector<std::byte> write_payload(const Model& model);
 
-/// Errors: not a valid FlatBuffer of this schema, or a matrix whose size does not fit its shape.
+/// Errors: not a valid FlatBuffer of this schema, an unknown kind, a matrix whose size does not fit its shape, and
+/// those of read_chain().
 Result<Model> read_payload(std::span<const std::byte> payload);
 
 wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBuilder& builder,

@@ -135,6 +135,17 @@ TEST(ChainModel, MoreSegmentsThanThereCanBeAreNotUnpacked) {
   EXPECT_TRUE(many.segments.rows.empty());
 }
 
+TEST(ChainModel, MoreRowsThanTheirBytesCanHoldAreNotUnpacked) {
+  // Seven numbers each of 613 566 757 rows are 2^32 + 3: three, counted in 32 bits.
+  ChainModel many = std::get<ChainModel>(sample_chain().dynamics);
+  many.segments = {};
+  many.segments.mode.assign(9363, 0);
+  many.segments.steps.assign(9363, 65535);
+  many.segments.steps.back() = 18724;
+  EXPECT_FALSE(unpack_segments(std::vector<std::uint8_t>(200'000), many));
+  EXPECT_TRUE(many.segments.rows.empty());
+}
+
 TEST(ChainModel, FactorsOfRatesThatNoFileHasAreNotMultipliedBy) {
   const ChainModel model = std::get<ChainModel>(sample_chain().dynamics);
   std::vector<std::uint8_t> packed = packed_segments(model);

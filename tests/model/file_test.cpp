@@ -260,25 +260,28 @@ TEST(ModelFile, EveryTruncationIsAnError) {
   }
 }
 
+// Returns a file's bytes with the hash of its payload in the header.
+std::vector<std::byte> mended(std::vector<std::byte> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (std::byte byte : std::span(bytes).subspan(32)) {
+    hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
+  }
+  for (int k = 0; k < 8; ++k) bytes[24 + k] = static_cast<std::byte>(hash >> (8 * k));
+  return bytes;
+}
+
 // With the hash mended, damage reaches the FlatBuffer's verifier and the checks of meaning: none may crash, and what
 // still loads must be a valid model.
 TEST(ModelFile, DamageBehindAGoodHashNeverGivesAnInvalidModel) {
   Model whole = sample_model();
   whole.extinction = mortal_model().extinction;
   const std::vector<std::byte> good = *model_bytes(whole);
-  const auto fnv = [](std::span<const std::byte> payload) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (std::byte byte : payload) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
-    return hash;
-  };
   std::size_t refused = 0;
   for (std::size_t at = 32; at < good.size(); ++at) {
     for (int value : {0x00, 0x01, 0x7f, 0x80, 0xff}) {
       std::vector<std::byte> bytes = good;
       bytes[at] = static_cast<std::byte>(value);
-      const std::uint64_t hash = fnv(std::span(bytes).subspan(32));
-      for (int k = 0; k < 8; ++k) bytes[24 + k] = static_cast<std::byte>(hash >> (8 * k));
-      const auto outcome = parse_model(bytes, "hostile.wisp");
+      const auto outcome = parse_model(mended(bytes), "hostile.wisp");
       if (outcome) {
         EXPECT_TRUE(check(*outcome));
       } else {
@@ -287,6 +290,19 @@ TEST(ModelFile, DamageBehindAGoodHashNeverGivesAnInvalidModel) {
     }
   }
   EXPECT_GT(refused, 100u);
+}
+
+// The square of 65 536 components is 0 in 32 bits, the size of an empty matrix.
+TEST(ModelFile, MoreComponentsThanThereCanBeAreRefusedBeforeTheirMatricesAreRead) {
+  const std::vector<std::byte> good = *model_bytes(shaped_model());
+  std::size_t refused = 0;
+  for (std::size_t at = 32; at + 1 < good.size(); ++at) {
+    std::vector<std::byte> bytes = good;
+    bytes[at] = bytes[at + 1] = std::byte{0xff};
+    const auto outcome = parse_model(mended(bytes), "hostile.wisp");
+    if (!outcome && outcome.error().message.find("expected at most 4096") != std::string::npos) ++refused;
+  }
+  EXPECT_GT(refused, 0u);
 }
 
 TEST(ModelFile, OtherFilesAndVersionsAreNamed) {

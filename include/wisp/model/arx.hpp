@@ -70,12 +70,12 @@ struct ResampledResiduals {
   std::vector<std::int16_t> winds;  ///< input samples: per stretch, first as many as the largest lag from before it,
                                     ///< then one per row
   int toward = -1;                  ///< index of the regressor that holds the input; -1: none
-  std::vector<int> lags;    ///< 1 to kMaxResampledLags lags, steps, ascending from 0; empty without a driving input
+  std::vector<int> lags;    ///< up to kMaxResampledLags lags, ascending from 0, ≤ 4096 steps; empty: no driving input
   double tolerance = 0;     ///< excess over the nearest row's distance that causes a jump, in the regressor's unit
-  double margin = 0;        ///< distance below which histories count as equal, in the regressor's unit
+  double margin = 0;        ///< difference at one lag below which inputs count as equal, in the regressor's unit
   int longest = 1;          ///< with a driving input, longest run of rows between jumps, 1 to 1 000 000 steps
-  std::vector<int> mirror;  ///< per output ±(1 + index of the output whose residual, with this sign, replaces its
-                            ///< own if the input has the opposite sign); empty: no mirror symmetry
+  std::vector<int> mirror;  ///< per output ±(1 + j): for input of the opposite sign, the residual of output j, with
+                            ///< this sign, replaces the output's own; empty: no mirror symmetry
   int across = 0;  ///< for 3-D bodies: the last `across` outputs are the z components of horizontal vectors, the
                    ///< `across` before them the x components. A row stores one number per vector, its component along
                    ///< the wind; the component across comes from a second row. Regressor `toward + 3` is the wind's z
@@ -94,7 +94,7 @@ inline constexpr std::size_t kMaxResampledRows = std::size_t{1} << 22;
 struct ResidualNoise {
   std::vector<double> sd;                      ///< standard deviation per output, in the output's unit
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
-  ResampledResiduals resampled;                ///< if it has rows, they are e(t), and the rest only describes them
+  ResampledResiduals resampled;                ///< if it has rows, they are e(t), and sd only describes them
 };
 
 /// Coefficients of output row i are contiguous: for each output j its na(i,j) lags of A in the equation's own sign and

@@ -38,13 +38,13 @@ inline constexpr std::size_t kMaxSegmentSteps = 65535;
 struct ChainSegments {
   std::vector<std::uint16_t> mode;    ///< mode per segment
   std::vector<std::uint16_t> steps;   ///< per segment, steps of the model's clock from its event to the next; ≥ 1
-  std::vector<std::int16_t> rows;     ///< per segment (steps + 1) rows of all channels; at its last the next joins
+  std::vector<std::int16_t> rows;     ///< per segment (steps + 1) rows of all channels; its successor joins at the last
   std::vector<double> row_scale;      ///< scale of positions and, for poses, of quaternions: value = scale · row; > 0
   std::vector<std::int16_t> rates;    ///< per segment the rates at its start, then at its end, per second
   std::vector<double> rate_scale;     ///< scale of velocities and, for poses, of angular velocities; > 0
   std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the best-joining successors of that mode, best
                                       ///< first; empty where breadth is 0
-  int breadth = 0;                    ///< number of successors per mode; 0: any segment of the mode
+  int breadth = 0;                    ///< number of successors per mode, 0 to 256; 0: any segment of the mode
   std::vector<std::int16_t> height;   ///< initial z per segment, for motion between a floor and a ceiling: joins lead z
                                       ///< back to it. Empty: z continues from its current value
   double height_scale = 0;            ///< metres = scale · height; > 0 if there are heights
@@ -53,11 +53,10 @@ struct ChainSegments {
 };
 
 /// Effect of wind on the velocity of a chain's body: v_windy − v_calm = F(wind, attitude), an autoregression with
-/// exogenous inputs. Regressors are the change one step before, the wind and the normal wind: the component along the
-/// body's normal n, n (n·u), of the wind u relative to the body's changed velocity. If the coefficients of change and
-/// wind sum to 1, a steady wind carries the body along with it at any attitude, as a change of frame demands. The
-/// response is isotropic in the horizontal plane, so that one set of coefficients holds for x and y and turns with the
-/// heading; z has its own.
+/// exogenous inputs. Regressors are the change one step before, the wind, and the normal wind n (n·u), where n is the
+/// body's normal and u the wind less the change one step before. If the coefficients of change and wind sum to 1, a
+/// steady wind carries the body along with it at any attitude, as a change of frame demands. The response is isotropic
+/// in the horizontal plane: one set of coefficients holds for x and y and turns with the heading; z has its own.
 struct GustResponse {
   struct Axis {
     double change = 0;
@@ -85,7 +84,7 @@ struct ChainModel {
   bool heading_free = true;  ///< segments are rotated about z to join; otherwise only translated
   int modes = 0;
   ChainSegments segments;
-  std::vector<double> initial;        ///< probability per mode of a recording's first one; sums to 1
+  std::vector<double> initial;        ///< per mode, probability that a recording begins in it; sums to 1
   int history = 1;                    ///< number of past modes that determine the next one, 1 or 2
   std::vector<double> probabilities;  ///< transition probabilities, rows of `modes` numbers that sum to 1: row b after
                                       ///< mode b; for history 2, row modes · (1 + a) + b after modes a and then b

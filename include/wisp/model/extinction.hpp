@@ -19,14 +19,14 @@
 namespace wisp {
 
 /// Recorded events, step by step: the apparent size of the flame and, for re-ignition, its shape. The recorded outline
-/// is that of the shape, multiplied by the size.
+/// is the shape's outline times the size.
 struct FlameEvents {
   static constexpr std::size_t kMaxEvents = 64;    ///< largest number of events
   static constexpr std::size_t kMaxSizes = 65536;  ///< largest number of sizes in all events
 
   std::vector<std::uint8_t> sizes;    ///< a stored 255 is the full size
   std::vector<std::uint32_t> ends{};  ///< one past the last size of each event, ascending
-  std::vector<double> scale{};        ///< per component of the view's shape: a stored 1, >= 0; empty: sizes alone
+  std::vector<double> scale{};        ///< value of a stored 1 per component of the view's shape, >= 0; empty: no shapes
   std::vector<std::int8_t> shapes{};  ///< sizes × components
 
   bool empty() const { return ends.empty(); }
@@ -53,12 +53,12 @@ struct Extinction {
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
 
-/// Returns the events to play at a rate: the rule's own, or if it has none those of a simulated candle.
+/// Returns the events to play at a rate: the rule's own, or if it has none, events of a simulated candle.
 FlameEvents dying_of(const Extinction& rule, double rate_hz);
 FlameEvents catching_of(const Extinction& rule, double rate_hz);
 
 /// Checks that every number is finite and in its range, that the rule's input is below `inputs`, that recorded shapes
-/// have one number for each of the `components` of the outline's shape in the plane, and that decay has no shapes.
+/// have one number for each of the `components` of the outline's shape in the plane, and that `dying` has no shapes.
 /// Errors name the number, what was found and what was expected.
 Result<void> check(const Extinction& rule, std::size_t inputs, std::size_t components);
 

@@ -81,16 +81,17 @@ struct Model {
   Dynamics dynamics;
   View view;
   Training training;
-  std::optional<Extinction> extinction;  ///< none: it is never extinguished
+  std::optional<Extinction> extinction;  ///< none: the object is never extinguished
 };
 
 /// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
 /// become vectors of the horizontal plane, and so does the wind, in two inputs. Wind along x reproduces the numbers of
 /// `plane`, in its camera's view, to the bit. A body's model is returned unchanged. Errors: those of check(); no ARX
-/// outline of uncoupled symmetric and antisymmetric components with resampled residuals; inputs other than one wind.
+/// outline of uncoupled symmetric and antisymmetric components with resampled residuals; an input other than one wind
+/// from either side.
 Result<Model> in_the_round(const Model& plane);
 
-/// Returns whether a model is a body: its outputs are its outline in the view from one side.
+/// Returns whether a model is a body, whose outputs are its outline seen from one side.
 bool is_in_the_round(const Model& model);
 
 /// Returns the number of regressors of all inputs: the number of inputs of the dynamics.

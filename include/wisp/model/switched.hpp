@@ -33,8 +33,8 @@ struct SwitchedArxModel {
   std::vector<ArxMode> modes;       ///< 1 … kMaxArxModes
   std::vector<double> initial;      ///< per mode, probability at an instance's first sample; sums to 1
   std::vector<double> transitions;  ///< probabilities, from × to, row-major; rows sum to 1
-  /// Quantiles of recorded shocks over their standard deviation, at probabilities 0, 1/16 … 1; or empty. Exported lamps
-  /// draw from them, banks play normal shocks.
+  /// Quantiles of recorded shocks over their standard deviation, at probabilities 0, 1/16 … 1; or empty. Only exported
+  /// firmware draws from them; banks draw normal shocks.
   std::vector<double> shock_quantiles{};
 };
 

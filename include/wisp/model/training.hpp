@@ -64,9 +64,9 @@ enum class Origin : std::uint8_t {
 struct ExtinctionTraining {
   Origin origin = Origin::kDefault;
   std::uint32_t deaths = 0;      ///< number of recorded extinctions
-  std::uint32_t died = 0;        ///< number of those that the rule reproduces
+  std::uint32_t died = 0;        ///< number of recorded extinctions that the rule reproduces
   std::uint32_t gusts = 0;       ///< number of recorded gusts that were survived
-  std::uint32_t spared = 0;      ///< number of those that the rule survives
+  std::uint32_t spared = 0;      ///< number of survived gusts in which the rule extinguishes nothing
   double vanishing_seconds = 0;  ///< time for which an extinguished flame stays visible to the camera
 
   bool operator==(const ExtinctionTraining&) const = default;
@@ -76,8 +76,8 @@ struct ExtinctionTraining {
 struct Preparation {
   bool detrend = false;    ///< remove a linear trend from every channel; means stay
   double highpass_hz = 0;  ///< ≥ 0; 0: none
-  double lowpass_hz = 0;
-  double resample_hz = 0;
+  double lowpass_hz = 0;   ///< ≥ 0; 0: none
+  double resample_hz = 0;  ///< ≥ 0; 0: none
 
   bool operator==(const Preparation&) const = default;
 };
@@ -93,7 +93,7 @@ struct Training {
   std::vector<Note> recipe;          ///< settings, given or chosen
   std::vector<Figure> figures;       ///< finite figures
   Usable usable;
-  std::vector<InputTraining> inputs;  ///< one per input of the model; empty: it was not learned from recordings
+  std::vector<InputTraining> inputs;  ///< one per input of the model; empty: the model was not learned from recordings
   std::vector<double> residual_sd;    ///< one-step residual standard deviation per output; chains: empty
   std::optional<bool> underside;      ///< outlines: whether they include the flame's underside; none: mixed
   Preparation preparation{};

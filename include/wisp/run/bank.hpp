@@ -28,7 +28,7 @@ class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
 
-/// Names one instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot has
+/// Names one instance of a bank, by value. The id of an ended instance stays invalid: the next instance in its slot has
 /// another generation.
 struct InstanceId {
   std::uint32_t slot = 0;
@@ -127,10 +127,11 @@ class Bank {
   /// Sets the inputs of one instance: input_count() values. Returns false when `id` is not valid.
   bool set_inputs(InstanceId id, std::span<const float> values);
 
-  /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper.
-  /// A segment chain has no residual noise, only random choices: at 0 it always takes the likeliest mode, and of its
-  /// segments the best-joining or, without a list of successors, the first. Instances then differ by their initial
-  /// heading alone, and their motion eventually becomes periodic. Any other scale leaves a chain unchanged.
+  /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper, and a switched
+  /// model takes the likeliest transition. A segment chain has no residual noise, only random choices: at 0 it always
+  /// takes the likeliest mode, and of its segments the best-joining or, without a list of successors, the first.
+  /// Instances then differ by their initial heading alone, and their motion eventually becomes periodic. Any other
+  /// scale leaves a chain unchanged.
   void set_noise(float scale);
   float noise() const;
 
@@ -158,7 +159,7 @@ class Bank {
   void set_crew(const Crew& crew);
 
   /// Reads all outputs: slots() × output_count(), in the outputs' units. They are clamped to the trained range extended
-  /// by kRangeMargin, then multiplied by a flame's size (LitState::size). A chain's positions are not clamped.
+  /// by kRangeMargin, then multiplied by a flame's size (LitState::size). A chain's positions are clamped to ±1000 km.
   void outputs(std::span<float> values) const;
 
   /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.
@@ -176,7 +177,8 @@ class Bank {
   /// Returns the light of an instance whose view is an outline; nothing for another view or an invalid `id`.
   std::optional<FlameLight> light(InstanceId id) const;
 
-  /// Returns the mode of a switched ARX model that produced an instance's newest sample; nothing for other models.
+  /// Returns the mode of a switched ARX model that produced an instance's newest sample; nothing before its first step
+  /// and for other models.
   std::optional<int> mode(InstanceId id) const;
 
   /// Facets offer the functions of particular kinds of model; null for another kind. They live as long as the bank,
@@ -211,7 +213,7 @@ class Bank {
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;
 
-  /// Restores a state written by save() of a bank with the same model and capacity (the seed comes with it).
+  /// Restores a state, seed included, that save() wrote for a bank with the same model and capacity.
   /// Errors: too short or too long, not a bank's state, a version that this build does not read, another model or
   /// capacity, damaged. The bank is then unchanged.
   Result<void> restore(std::span<const std::byte> bytes);

@@ -37,7 +37,7 @@ class BodyFacet {
  public:
   /// Sets the level camera whose view Bank::outputs() and polylines() return. The unit vector (right_x, right_z) points
   /// to the camera's right: (1, 0) for the camera that filmed the flame, (0, −1) for one a quarter turn further,
-  /// anticlockwise from above. save() does not write it.
+  /// anticlockwise from above. save() does not write the view.
   void look(float right_x, float right_z);
 
   /// Returns the number of rings of a body, from base to tip: half of the polyline's points, rounded up.

@@ -43,12 +43,13 @@ class ChainFacet {
   std::optional<ChainPlace> place_of(InstanceId id) const;
 
   /// Sets the state of an instance, as after a collision or a kick: it continues with the segment whose initial motion
-  /// is nearest to the body's; the difference decays as at any join. If the chain is not heading-free, or has no
-  /// orientation, that part of the state is ignored. Searches every segment once: too expensive for every frame.
-  /// Returns false, and does nothing, when `id` is not valid, a number is not within ±10⁶, or the norm out of range.
+  /// is nearest to the body's; the difference decays as at any join. A chain that is not heading-free searches without
+  /// the orientation; one of positions ignores orientation and spin. Searches every segment once: too expensive for
+  /// every frame. Returns false, and does nothing, when `id` is not valid, a number is not within ±10⁶, or the norm out
+  /// of range.
   bool place(InstanceId id, const BodyMoment& body);
 
-  /// Returns whether the chain knows the displacement of its segments: models learned before steering existed do not.
+  /// Returns whether the model has a ChainDrift, which steering needs.
   bool can_steer() const;
 
   /// Steers an instance: until the given time, joins prefer segments that lead to the target, weighed against their

@@ -14,15 +14,15 @@ namespace wisp {
 /// Age of an event that never happened.
 inline constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max();
 
-/// Whether an instance burns, and its appearance. Ages are those of the displayed state, in time that passed through
-/// steps; a renderer derives smoke and ember from them.
+/// Whether an instance burns, and its appearance. Ages are those of the displayed state, in the bank's time, which only
+/// steps advance; a renderer derives smoke and ember from them.
 struct LitState {
   bool lit = true;
   float size = 1;  ///< apparent size, 0 … 1; outputs and polylines are already multiplied by it
   std::chrono::nanoseconds since_lit = kNever;  ///< time since it was last relit; kNever if never since spawned
   std::chrono::nanoseconds since_out = kNever;  ///< time since it was last extinguished
-  bool relit = false;                           ///< relit in the last call of step() or advance(), or by hand since
-  bool went_out = false;                        ///< extinguished in the last call of step() or advance(), or by hand
+  bool relit = false;                           ///< relit since the last call of step() or advance()
+  bool went_out = false;                        ///< extinguished in the last call of step() or advance(), or since
 };
 
 /// Extinction and relighting. It lives as long as the bank, and moves with it; it allocates nothing.

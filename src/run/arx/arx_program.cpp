@@ -17,7 +17,8 @@ struct ModeRows {
   const std::vector<double>& constant;
 };
 
-// Taps of output i: inputs, then past outputs. Each channel's newest sample is last, as the previous step is done late.
+// Returns the taps of output i: inputs, then past outputs. Each channel's newest sample comes last, since it is
+// computed last.
 std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRows> modes,
                                  const std::vector<double>& units, int i) {
   std::vector<ModeWeights> taps;

@@ -31,7 +31,7 @@ struct ArxProgram {
   std::size_t shocks = 0;  ///< number of shocks of all outputs; known while measuring too, when arrays are empty
   std::span<TapRun> runs;
   std::span<std::uint32_t> row_end;    ///< per output, one past its last run
-  std::span<std::uint32_t> twin;       ///< per output, number of taps if the next differs in coefficients only, else 0
+  std::span<std::uint32_t> twin;       ///< per output, number of taps if the next output has the same taps, else 0
   std::span<float> coefficients;       ///< taps × modes; those of A are negated: a step only adds
   std::span<float> constant;           ///< outputs × modes
   std::span<std::uint32_t> shock;      ///< per shock, output whose standard normal number it scales

@@ -173,10 +173,8 @@ class ArxStepper : public ChannelHistory<N> {
         alone_(program, arena),
         shaken_(arena.take<std::uint8_t>(static_cast<std::size_t>(program.outputs))),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
-        shock_size_(arena.take<float>(program.shocks * modes.count())) {
-    if (arena.measures()) return;
-    own_shocks_ = program.shocks == channels.outputs.size() && modes_.count() == 1;
-  }
+        shock_size_(arena.take<float>(program.shocks * modes.count())),
+        own_shocks_(program.shocks == channels.outputs.size() && modes.count() == 1) {}
 
   using Choice = typename Modes::Choice;
 
@@ -370,7 +368,7 @@ class ArxStepper : public ChannelHistory<N> {
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
   std::span<float> shock_size_;     // shock sizes of the program, scaled
   bool noisy_ = false;
-  bool own_shocks_ = false;  // every output has one shock, its own
+  bool own_shocks_;  // every output has one shock, its own
 };
 
 template <class N>

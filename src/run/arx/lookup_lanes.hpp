@@ -12,7 +12,7 @@
 #include <span>
 
 #include "run/arx/resampled_program.hpp"
-#include "run/lanes/lanes.hpp"
+#include "run/lanes/random_lanes.hpp"
 #include "run/state/arena.hpp"
 
 namespace wisp {
@@ -63,10 +63,10 @@ class LookupLanes {
     while (near < kNearestPlaces && value_of(at(block, kCost + static_cast<int>(near))[lane]) < kNone) ++near;
     const std::uint32_t place =
         near == 0
-            ? scaled(where, program_.places)
-            : std::min(whole(at(block, kPlace + static_cast<int>(scaled(where, near)))[lane]), program_.places - 1);
+            ? share_of(where, program_.places)
+            : std::min(whole(at(block, kPlace + static_cast<int>(share_of(where, near)))[lane]), program_.places - 1);
     const std::uint32_t row = program_.row[place];
-    const std::uint32_t drawn = program_.shortest + scaled(how_long, program_.longest - program_.shortest + 1);
+    const std::uint32_t drawn = program_.shortest + share_of(how_long, program_.longest - program_.shortest + 1);
     at(block, kLength)[lane] = Real(static_cast<float>(std::min(drawn, left[row] + 1)));
     forget_places(block, lane);
     return row;
@@ -83,14 +83,14 @@ class LookupLanes {
       visit(at(block, kCost + k)[lane], 0.0f, kNone);
       visit(at(block, kPlace + k)[lane], 0.0f, static_cast<float>(program_.places - 1), 1.0f);
     }
-    for (int k = 0; k < static_cast<int>(kPlayedParts); ++k) visit(at(block, kCount + k)[lane], 0.0f, kMostCounted);
+    for (int k = 0; k < static_cast<int>(kPlayedParts); ++k) visit(at(block, kCount + k)[lane], 0.0f, kMaxCounted);
   }
 
  private:
   static constexpr float kNone = 1e30f;       // cost of a missing candidate
   static constexpr float kBarred = 10;        // cost added to an excluded row, which is chosen only for want of others
   static constexpr float kForgotten = 1e-3f;  // share of the play counts that decays per played row
-  static constexpr float kMostCounted = 1e7f;
+  static constexpr float kMaxCounted = 1e7f;
   static constexpr int kLength = 0, kWeight = 1, kCost = 2, kPlace = kCost + kNearestPlaces;
   static constexpr int kCount = kPlace + kNearestPlaces, kValues = kCount + static_cast<int>(kPlayedParts);
 
@@ -98,9 +98,6 @@ class LookupLanes {
   const Real* at(int block, int value) const { return state_.data() + (block * kValues + value) * kLanes; }
   static std::uint32_t whole(const Real& value) { return static_cast<std::uint32_t>(value_of(value)); }
   std::uint32_t length(int block, int lane) const { return whole(at(block, kLength)[lane]); }
-  static std::uint32_t scaled(std::uint32_t word, std::uint32_t count) {
-    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word) * count) >> 32);
-  }
 
   void forget_places(int block, int lane) {
     for (int k = 0; k < kNearestPlaces; ++k) {

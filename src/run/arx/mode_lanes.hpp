@@ -150,16 +150,6 @@ class ModeLanes {
     return mode;
   }
 
-  static std::uint32_t likeliest(const std::uint32_t* threshold, std::uint32_t modes) {
-    std::uint32_t best = 0, most = threshold[0];
-    for (std::uint32_t mode = 1; mode < modes; ++mode) {
-      if (threshold[mode] - threshold[mode - 1] <= most) continue;
-      most = threshold[mode] - threshold[mode - 1];
-      best = mode;
-    }
-    return best;
-  }
-
   ModeProgram program_;
   std::span<Real> modes_;  // [block][lane]: mode of the newest sample, or kNoMode
   bool chance_ = true;

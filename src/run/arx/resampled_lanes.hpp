@@ -146,7 +146,8 @@ class ResampledLanes {
 
   static constexpr int kVectorRegressors = 3;  // regressors per component of a vector
 
-  // A search for rows: number 0 finds residuals along the wind; 1, for a body only, those across it. `at`: its state.
+  // A search for rows: number 0 finds residuals along the wind; 1, for a body only, those across it. `at`: index of the
+  // search's state.
   struct Life {
     int block;
     int at;
@@ -288,7 +289,7 @@ class ResampledLanes {
     Real mirrored[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t next = places.next[lane];
-      // A lane that must jump may be in its stretch's last row: reads that row; the result is unused.
+      // A lane that must jump may have no next row. It reads the current one; the result is unused.
       wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
       mirrored[lane] = Real(next % 2 != 0 && program_.across == 0 ? 1.0f : 0.0f);
     }
@@ -444,7 +445,7 @@ class ResampledLanes {
     for (int first = 0; first < seekers.count; first += N::kPartLanes) rank_part(row + first, nearest, first);
   }
 
-  // Always ranks whole vectors of lanes; results of lanes without a seeker are not read.
+  // Ranks whole vectors of seekers; results beyond the last seeker are not read.
   static void rank_part(const float* const* row, Nearest& nearest, int first) {
     using Values = Pack<typename N::RealPart, 1>;
     Values best[kNearestRows], which[kNearestRows];
@@ -484,7 +485,7 @@ class ResampledLanes {
     const std::uint32_t count = nearest.count(seeker);
     if (count == 0) return ahead ? on : arrive(life, lane, heard, rows.place[rows.count - 1], word);
     if (ahead && value_of(*ahead - Real(nearest.apart[0][seeker])) <= program_.tolerance) return on;
-    const auto which = static_cast<std::uint32_t>(nearest.candidate[scaled(word, count)][seeker]);
+    const auto which = static_cast<std::uint32_t>(nearest.candidate[share_of(word, count)][seeker]);
     return arrive(life, lane, heard, rows.place[which], word);
   }
 
@@ -495,11 +496,6 @@ class ResampledLanes {
     const Real side(place % 2 != 0 ? -1.0f : 1.0f);
     for (int axis = 0; axis < 2; ++axis) from(life.at, axis)[lane] = side * heard.from[axis][lane];
     return place / 2 * 2 + (life.number == 0 ? 0 : word % 2);
-  }
-
-  // Scales a word to a whole number below `count`.
-  static std::uint32_t scaled(std::uint32_t word, std::uint32_t count) {
-    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word) * count) >> 32);
   }
 
   ResampledProgram program_;

@@ -20,7 +20,7 @@ float bounded(double value) {
   return static_cast<float>(std::clamp(value, -kMaxUnits, kMaxUnits));
 }
 
-// Calls visit(row, left, stretch) for every row.
+// Calls visit(row, left, stretch) for every row; `left`: number of rows that follow in its stretch.
 template <class Visit>
 void each_row(const ResampledResiduals& resampled, Visit visit) {
   std::uint32_t begin = 0, stretch = 0;
@@ -193,14 +193,13 @@ void fill_sides(const Model& model, const ResampledResiduals& resampled, Resampl
   }
 }
 
-// Chosen on four films (docs/studies/still-flames.md): shortest and longest time between jumps; duration of the rows
-// excluded as targets, beside the next row and as recently played; time ahead whose usage counts; weight of usage.
-constexpr double kShortestSeconds = 0.4;
-constexpr double kLongestSeconds = 1.2;
-constexpr double kBesideSeconds = 0.3;
-constexpr double kRecentSeconds = 0.7;
-constexpr double kAheadSeconds = 0.5;
-constexpr double kCoverage = 2;
+// Chosen on four films (docs/studies/still-flames.md).
+constexpr double kShortestSeconds = 0.4;  // least time between jumps
+constexpr double kLongestSeconds = 1.2;   // greatest time between jumps
+constexpr double kBesideSeconds = 0.3;    // rows this near to the next row are no targets
+constexpr double kRecentSeconds = 0.7;    // rows played within this time are no targets
+constexpr double kAheadSeconds = 0.5;     // time after a target whose usage counts
+constexpr double kCoverage = 2;           // weight of usage
 constexpr double kMaxSteps = 1e6;
 constexpr double kMaxPosition = 1e6;
 

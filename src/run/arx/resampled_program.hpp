@@ -30,7 +30,7 @@ struct LookupProgram {
   std::uint32_t beside = 0;       ///< number of rows, on either side of the next row, excluded as targets
   std::uint32_t recent = 0;       ///< number of recently played rows excluded as targets
   std::uint32_t part_rows = 1;    ///< rows of each part but the last
-  float coverage = 0;             ///< cost of usage: this × the counts of a target's two parts / the total count
+  float coverage = 0;             ///< cost of a target's usage = coverage × (counts of its two parts) / total count
   float quickness = 0;            ///< factor that converts a difference of positions to a speed
   std::span<float> position;      ///< row × traits, scaled to total variance 1 over all components
   std::span<float> place;         ///< group × (position, speed) × kPlacesAtOnce
@@ -82,7 +82,7 @@ struct ResampledProgram {
   std::span<std::uint32_t> order;  ///< rows, leaf after leaf: for building the tree
   std::span<std::uint16_t> from;   ///< side × columns: output whose residual is taken
   std::span<float> factor;         ///< side × columns, its factor: 1; mirrored: ± the ratio of the channels' units
-  std::span<float> unit;           ///< per output across: factor from the unit of the output along to its own
+  std::span<float> unit;           ///< per output across: factor from the unit of its output along to its own unit
   LookupProgram lookup;            ///< used without a driving input
 
   bool empty() const { return outputs == 0; }

@@ -21,7 +21,7 @@ class TimeLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// False in builds for size.
+  /// Whether the kernel is compiled: not in builds for size.
   static constexpr bool kThere = WISP_BLOCKS_AT_ONCE > 1;
   /// Largest number of steps whose inputs are read, and whose outputs are written, together.
   static constexpr int kAtOnce = 8 * kLanes;

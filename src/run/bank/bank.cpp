@@ -175,12 +175,7 @@ void Bank::set_crew(const Crew& crew) {
   state_->crew = crew;
 }
 
-void Bank::step() {
-  state_->begin_call();
-  state_->passed = 0;
-  state_->between = false;
-  state_->step_all({});
-}
+void Bank::step() { step(1); }
 
 void Bank::step(int count, std::span<const float> inputs, std::span<float> outputs) {
   State& s = *state_;

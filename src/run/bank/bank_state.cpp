@@ -1,5 +1,5 @@
-// Serialised state of a bank. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of the part after the header, 8
-// its hash; then the bank's own fields, then one record of equal size for every slot.
+// The state of a bank, and its serialised form. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of the part
+// after the header, 8 hash of that part; then the bank's own fields, then one record of equal size for every slot.
 
 #include <algorithm>
 #include <array>
@@ -88,8 +88,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
 void Bank::State::start(int slot) {
   const int block = slot / kLanes, lane = slot % kLanes;
   born[slot] = steps;
-  std::uint32_t flags[kLanes];
-  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, nullptr)); }, stepper);
   if (extinction.present) {
     harm[slot] = 0.0f;
     lit[slot] = size[slot] = previous_size[slot] = 1.0f;
@@ -102,13 +101,12 @@ void Bank::State::start(int slot) {
   show_block(block);
 }
 
-// The instance starts from rest, like a new one. Its random stream continues, so that it does not repeat its first
+// The dynamics restart at the operating point. The random stream continues, so that the flame does not repeat its first
 // flicker.
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;
   const int block = slot / kLanes, lane = slot % kLanes;
-  std::uint32_t flags[kLanes];
-  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, nullptr)); }, stepper);
   harm[slot] = 0.0f;
   lit[slot] = 1.0f;
   lit_at[slot] = steps;
@@ -228,8 +226,7 @@ constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
 
-bool is_chain(const Bank::State& s) { return std::holds_alternative<ChainStepper<LiveNumbers>>(s.stepper); }
-std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVersion : kVersion; }
+std::uint32_t version_of(const Bank::State& s) { return s.chain_stepper() ? kChainVersion : kVersion; }
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
@@ -313,8 +310,7 @@ void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
 }
 
 struct Fields {
-  std::uint64_t model, capacity, seed, spawned, passed, between, noise, clamped, steps, reserved;
-  std::uint64_t ground;
+  std::uint64_t model, capacity, seed, spawned, passed, between, noise, clamped, steps, reserved, ground;
 };
 
 std::uint64_t bits_of(float number) { return std::bit_cast<std::uint32_t>(number); }
@@ -325,15 +321,11 @@ Fields read_fields(ByteReader& in) {
           in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
 }
 
-bool chain_is_sound(const Fields& fields) {
-  const float ground = float_of(fields.ground);
-  return fields.ground >> 32 == 0 && (ground == kNoGround || within(ground, -kFarthest, kFarthest));
-}
-
 bool fields_are_sound(const Bank::State& s, const Fields& fields) {
-  const float noise = float_of(fields.noise);
-  return chain_is_sound(fields) && fields.noise >> 32 == 0 && (noise == 0 || within(noise, kMinNoise, kMaxNoise)) &&
-         fields.between <= 1 && fields.passed < static_cast<std::uint64_t>(s.step_time) && fields.reserved == 0;
+  const float noise = float_of(fields.noise), ground = float_of(fields.ground);
+  return fields.noise >> 32 == 0 && (noise == 0 || within(noise, kMinNoise, kMaxNoise)) && fields.ground >> 32 == 0 &&
+         (ground == kNoGround || within(ground, -kFarthest, kFarthest)) && fields.between <= 1 &&
+         fields.passed < static_cast<std::uint64_t>(s.step_time) && fields.reserved == 0;
 }
 
 Error damaged(const std::string& what) { return {"a saved bank is damaged: " + what + "; save it again"}; }

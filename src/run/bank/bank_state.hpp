@@ -67,7 +67,7 @@ struct Bank::State {
   bool lives_whole(int block) const;
   void read_whole_block(int block, float* rows) const;
   template <class Work>
-  std::uint64_t share(Work work);  // returns the sum of work(first block, one past its last) over all blocks
+  std::uint64_t share(Work work);  // returns the sum of work(first, end) over ranges of blocks that cover all
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
   void live_block(int block, const float* newest, std::uint64_t moment);
   void go_out(int slot, const float* newest, std::uint64_t moment);
@@ -144,8 +144,8 @@ struct Bank::State {
   std::span<float> event;           // index of the next step's size in the extinction's sizes, or kNoEvent
   std::span<float> left;            // share of the offset that is applied, 0 … 1
   std::span<float> previous_left;   // share before the last step
-  std::span<float> offset;          // [block][moved][lane]: shown variables minus the event's or the dynamics'; of an
-                                    // extinguished instance the shown variables themselves
+  std::span<float> offset;          // [block][moved][lane]: shown variables minus those of the event or the dynamics;
+                                    // for an extinguished instance the shown variables themselves
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
   std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
   std::span<std::uint8_t> by_hand;  // whether it was relit or extinguished by hand since the last call
@@ -160,7 +160,7 @@ struct Bank::State {
   std::int64_t longest;      // longest time that advance() plays, nanoseconds
   std::int64_t passed = 0;   // nanoseconds since the last step
   LevelView view;            // view of a body
-  bool handled = false;      // whether `by_hand` holds any
+  bool handled = false;      // whether any element of `by_hand` is set
   bool between = false;      // whether `shown` is interpolated between the last two steps, by `passed`
   float noise = 0.0f;
   float ground = kNoGround;

@@ -2,7 +2,7 @@
 // The rule of extinction (wisp/model/extinction.hpp), applied block by block.
 //
 // An instance has a damage, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes
-// three operations, and one to read the wind; during a recorded event, more for each component and displayed output.
+// three operations, and one to read a scalar wind; in a recorded event, more for each component and displayed output.
 
 #include <cstdint>
 #include <span>
@@ -18,7 +18,7 @@ namespace wisp {
 struct ExtinctionProgram {
   bool present = false;  ///< false: instances are never extinguished, and the fields below are unused
   std::int32_t input = 0;
-  bool vector = false;  ///< the input is the first component of a vector
+  bool vector = false;  ///< whether the input is the first component of a vector
   float level = 0;
   float most = 0;  ///< upper limit of the wind
   float base = 0;  ///< damage of a step at or above the level is base + slope · wind
@@ -33,10 +33,10 @@ struct ExtinctionProgram {
   std::span<std::uint32_t> catching;  ///< start index of each event
 };
 
-/// Value in the place of a size that ends an event.
+/// Value in `sizes` that ends an event.
 inline constexpr float kEventEnds = -1;
 
-/// Value in the place of an event index: no event.
+/// Index into `sizes` that stands for no event.
 inline constexpr float kNoEvent = 0;
 
 /// Lays the program out and, unless the arena measures, fills it.

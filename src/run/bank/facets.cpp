@@ -9,7 +9,7 @@
 namespace wisp {
 namespace {
 
-constexpr float kLeastNear = 0.001f;  // metres
+constexpr float kMinNear = 0.001f;  // metres
 constexpr float kMaxNear = 1000.0f;
 constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
 constexpr float kMinOrientation = 1e-6f;  // bound of its squared norm
@@ -30,7 +30,7 @@ bool is_sound(const BodyMoment& body) {
 }
 
 bool is_sound(const SteerTarget& target) {
-  return is_near_enough(target.position) && target.near >= kLeastNear && target.near <= kMaxNear &&
+  return is_near_enough(target.position) && target.near >= kMinNear && target.near <= kMaxNear &&
          target.in > std::chrono::nanoseconds::zero() && target.in <= kLongestSteering;
 }
 
@@ -42,7 +42,7 @@ std::optional<ChainPlace> ChainFacet::place_of(InstanceId id) const {
   ChainPlace place = chain.place_of(block_of(id), lane_of(id));
   const auto [velocity, spin] = chain.rates(block_of(id), lane_of(id));
   place.velocity = velocity, place.spin = spin;
-  // Steps since it touched the ground, to be compared with the number of steps of the last call.
+  // `ago`: steps since the body touched the ground. It landed in the last call if that made more steps.
   const float settled = chain.settled(block_of(id), lane_of(id));
   const float ago = settled * kSettleSeconds / (static_cast<float>(state_->step_time) * 1e-9f);
   place.lies = settled >= 1;
@@ -69,7 +69,7 @@ bool ChainFacet::steer(InstanceId id, const SteerTarget& target) {
 
 bool ChainFacet::release(InstanceId id) {
   if (!state_->valid(id)) return false;
-  if (can_steer()) state_->chain_stepper()->steer(block_of(id), lane_of(id), {}, 0.0f, kLeastNear);
+  if (can_steer()) state_->chain_stepper()->steer(block_of(id), lane_of(id), {}, 0.0f, kMinNear);
   return true;
 }
 
@@ -111,7 +111,7 @@ namespace {
 
 constexpr int kBodyLanes = Bank::State::kLanes;
 
-// Computes a ring from two points each of the outlines in front and side view, equally far from the tip.
+// Computes a ring from four points equally far from the tip: left and right in front view, left and right in side view.
 std::array<float, kRingNumbers> ring_of(const Bank::State& s, int ring, int lane) {
   const int points = s.polyline.points;
   const auto at = [&](int side, int point, int coordinate) {

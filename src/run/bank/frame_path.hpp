@@ -30,8 +30,8 @@ struct FramePath {
   const char* width;
   void (*set_inputs)(void* state, const float* values);
   void (*set_common_inputs)(void* state, const float* values);
-  /// Makes the Steps `made` of blocks first … last − 1 and, on request, their readable outputs while they are in the
-  /// cache. Returns the number of instance-steps in which an output was clamped.
+  /// Makes the Steps `made` of blocks first … last − 1 and, with Steps::show, their readable outputs while they are in
+  /// the cache. Returns the number of instance-steps in which an output was clamped.
   std::uint64_t (*step)(void* state, int first, int last, const void* made);
   void (*show)(void* state, int first, int last);
   void (*polylines)(const void* state, float* values);

@@ -26,13 +26,13 @@ struct PolylineRun {
   float along;
   float left;
   float right;
-  float step_left;  ///< weights for the step from the first to the second point, in addition to the slope
+  float step_left;  ///< step_left, step_right: weights for the step to the second point, in addition to the slope
   float step_right;
   float bend_twist;  ///< weight of the twist by which the second difference exceeds the left bend
 };
 
-/// An outline compiled for a number of points. Slopes are factors times differences of control points, bends those of
-/// slopes, twists those of bends, all per step of the polyline.
+/// An outline compiled for a number of points. A slope is a factor times a difference of control points, a bend a
+/// factor times a difference of slopes, a twist a factor times a difference of bends; all per step of the polyline.
 struct PolylineProgram {
   int points = 0;                ///< 0: no outline
   std::span<float> slope;        ///< one factor fewer than control points

@@ -39,8 +39,8 @@ ShapeProgram make_shape_program(const Model& model, Arena& arena);
 /// Hashes the program, continuing from the hash `before`; returns `before` if the program is empty.
 std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
 
-/// Returns a coordinate of the symmetric part, or of the antisymmetric one from `points` on, as the weighted sum of the
-/// part's components, [component][lane], plus `rest`, clamped to the coordinate's range.
+/// Returns coordinate i, symmetric below `points`, antisymmetric from there on: `rest` plus the weighted sum of the
+/// components of its kind, [component][lane], clamped to the coordinate's range.
 template <class N>
 inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components,
                                  float rest) {

@@ -15,7 +15,7 @@
 
 namespace wisp {
 
-/// What a step does with each lane of a block, as masks of 1 or 0; uninitialised, since a step has many of them.
+/// Effects of a step on each lane of a block, as masks of 1 or 0. Left uninitialised, since a step has many courses.
 template <class N>
 struct ChainCourse {
   using Real = typename N::Real;
@@ -73,7 +73,7 @@ class ChainBlock {
              Real* newest)
       : program_(program), played_(played), segments_(segments), newest_(newest) {}
 
-  /// Advances the lanes of a block. Resting and empty ones stay.
+  /// Advances the falling lanes of a block by one row; resting and empty lanes stay.
   void go(ChainCourse<N>& course) {
     const auto zero = all<Reals<N>>(0.0f), row = number(played_.row);
     const auto next = smaller(next_of(row), number(segments_.steps));

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "run/chain/chain_program.hpp"
+#include "run/lanes/random_lanes.hpp"
 
 namespace wisp {
 
@@ -13,10 +14,6 @@ struct ChainWords {
   std::uint32_t mode = 0;
   std::uint32_t segment = 0;
 };
-
-inline std::uint32_t share_of(std::uint32_t word, std::uint32_t count) {
-  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word) * count >> 32);
-}
 
 class ChainChoice {
  public:
@@ -52,7 +49,7 @@ class ChainChoice {
     return static_cast<float>(width) * (1.0f / 4294967296.0f);
   }
 
-  /// Returns candidate k among a mode's possible successors: the k-th best-joining, or if any may follow, a random one.
+  /// Returns candidate k among a mode's successors: the k-th best-joining, or without a list a random segment of it.
   std::uint32_t candidate(const ChainProgram& program, std::uint32_t before, std::uint32_t mode, std::uint32_t k,
                           const ChainWords& words) const {
     if (program.breadth == 0) return any(program, mode, words.segment + k * 0x9E3779B9U);
@@ -68,18 +65,6 @@ class ChainChoice {
   std::uint32_t any(const ChainProgram& program, std::uint32_t mode, std::uint32_t word) const {
     const std::uint32_t first = program.first_of_mode[mode];
     return chance_ ? first + share_of(word, program.first_of_mode[mode + 1] - first) : first;
-  }
-
-  static std::uint32_t likeliest(const std::uint32_t* threshold, std::uint32_t modes) {
-    std::uint32_t best = 0, most = 0, below = 0;
-    for (std::uint32_t mode = 0; mode < modes; ++mode) {
-      if (threshold[mode] - below > most) {
-        most = threshold[mode] - below;
-        best = mode;
-      }
-      below = threshold[mode];
-    }
-    return best;
   }
 
   bool chance_ = true;

@@ -29,7 +29,7 @@ class ChainJoining {
   using Lane = ChainLane<Real>;
   using Party = ChainParty<PartNumbers<N>>;
   static constexpr int kLanes = N::kLanes;
-  static constexpr int kMembers = Party::kMost;
+  static constexpr int kMembers = Party::kMax;
   using Drawn = std::array<std::array<std::uint32_t, kMembers>, 4>;  ///< [word][member]
 
   ChainJoining(ChainLives<N>& lives, const ChainChoice& choice, ChainSteering<Real>& steering)
@@ -51,12 +51,12 @@ class ChainJoining {
     return drawn;
   }
 
-  /// Joins the next segments of lanes whose segment ends, and draws the successors of the next segments.
+  /// Joins lanes whose segment ends to their next segments, and draws the successors of these.
   void follow(const Party& party, int first, const Moment<N>& moment) {
     for (std::size_t k = 0; k < party.count; ++k) {
       const int block = party.block[k], lane = party.lane[k];
       if (Mover::is_prepared(lives_.plan_of(block, lane))) continue;
-      // After a placement, no successor was drawn yet: then the new segment takes the whole difference.
+      // A lane without a prepared join, as after place(), did not fade: its new segment takes the whole difference.
       prepare_one(block, lane, draw(Party::of(block, lane), first, moment, 2));
       ChainGap<Real>& gap = lives_.plan_of(block, lane).ahead.gap;
       each_number(gap, gap, [](Real& half, const Real&) { half = half + half; });

@@ -21,10 +21,10 @@
 
 namespace wisp {
 
-/// Lanes, from several blocks, that join or begin to fade in this step: at most kMost, computed in parallel.
+/// Lanes, from several blocks, that join or begin to fade in this step: at most kMax, computed in parallel.
 template <class N>
 struct ChainParty {
-  static constexpr int kMost = N::kLanes;
+  static constexpr int kMax = N::kLanes;
 
   std::size_t count = 0;
   std::array<int, N::kLanes> block{};
@@ -36,7 +36,7 @@ struct ChainParty {
     return party;
   }
 
-  bool is_full() const { return count == kMost; }
+  bool is_full() const { return count == kMax; }
 
   /// Precondition: !is_full().
   void add(int of_block, int of_lane) {
@@ -56,7 +56,8 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// Returns the rotations of segments `next` that follow `before`, rotated by `turn`, and the gaps at those joins.
+  /// Returns the rotations of segments `next`, which follow the segments `before` of rotation `turn`, and the gaps at
+  /// those joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);
@@ -159,7 +160,8 @@ class ChainJoins {
 
   static std::size_t edge_number(std::uint32_t segment, bool end) { return std::size_t{2} * segment + (end ? 1 : 0); }
 
-  // Returns the rotation of a successor. Where heading is kept it changes by 0, or by 360° to keep a quaternion's sign.
+  // Returns the rotation of a successor. If heading is not free, the rotation changes by 0, or by 360° where a
+  // quaternion's sign demands it.
   ChainTurn<Values> turn_after(const ChainTurn<Values>& turn, const Edge& end, const Edge& start) const {
     const Turn more = turn_between_edges(start, end);
     const auto cos = turn.half_cos * more.cos - turn.half_sin * more.sin;

@@ -49,7 +49,7 @@ struct ChainGap {
   Vector3<Real> slip{};
 };
 
-/// The join after a segment: the next one's placement, and the difference.
+/// The join after a segment: the next segment's rotation, and the gap.
 template <class Number>
 struct ChainAhead {
   ChainTurn<Number> turn{};
@@ -89,7 +89,7 @@ struct ChainPlan {
   Vector3<Real> target{};  ///< steering: target position
 };
 
-/// Number of values in `ahead` and those read with it.
+/// Number of values that joins read of a plan: those of `ahead`, and the three after it.
 inline constexpr std::size_t kAheadNumbers = 20;
 
 template <class Real>
@@ -182,12 +182,6 @@ class ChainMover {
     return mode;
   }
 
-  /// Draws the next mode and a segment of it, and updates the history.
-  std::uint32_t draw(Real& of_state, std::uint32_t before, const ChainChoice& choice, const ChainWords& words) const {
-    const std::uint32_t mode = draw_mode(of_state, choice, words);
-    return choice.successor(program_, before, mode, words);
-  }
-
   /// Returns where a segment begins: at its recorded height, if heights are bounded.
   Vector3<Real> beginning_of(std::uint32_t segment) const {
     if (program_.height.empty()) return {};
@@ -230,8 +224,8 @@ class ChainMover {
     float quiet_from;  ///< the first row without an offset
     float quiet_to;    ///< the last row without an offset; 0 if the offsets of both joins overlap
     float turn;        ///< the first row of the latter half of a curve
-    float last_turn;   ///< the same for the second curve
-    float curve;  ///< the row after which the curve to the next segment begins, if it does not begin with the segment
+    float last_turn;   ///< as `turn`, for the curve towards the next segment
+    float curve;       ///< the row after which that curve begins, unless it begins with the segment
   };
   Rows rows_of(std::uint32_t segment) const {
     const std::uint32_t blend = program_.blend_steps, steps = program_.steps(segment);
@@ -278,7 +272,7 @@ class ChainMover {
   }
 
   /// Returns the squared distance of a segment's beginning from a body's state: the sum of the squared differences of
-  /// attitude (radians), velocity and spin, the latter two in units of their typical sizes.
+  /// attitude (radians; only if heading is free), velocity and spin, the latter two in units of their typical sizes.
   Real misfit(std::uint32_t segment, const Body& body) const {
     Lane lane;
     const HalfTurn<Real> turn = turn_to(segment, body);
@@ -302,19 +296,19 @@ class ChainMover {
     return turn_between(quaternion(row_of(segment, 0)), body.orientation);
   }
 
-  /// Returns where a row of the lane's segment lies, moved by `more`, in stored units, times `share`.
+  /// Returns the position of a row of the lane's segment, moved by share · `more` (stored units).
   Vector3<Real> place_at(const Lane& lane, std::uint32_t row, const std::int16_t* more, Real share) const {
     const std::int16_t* at = row_of(index(lane.segment, program_.segments()), row);
     return placed(lane, added(vector(at), scaled(vector(more), share)));
   }
 
-  /// Converts a whole number that is stored as a real one; returns bound − 1 for any that is not below the bound.
+  /// Converts a whole number that is stored as a Real. Returns bound − 1 for a number that is not below the bound.
   static std::uint32_t index(Real number, std::uint32_t bound) {
     const auto whole = static_cast<std::uint32_t>(value_of(number));
     return whole < bound ? whole : bound - 1;
   }
 
-  /// Clamps numbers to ±bound, which no valid model exceeds, so that their squares do not overflow single precision.
+  /// Clamps numbers to ±bound. Valid models stay within the default bound, whose square fits single precision.
   template <class Numbers>
   static Numbers bounded(Numbers numbers, float bound = kMaxDifference) {
     const Real most(bound), least(-bound);

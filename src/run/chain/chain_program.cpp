@@ -197,22 +197,20 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
   for (const auto& axis : {program.gust.ground, program.gust.vertical}) {
     hash = hash_floats({axis[0], axis[1], 0.25f * axis[2]}, hash);
   }
-  for (std::int16_t number : program.rows)
-    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
-  for (std::int16_t number : program.rates)
-    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
-  for (std::int16_t number : program.lead)
-    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  const auto add = [&](const auto& numbers) {
+    for (const auto number : numbers) hash = hash_number(std::uint32_t{static_cast<std::uint16_t>(number)}, hash);
+  };
+  add(program.rows);
+  add(program.rates);
+  add(program.lead);
   hash = hash_floats({program.lead_scale, program.drift[0], program.drift[1], program.drift[2], program.spread_ground,
                       program.spread_height, program.memory},
                      hash);
-  for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
-  for (std::int16_t number : program.height)
-    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  add(program.follow);
+  add(program.height);
   if (!program.height.empty()) hash = hash_floats({program.height_scale}, hash);
-  for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
-  hash = hash_number(static_cast<std::uint32_t>(program.history), hash);
-  return hash;
+  for (std::uint32_t number : program.threshold) hash = hash_number(number, hash);
+  return hash_number(static_cast<std::uint32_t>(program.history), hash);
 }
 
 Result<void> check_chain_program(const ChainModel& chain) {

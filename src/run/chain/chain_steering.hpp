@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// Number of candidates drawn per mode if all segments of the mode may follow (--best-of 0).
+/// Number of candidates drawn per mode if all segments of the mode may follow (breadth 0).
 inline constexpr std::uint32_t kAnyOf = 8;
 
 /// Approximates e^−x with heavier tails: (1 + x/256)^−256. Precondition: x >= 0.

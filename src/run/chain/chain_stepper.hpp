@@ -114,8 +114,8 @@ class ChainStepper : private ChainLives<N> {
   /// Reads the outputs of a frame at the model's own rate.
   void show_frame(int block, Real* out) const { show(block, out); }
 
-  /// Starts one lane at the origin, or above it at its recorded height if that is bounded, with a random heading and a
-  /// segment of a mode drawn from those that begin recordings.
+  /// Starts one lane at the origin, or above it at its segment's recorded height if heights are bounded, with a random
+  /// heading and a segment of a mode drawn from those that begin recordings.
   void start(int block, int lane, const Moment<N>& moment) {
     const Party party = Party::of(block, lane);
     const Drawn words = Joining::draw(party, block, moment, 1);
@@ -140,7 +140,7 @@ class ChainStepper : private ChainLives<N> {
       moves.velocity[static_cast<std::size_t>(k)] = (to[k * kLanes] - from[k * kLanes]) * rate;
     }
     if (program_.channels < 7) return moves;
-    // The vector part of the rotation between them is the sine of half its angle, approximately half the angle.
+    // The vector part of the rotation between the samples is the sine of half its angle, approximately half the angle.
     const auto q = [](const Real* at) { return Quaternion<Real>{at[0], at[kLanes], at[2 * kLanes], at[3 * kLanes]}; };
     const auto a = q(from + 3 * kLanes), b = q(to + 3 * kLanes);
     const Vector3<Real> u{a[1], a[2], a[3]}, v{b[1], b[2], b[3]};
@@ -210,7 +210,7 @@ class ChainStepper : private ChainLives<N> {
     Lane life = lane_of(block, lane);
     const auto segments = static_cast<float>(program_.segments() - 1);
     visit(life.segment, 0.0f, segments, 1.0f);
-    visit(life.row, 0.0f, 65535.0f, 1.0f);
+    visit(life.row, 0.0f, static_cast<float>(kMaxSegmentSteps), 1.0f);
     visit(life.state, 0.0f, static_cast<float>(program_.states() - 1), 1.0f);
     for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
     visit_turn(life.turn, visit);
@@ -386,7 +386,7 @@ class ChainStepper : private ChainLives<N> {
     return any_lane<N>(eventful);
   }
 
-  // Moves a lane that lies on the ground. One at rest is shown unchanged.
+  // Makes one step of a lane that settles on the ground. A lane at rest is shown unchanged.
   void settle(int block, int lane) {
     if (!(played_of(block).settled[lane] < Real(1.0f))) return;
     Lane life = lane_of(block, lane);
@@ -394,7 +394,7 @@ class ChainStepper : private ChainLives<N> {
     put(block, lane, life);
   }
 
-  // If a position was clamped, records it and bounds the segment's base.
+  // Records a clamped position, and bounds the base of its segment.
   void hold_position(int block, int lane, const Moment<N>& moment) {
     if (!is_far(newest_of(block) + lane)) return;
     moment.clamped[lane] = 1;

@@ -22,7 +22,7 @@ inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   return across * Real(program.half_width) + along * Real(program.half_length);
 }
 
-/// Returns the extent of a displayed body below its centre, if it has reached the ground; free of cost far above it.
+/// Returns the extent of a displayed body below its centre, if it has reached the ground. Far above, one comparison.
 template <class Real>
 inline std::optional<Real> reach_touching(const ChainProgram& program, const Real* shown, int stride, float ground) {
   const Real& height = shown[2 * stride];
@@ -57,7 +57,7 @@ inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
   return {normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
 }
 
-/// Advances a settling lane by one step and displays it; `out` has a stride.
+/// Advances a settling lane by one step and displays it; `stride`: distance of the channels in `out`.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
   // Computed in the first step after touchdown, since the touchdown step is the most expensive.
@@ -66,7 +66,7 @@ inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real
   const bool rests = !(lane.settled < Real(1.0f));
   const Real passed = rests ? Real(1.0f) : lane.settled;
   const Real rest = Real(1.0f) - passed;
-  // It slides with a speed that decays as (1 − s)²: a third of the distance at constant speed.
+  // The body slides with a speed that decays as (1 − s)²: a third of the distance at constant speed.
   const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
   const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
   // In a hostile saved bank the distance is unbounded.
@@ -74,7 +74,7 @@ inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
   if (program.channels < 7) return;
   const auto q = rotated(scaled(lane.laid, lean), lane.touched);
-  // At rest it lies flat except for rounding.
+  // At rest the body lies flat up to rounding, so it has no extent.
   if (!rests) out[2 * stride] = out[2 * stride] + reach_of(program, q);
   for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
 }

@@ -6,7 +6,7 @@
 
 namespace wisp {
 
-/// Velocity change or wind, m/s and channel units, below which a gust ends: nothing is computed until the next one.
+/// Velocity change (m/s) or wind (channel units) below which a gust ends: nothing is computed until the next one.
 inline constexpr float kMinGust = 1e-4f;
 
 /// Bound of velocity changes, metres per second.
@@ -28,8 +28,8 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// Returns a quarter of the component of `wind` along the normal of a flat body; `wind` is relative to the body.
-/// Computing a quarter takes only half of the normal, which needs fewer operations than the unit normal.
+/// Returns a quarter of the component of `wind`, less the velocity change, along the normal of a flat body: half of the
+/// normal needs fewer operations than the unit normal.
 template <class Real>
 inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
   const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],

@@ -89,7 +89,7 @@ struct LongTurn {
   Real sin;
 };
 
-/// Returns the half turn about z that brings `from` nearest to `to`, times their agreement.
+/// Returns the half turn about z that brings `from` nearest to `to`, times HalfTurn::nearness.
 template <class Real>
 inline LongTurn<Real> long_turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
   return {to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3],

@@ -65,7 +65,7 @@ inline void philox(const RandomKeys& keys, Pack<Part, kParts> (&words)[4]) {
 /// Counters that distinguish the lanes' random numbers: the instance's stream, and its age in steps.
 struct LaneCounters {
   const std::uint64_t* stream;
-  const std::uint64_t* born;  ///< the bank's step at which the instance was spawned
+  const std::uint64_t* born;  ///< the bank's step at which the instance was spawned or reset
   std::uint64_t step;         ///< the bank's step now
 };
 
@@ -86,13 +86,29 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
 /// Number of channels whose deviates come from one group of words.
 inline constexpr int kGroupChannels = 8;
 
-/// Draws the random words of one group, below 2^16.
+/// Draws the random words of one group. Precondition: group < 2^16.
 template <class N>
 inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
                          Words<N> (&words)[4]) {
   unrolled<4>([&](auto k) { words[k] = counters[k]; });
   words[1] = words[1] ^ all<Words<N>>(group);
   philox(keys, words);
+}
+
+/// Scales a random word to a whole number below `count`.
+inline std::uint32_t share_of(std::uint32_t word, std::uint32_t count) {
+  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word) * count >> 32);
+}
+
+/// Returns the mode of the largest probability; `threshold`: cumulative probabilities as words.
+inline std::uint32_t likeliest(const std::uint32_t* threshold, std::uint32_t modes) {
+  std::uint32_t best = 0, most = threshold[0];
+  for (std::uint32_t mode = 1; mode < modes; ++mode) {
+    if (threshold[mode] - threshold[mode - 1] <= most) continue;
+    most = threshold[mode] - threshold[mode - 1];
+    best = mode;
+  }
+  return best;
 }
 
 /// Two standard normal deviates per lane.
@@ -112,8 +128,8 @@ WISP_UNROLLED inline Values polynomial(const Values& x, const float (&c)[count])
 /// Converts one word per lane to two independent normal deviates, by the polar form: a point in the plane in a
 /// uniformly random direction, at distance √(−2 ln u) from the origin. Of the word, bits 0 to 19 are u, (k + ½) / 2²⁰;
 /// 21 to 31 a direction of the right half plane, π (k + ½) / 2¹¹ with k from −1024 to 1023; bit 20 inverts it. −2 ln,
-/// sine and cosine are replaced by the minimax polynomials of their degrees, with errors up to 3.0e-6, 5.9e-7 and
-/// 6.7e-6; each deviate is within 4e-5 of the exact one, and their distribution within 1e-5.
+/// sine and cosine are replaced by the minimax polynomials of their degrees, with errors up to 3.0e-6, 6.0e-7 and
+/// 6.8e-6; each deviate is within 4e-5 of the exact one, and their distribution within 1e-5.
 ///
 /// Source: G. E. P. Box & M. E. Muller, A note on the generation of random normal deviates, Annals of Mathematical
 /// Statistics 29, 1958.

@@ -25,7 +25,7 @@ struct OutputChannel {
   float start;  ///< z of a new instance: the operating point
 };
 
-/// Part of an input from which a regressor is computed: the whole, or its magnitude. Of a wind vector: its length, or
+/// Part of an input from which a regressor is computed: the whole, or its magnitude. For a wind vector: its length, or
 /// the length times the x or the z of its direction.
 enum class RegressorPart : std::uint8_t { kWhole, kSize, kLength, kAlong, kAcross };
 
@@ -41,7 +41,7 @@ struct RegressorForm {
 /// Returns the regressors of an input of that shape, in order.
 std::span<const RegressorForm> regressor_forms(InputShape shape);
 
-/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. Of a root or a square,
+/// A regressor: z = (part(u) − mean) · inverse_scale, where u is first clamped to [low, high]. For a root or a square,
 /// z = power(part(u) · inverse_scale) − mean, with the mean in the regressor's unit, so that a square can't overflow.
 struct RegressorChannel {
   std::int32_t input;  ///< index of the input; of a vector its first component
@@ -60,10 +60,10 @@ struct Channels {
   std::span<RegressorChannel> regressors;
 };
 
-/// Returns the power of two in which a channel's deviations are measured; 1 if its range is 1/128 to 128, or 0.
+/// Returns the power of two in which a channel's deviations are measured; 1 if its range is 0 or 1/128 to 128 wide.
 double channel_scale(double lowest, double highest);
 
-/// Returns the unit of a regressor, by its index among all of a model's.
+/// Returns the unit of a regressor, given its index among the regressors of all inputs.
 double regressor_scale(const Model& model, int regressor);
 
 /// Returns the ranges of the dynamics' variables: the components of an outline's shape if there are some, else the
@@ -118,7 +118,7 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   return settle(part);
 }
 
-/// A horizontal vector by its length, which is clamped, and its direction. If z is 0, both equal those of x to the bit.
+/// Length, clamped, and direction of a horizontal vector. If z is 0, they equal |x| and the sign of x to the bit.
 template <class N>
 struct LevelVector {
   LevelVector(const Reals<N>& along, const Reals<N>& across, float most) {
@@ -137,7 +137,8 @@ struct LevelVector {
   Reals<N> length, x, z;
 };
 
-/// Computes a block's regressors from lanes_of(input), called in order: a vector is decomposed for its first one.
+/// Computes a block's regressors from lanes_of(input). Call it for the regressors in order: a vector is decomposed at
+/// its first one.
 template <class N, class LanesOf>
 class Regressing {
  public:
@@ -182,7 +183,7 @@ class Presentation {
  private:
   Values mean_, scale_, lowest_, highest_;
   bool scales_;
-  bool own_;  // z is in its own unit and range
+  bool own_;  // z is already in the output's unit and range
 };
 
 /// Loads one part of the values of consecutive blocks, `after` numbers from the beginning of each.

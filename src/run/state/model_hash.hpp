@@ -14,7 +14,7 @@ namespace wisp {
 
 /// Writes consecutive numbers.
 ///
-/// Precondition: there is room.
+/// Precondition: `at` has room for them.
 class ByteWriter {
  public:
   explicit ByteWriter(std::byte* at) : at_(at) {}
@@ -33,7 +33,7 @@ class ByteWriter {
 
 /// Reads consecutive numbers.
 ///
-/// Precondition: there are as many.
+/// Precondition: `at` holds them.
 class ByteReader {
  public:
   explicit ByteReader(const std::byte* at) : at_(at) {}
