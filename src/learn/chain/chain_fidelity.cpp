@@ -168,8 +168,8 @@ double energy_of(const FeatureWindows& reference, const FeatureWindows& other) {
   return energy_distance(x, y);
 }
 
-// Places a value between its floor (distance of two halves of the real falls: every other fall, or a single one cut in
-// time) and its ceiling (distance to their rows in random order). `windows_of`: windows of a series.
+// Distance between real and made falls, its floor (between two halves of the real falls: every other fall, or a single
+// fall cut in time) and its ceiling (from real falls to their rows in random order). `windows_of`: windows of a series.
 template <typename Windows>
 Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::uint64_t seed,
                  const Windows& windows_of) {

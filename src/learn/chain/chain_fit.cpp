@@ -120,7 +120,7 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Expected displacement after each segment, beyond the mean velocity's; `memory`: seconds until half of it is reached.
+// Expected displacement after each segment in excess of `drift`; `memory`: receives the seconds until half is reached.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
   std::vector<double> size;  // root mean square after each iteration
@@ -267,8 +267,8 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// Without requested modes, one mode where orientation is known: a segment is then followed by a well-joining one.
-// Without orientation well-joining successors are too often short ones; modes preserve their mean duration.
+// If no number of modes is requested: one where orientation is known, since the next segment is chosen by its join.
+// Without orientation, the best-joining successors are too often short ones; modes preserve the mean duration.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {

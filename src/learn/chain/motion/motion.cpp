@@ -14,7 +14,7 @@ constexpr std::size_t kMinRows = 8;
 constexpr double kUsualStep = 0.9;   // quantile of step lengths that counts as usual
 constexpr double kMaxJump = 20;      // maximum step, as a multiple of the usual and of the neighbouring steps
 constexpr double kRounding = 2e-4;   // deviation from unit length of a quaternion written with four digits
-constexpr double kMaxWrong = 0.01;   // deviation from unit length above which it is not a unit quaternion
+constexpr double kMaxWrong = 0.01;   // maximum deviation of a quaternion from unit length
 constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of it
 
 constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
@@ -192,8 +192,8 @@ Result<void> add_row(const Recording& recording, const Layout& layout, std::size
 
 double distance_between(const Triple& a, const Triple& b) { return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]); }
 
-// Errors: a jump, that is, a step many times as long as the steps around it and as the usual step. A jump comes from
-// two places or two falls in one episode.
+// Errors: a jump, as between two falls in one episode: a step more than kMaxJump times as long as the usual step and as
+// the four steps around it.
 Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
   std::vector<double> steps;
   for (std::size_t row = 1; row < piece.rows(); ++row) {

@@ -38,8 +38,8 @@ struct Motion {
   std::vector<std::string> warnings;
 };
 
-/// Reads the channels pos.x, pos.y, pos.z and, if present, q.w, q.x, q.y, q.z. Velocities are derivatives of a parabola
-/// through `smooth_rows` rows (odd; 0: differences of fourth order, for data without noise).
+/// Reads the channels pos.x, pos.y, pos.z and, if present, q.w, q.x, q.y, q.z. Velocities are slopes of a parabola
+/// fitted to `smooth_rows` rows (odd; below 3: finite differences of fourth order, for data without noise).
 /// Quaternions are normalised, with a warning where they deviate by more than rounding; sign flips are
 /// undone. Pieces shorter than 8 rows are left out.
 /// Errors: no recordings, a missing channel, orientation in only some recordings, rates that differ, a quaternion more
