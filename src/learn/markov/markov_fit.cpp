@@ -1,4 +1,3 @@
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,18 +14,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMaxTried = 6;             // maximum number of modes tried where the recipe leaves it open
+constexpr int kMaxTried = 6;             // maximum number of modes that is tried where the recipe states none
 constexpr int kStarts = 12;              // random starts for each number of modes
 constexpr int kFirstRounds = 25;         // iterations of expectation–maximisation of every start
 constexpr int kMaxRounds = 300;          // iterations of the best start
 constexpr double kHoldout = 0.3;         // share at the end of every stretch that is held out
 constexpr double kSureGain = 2;          // minimum gain of a further mode on held-out rows, in standard errors
 constexpr double kSmallResidual = 0.01;  // minimum residual, as a share of the single model's
-constexpr double kGain = 1e-6;           // iterations end where one gains less than this per row
+constexpr double kGain = 1e-6;           // nats per row: iterations end where one gains less
 constexpr double kUnseenSteps = 0.1;     // added to each transition count, so that none is impossible
 constexpr double kMaxRadius = 0.9999;    // of a mode after stabilisation
 constexpr double kUsableFit = 10;        // percent, one step ahead
-constexpr double kDifferent = 3;         // standard errors; chance exceeds it once in 370
+constexpr double kDifferent = 3;         // standard errors by which coefficients differ; chance exceeds it once in 370
 
 struct State {
   Chain chain;

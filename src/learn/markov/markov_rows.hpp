@@ -31,7 +31,7 @@ struct Rows {
   };
 
   ArxOrders orders;
-  ArxDesign design;             ///< one group per output; its columns are those of phi, the constant's last
+  ArxDesign design;             ///< one group per output, whose columns are indices of phi's; the constant's is last
   std::vector<double> offset;   ///< the operating point: outputs, then inputs
   Eigen::MatrixXd phi;          ///< rows × columns of the layout
   Eigen::MatrixXd y;            ///< rows × outputs
@@ -111,7 +111,7 @@ struct Candidate {
   int modes = 1;
   double log_likelihood = 0;           ///< of the training rows
   double held_out_log_likelihood = 0;  ///< of the held-out rows, the last 30 % of every stretch
-  double gain_std_error = 0;           ///< standard error of its held-out gain over the candidate before it
+  double gain_std_error = 0;           ///< standard error of its held-out gain over the preceding candidate
   bool determined = true;              ///< false: a mode had too few rows for its coefficients
 };
 
