@@ -20,7 +20,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kFramesAhead = 16;  // largest lead of the simulation over the camera
+constexpr std::size_t kFramesAhead = 16;  // largest lead of the simulation over the camera, frames
 
 // Output of the rig after each frame.
 struct Shot {

@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kRate = 240;          // samples per second: forty times the noise's default bandwidth
+constexpr double kRate = 240;          // samples per second: 40 times the default bandwidth of the noise
 constexpr double kLongest = 86400;     // longest wind, s
 constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
 constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
@@ -102,7 +102,7 @@ std::vector<double> air(const WindSignalOptions& o, std::size_t count) {
   return {};
 }
 
-// A puff. Calm surrounds it, until kQuietAfter after the candle is relit.
+// A puff, with calm from kQuietBefore before it until kQuietAfter after the candle is relit.
 struct Puff {
   double at = 0;
   double speed = kBlowOutSpeed;

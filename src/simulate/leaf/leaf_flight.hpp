@@ -110,7 +110,7 @@ struct WindSample {
 struct Gust {
   double start = 0;                  ///< seconds
   double seconds = 0;                ///< duration from start to end, edges included
-  double edge = 0;                   ///< duration of each edge, at most half of the length
+  double edge = 0;                   ///< duration of each edge, seconds, at most seconds / 2
   std::array<double, 3> velocity{};  ///< velocity at the maximum, m/s
   std::array<double, 3> slowness{};  ///< s/m: direction of travel / travel speed
 };
@@ -136,7 +136,7 @@ class LeafWind {
   /// Precondition: rate_hz > 0, all rows finite.
   static LeafWind of_track(MeasuredWind track);
 
-  /// Returns the wind at a position and its rate of change for a leaf of that velocity (world axes).
+  /// Returns the wind at `place` and its rate of change along the path of a leaf with velocity `moving` (world axes).
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
 
   /// Returns whether there is no wind at any position and time.
@@ -184,7 +184,8 @@ namespace wisp {
 class LeafFlight {
  public:
   /// Starts a leaf in a state, at time 0; the wind is kept by reference and must outlive the flight. Steps are
-  /// `longest_step` seconds at most, 1e-6 … 0.05, and in strong wind shorter in inverse proportion to its speed.
+  /// `longest_step` seconds at most, 1e-6 … 0.05, and shorter for narrow or light leaves and in strong wind, in inverse
+  /// proportion to its speed.
   /// Errors: leaf or step out of range, a state that is not finite, an attitude of norm 0.
   static Result<LeafFlight> begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
                                   double longest_step = 1.0 / 60);
