@@ -53,9 +53,9 @@ bool inside(int i, int j, const Box& box) {
 // The axis lies on a line between cells if the candle is an even number of cells wide, else in the middle of one, so
 // that the wax is symmetric about it.
 double axis_of(const FlowGrid& grid, const CandleRigOptions& options) {
-  const int half_cells = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
+  const int width = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
   const double wanted = options.position * grid.nx;
-  return half_cells % 2 == 0 ? std::round(wanted) : std::floor(wanted) + 0.5;
+  return width % 2 == 0 ? std::round(wanted) : std::floor(wanted) + 0.5;
 }
 
 CandleBody candle_body(const FlowGrid& grid, const CandleRigOptions& o) {

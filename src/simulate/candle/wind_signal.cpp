@@ -306,8 +306,6 @@ double WindSignal::at(double seconds) const {
   return samples_[k] + (place - static_cast<double>(k)) * (samples_[next] - samples_[k]);
 }
 
-double WindSignal::seconds() const { return static_cast<double>(samples_.size() - 1) / rate_hz_; }
-
 struct VirtualMicrophone::Parts {
   explicit Parts(const VirtualMicrophoneOptions& o)
       : options(o),

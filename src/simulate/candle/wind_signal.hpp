@@ -62,8 +62,6 @@ class WindSignal {
   /// Returns the wind at a time, interpolated linearly and constant beyond the ends.
   double at(double seconds) const;
 
-  double seconds() const;
-  double rate_hz() const { return rate_hz_; }
   const std::vector<double>& samples() const { return samples_; }
 
   /// Returns the times at which an extinguished candle is relit, ascending, in seconds.
