@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "base/statistics.hpp"
 #include "learn/markov/markov_rows.hpp"
@@ -287,7 +288,11 @@ Result<Fitted> fit(std::span<const Recording> recordings, const ChannelChoice& c
   summary.candidates = choice->candidates;
   summary.samples_used = static_cast<std::size_t>(rows->rows());
   summary.held_out = static_cast<std::size_t>(share_of(*rows, 1 - kHoldout, 1).rows());
-  const auto percents = [&](int steps) { return figures(out.model, recordings, channels, steps)->fit_percent; };
+  std::vector<Recording> judged;  // recordings with a usable row
+  for (std::size_t last = recordings.size(); const auto& place : rows->places) {
+    if (std::exchange(last, place.recording) != place.recording) judged.push_back(recordings[place.recording]);
+  }
+  const auto percents = [&](int steps) { return figures(out.model, judged, channels, steps)->fit_percent; };
   summary.fit_percent = percents(1);
   if (!channels.inputs.empty()) summary.free_run_fit_percent = percents(kFreeRun);
   summary.usable = verdict_of(summary, *choice, min_rows(*rows), noise_alone);
