@@ -101,9 +101,9 @@ class Walk {
         those.assign(best, best + static_cast<long>(breadth));
       } else {
         const auto [low, high] = std::equal_range(segments.mode.begin(), segments.mode.end(), mode);
-        const auto members = static_cast<std::size_t>(high - low);
-        for (std::size_t k = 0; k < std::min(members, kAnyOf); ++k) {
-          those.push_back(static_cast<std::size_t>(low - segments.mode.begin()) + (s + k * members / kAnyOf) % members);
+        const auto members = static_cast<std::size_t>(high - low), count = std::min(members, kAnyOf);
+        for (std::size_t k = 0; k < count; ++k) {
+          those.push_back(static_cast<std::size_t>(low - segments.mode.begin()) + (s + k * members / count) % members);
         }
       }
       for (std::size_t to : those) {

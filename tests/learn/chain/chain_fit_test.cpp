@@ -192,6 +192,16 @@ TEST(FitChain, WithoutOrientationASegmentOfTheNextModeFollows) {
   EXPECT_EQ(chain.segments.breadth, 0);
 }
 
+TEST(FitChain, AnySuccessorOfFewSegmentsIsEquallyProbable) {
+  const auto fit = learned(made_falls({.falls = 1, .seconds = 3, .orientation = false}),
+                           {.heading_free = false, .modes = 1, .holdout = 0}, kHorizontal);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto& chain = std::get<ChainModel>(fit->model.dynamics);
+  ASSERT_GT(chain.segments.size(), 1U);
+  ASSERT_LT(chain.segments.size(), 8U);
+  for (const std::int16_t lead : chain.drift->lead) EXPECT_NEAR(lead * chain.drift->lead_scale, 0, 1e-9);
+}
+
 TEST(FitChain, OptionsOutOfRangeAreErrors) {
   const Recording recording = made_falls({.falls = 2});
   EXPECT_FALSE(learned(recording, {.modes = -1}));
