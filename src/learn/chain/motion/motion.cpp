@@ -56,7 +56,7 @@ Result<Layout> layout_of(const Recording& recording) {
   return layout;
 }
 
-// Checks that a time channel, where there is one, has equal steps within each episode.
+// Checks that a time channel, where there is one, has equal steps within each episode, on average across missing ones.
 Result<void> check_time(const Recording& recording) {
   for (const char* name : kTimeColumns) {
     const auto channel = find_channel(recording, name);
@@ -64,9 +64,11 @@ Result<void> check_time(const Recording& recording) {
     const auto& time = recording.channels[*channel].samples;
     const double step = 1 / recording.rate_hz;
     for (const Episode& episode : episodes(recording)) {
-      for (std::size_t row = episode.begin + 1; row < episode.end; ++row) {
-        const double found = time[row] - time[row - 1];
-        if (std::abs(found - step) <= kMaxJitter * step) continue;
+      for (std::size_t last = episode.begin, row = last + 1; row < episode.end; ++row) {
+        if (std::isnan(time[row])) continue;
+        const double found = (time[row] - time[last]) / static_cast<double>(row - last);
+        last = row;
+        if (!(std::abs(found - step) > kMaxJitter * step)) continue;
         return Error{place(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
                      std::to_string(step) +
                      " everywhere: resample the recording to one rate, or give the rate that it has"};
