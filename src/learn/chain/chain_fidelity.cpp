@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -212,7 +213,12 @@ std::vector<Stretch> signals_of(const Motion& motion, std::uint64_t seed) {
   return out;
 }
 
-std::size_t long_rows(double rate_hz) { return static_cast<std::size_t>(std::lround(kLongWindowSeconds * rate_hz)); }
+// Rows of a long window: even and at least 8, as spectra need. More rows than any stretch has where two seconds have
+// fewer, so that there is no window.
+std::size_t long_rows(double rate_hz) {
+  const auto rows = 2 * static_cast<std::size_t>(std::lround(kLongWindowSeconds / 2 * rate_hz));
+  return rows >= 8 ? rows : std::numeric_limits<std::size_t>::max() / 2;
+}
 
 }  // namespace
 
@@ -322,12 +328,11 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
   auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
   if (!bank) return 0;
   const InstanceId id = bank->spawn();
-  std::size_t steps = 0, run = 0, longest = 0, joined = 0;
+  std::size_t run = 0, longest = 0, joined = 0;
   const ChainFacet& chain = *bank->chain();
   std::uint64_t before = origin[chain.place_of(id)->segment];
   while (joined < segments) {
     bank->step();
-    ++steps;
     ++run;
     const auto place = *chain.place_of(id);
     if (place.step != 0) continue;
