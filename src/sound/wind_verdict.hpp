@@ -105,7 +105,7 @@ class LiveBridge {
     return speed < most_ ? speed : most_;
   }
 
-  /// Takes the frame's wind as it was passed on.
+  /// Stores the final wind of a frame.
   void end_frame(T wind) { before_[at_++ % before_.size()] = wind; }
 
  private:

@@ -25,7 +25,7 @@ constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
 constexpr std::size_t kMaxWindows = 500;  // maximum number on each side
 constexpr int kSynthesizedPerReal = 2;    // synthesized falls per recorded fall
 constexpr double kLongWindowSeconds = 2;
-constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // below what an eye can see
+constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // limits of visibility
 
 struct Jumps {
   std::vector<double> position;
@@ -213,8 +213,8 @@ std::vector<Stretch> signals_of(const Motion& motion, std::uint64_t seed) {
   return out;
 }
 
-// Rows of a long window: even and at least 8, as spectra need. More rows than any stretch has where two seconds have
-// fewer, so that there is no window.
+// Rows of a window of two seconds, made even. Spectra need at least 8: where two seconds have fewer, the number exceeds
+// every stretch's, so that there is no window.
 std::size_t long_rows(double rate_hz) {
   const auto rows = 2 * static_cast<std::size_t>(std::lround(kLongWindowSeconds / 2 * rate_hz));
   return rows >= 8 ? rows : std::numeric_limits<std::size_t>::max() / 2;

@@ -89,7 +89,8 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
 
 ReportSection segments_section(const ChainSummary& summary);
 
-/// Section `fidelity` and `join_defect`; figures that need a missing orientation are for programs only.
+/// Section with the figures `fidelity.*` and `join_defect.*`. Figures that need a missing orientation are unlabelled:
+/// for programs only.
 ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientation);
 
 /// Copies the figures that a model stores to its training record.

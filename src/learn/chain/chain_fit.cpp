@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kRounds = 40;          // horizon in segments, longer than a heading persists
 constexpr int kSettlingRounds = 60;  // iterations until visit shares are stationary
-constexpr std::size_t kAnyOf = 8;    // successors considered in a mode whose segments are equally probable
+constexpr std::size_t kAnyOf = 8;    // maximum successors considered in a mode whose segments are equally probable
 constexpr double kMaxStored = 32767;
 constexpr double kMinSpread = 1e-9;
 

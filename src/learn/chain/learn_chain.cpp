@@ -98,7 +98,7 @@ Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, F
   std::get<ChainModel>(fit.model.dynamics).gust = gusts->response;
   fit.model.inputs = std::move(gusts->inputs);
   Training& training = fit.model.training;
-  training.inputs.assign(fit.model.inputs.size(), {});  // m/s
+  training.inputs.assign(fit.model.inputs.size(), {});  // not scaled: m/s
   for (const Recording& one : paired) training.sources.push_back(one.source);
   if (const auto sound = check(fit.model); !sound) {
     return Error{pairs->source + ": " + sound.error().message + " from more gusts than its " + std::to_string(told)};

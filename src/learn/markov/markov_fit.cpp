@@ -24,8 +24,8 @@ constexpr double kSureGain = 2;          // minimum gain of a further mode on he
 constexpr double kSmallResidual = 0.01;  // minimum residual, as a share of the single model's
 constexpr double kGain = 1e-6;           // nats per row: iterations end where one gains less
 constexpr double kUnseenSteps = 0.1;     // added to each transition count, so that none is impossible
-constexpr double kMaxRadius = 0.9999;    // of a mode after stabilisation
-constexpr double kUsableFit = 10;        // percent, one step ahead
+constexpr double kMaxRadius = 0.9999;    // maximum spectral radius of a mode after stabilisation
+constexpr double kUsableFit = 10;        // minimum fit one step ahead of a usable model, percent
 constexpr double kDifferent = 3;         // standard errors by which coefficients differ; chance exceeds it once in 370
 
 struct State {

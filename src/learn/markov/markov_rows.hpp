@@ -50,13 +50,13 @@ Result<Rows> make_rows(std::span<const Recording> recordings, const ChannelChoic
 /// Rows between two shares (0 to 1) of every run. Runs are cut, never joined.
 Rows share_of(const Rows& rows, double from, double to);
 
-/// Coefficients and noise of one mode, on the columns of the rows.
+/// Coefficients and noise of one mode, for the columns of Rows::phi.
 struct Mode {
   Eigen::MatrixXd theta;   ///< columns × outputs, signs of the prediction, 0 where an output lacks the coefficient
   Eigen::MatrixXd factor;  ///< lower triangular factor of the residuals' covariance
 };
 
-/// Modes, initial and transition probabilities, on the columns of the rows.
+/// Modes, for the columns of Rows::phi, with their initial and transition probabilities.
 struct Chain {
   std::vector<Mode> modes{};
   Eigen::VectorXd initial{};
@@ -95,7 +95,7 @@ Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording
 Result<std::vector<std::vector<double>>> predict(const SwitchedArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, int steps);
 
-/// Figures of those predictions over all recordings together, as in prediction_figures().
+/// Figures of predict() over all recordings together, as in prediction_figures().
 /// Errors: as predict().
 Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const Recording> recordings,
                                   const ChannelChoice& channels, int steps);
@@ -116,7 +116,7 @@ struct Candidate {
 };
 
 struct Summary {
-  std::size_t samples_used = 0;  ///< number of rows of the returned model, which is learned from all rows
+  std::size_t samples_used = 0;  ///< number of rows that the returned model is learned from: all usable ones
   std::size_t held_out = 0;
   std::vector<Candidate> candidates;  ///< begins with a single mode
   std::vector<std::size_t> mode_rows;

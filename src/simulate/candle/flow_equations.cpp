@@ -106,7 +106,7 @@ constexpr float kMaxSoot = 1.2F;
 constexpr float kStoichiometric = 0.08F;         // mixture fraction of stoichiometric combustion
 constexpr float kHeat = 1700 / 0.08;             // K per unit of fuel burnt: 1700 K at stoichiometry
 constexpr float kReactionRate = 2000.0F;         // 1/s at the full rate
-constexpr float kIgnitionLow = 900.0F;           // K: no reaction or burnout of soot below
+constexpr float kIgnitionLow = 900.0F;           // K: no reaction below; soot forms and burns from 1000 K on
 constexpr float kIgnitionWidth = 400.0F;         // K: width of the rise to the full rate
 constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated
 

@@ -75,7 +75,7 @@ constexpr float kBlueVeil = 5.0F;    // attenuation of the blue by soot
 constexpr double kBlueFullMm = 4;    // height above the rim up to which blue is full: a candle is blue at its base
 constexpr double kBlueGoneMm = 16;   // height above which there is no blue: a planar flow has more than a camera sees
 constexpr double kGlowReachMm = 2.5;
-constexpr float kDark = 2e-4F;  // light below the first tone of every channel
+constexpr float kDark = 2e-4F;  // light below which every channel is black
 
 Result<void> check(const VirtualCameraOptions& o) {
   const auto ranges = flow::check_ranges("virtual camera", {

@@ -175,8 +175,8 @@ class Resonance {
   double a1_ = 0, a2_ = 0, gain_ = 0, y1_ = 0, y2_ = 0;
 };
 
-// Generates silence with occasional sounds of about unit level other than wind: a few syllables of a voice, a knock or
-// two on the table.
+// Generates occasional sounds other than wind, of about unit level, with silence between: a few syllables of a voice, a
+// knock or two on the table.
 class OtherSounds {
  public:
   /// `a_second`: mean number of sounds per second.

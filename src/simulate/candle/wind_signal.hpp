@@ -48,7 +48,7 @@ class LowPass {
 
 namespace wisp {
 
-/// A wind at a fixed rate, to be read sequentially or at any time.
+/// A wind sampled at a fixed rate.
 class WindSignal {
  public:
   /// Generates a wind, `seconds` long.

@@ -121,7 +121,7 @@ class LeafWind {
   /// Creates a calm.
   LeafWind() = default;
 
-  static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts
+  static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts, seconds
 
   /// Creates a train of random gusts for `seconds`, in random horizontal directions.
   static LeafWind gusty(std::uint64_t seed, double seconds);
@@ -148,7 +148,7 @@ class LeafWind {
   const std::vector<Gust>& gusts() const { return gusts_; }
 
  private:
-  std::vector<Gust> gusts_;  // sorted by start
+  std::vector<Gust> gusts_;
   MeasuredWind track_;
 };
 
@@ -160,7 +160,7 @@ namespace wisp::leaf {
 struct Constants {
   Vec carried{};       // added mass
   Vec inverse_mass{};  // 1 / (m + added mass)
-  Vec moment{};        // including the added one
+  Vec moment{};        // including added inertia
   Vec inverse_moment{};
   double mass = 0;
   double weight = 0;                 // m g

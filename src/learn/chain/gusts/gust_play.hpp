@@ -26,7 +26,7 @@ namespace wisp::chain {
 struct GustPairs {
   Motion windy;
   Motion calm;
-  std::array<const std::vector<double>*, 3> wind{};  ///< samples of the windy recording; it must outlive this
+  std::array<const std::vector<double>*, 3> wind{};  ///< wind of the windy recording, which must outlive the pairs
   std::size_t clones = 1;
   std::string source;  ///< source of the windy recording
 

@@ -213,7 +213,7 @@ std::vector<std::size_t> kept_segments(const SortedSegments& from, const Segment
   const std::span segments = from.segments;
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(from.modes));
   double bytes = 0;
-  const double successors = kSuccessorBytes * options.breadth * from.modes + 6;  // 6 bytes for the lead
+  const double successors = kSuccessorBytes * options.breadth * from.modes + 6;  // 6 bytes of ChainDrift::lead
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[from.mode[k]].push_back(k);
     bytes += bytes_of(segments[k], from.motion.has_orientation, successors);
