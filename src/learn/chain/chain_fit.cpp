@@ -208,6 +208,12 @@ Result<Cut> cut(std::span<const Recording> recordings, const ChainRecipe& recipe
   if (!motion) return motion.error();
   auto segmentation = segment(*motion, recordings, segmentation_of(recipe));
   if (!segmentation) return segmentation.error();
+  for (const Segment& one : segmentation->segments) {
+    if (static_cast<std::size_t>(one.steps) <= kMaxSegmentSteps) continue;
+    return Error{recordings[motion->pieces[one.piece].recording].source + ": has " + std::to_string(one.steps) +
+                 " rows between two events of " + recipe.event.signal + ", expected at most " +
+                 std::to_string(kMaxSegmentSteps) + ": choose another event, or resample to a lower rate"};
+  }
   Cut out{std::move(*motion), std::move(*segmentation)};
   const std::size_t pieces = out.motion.pieces.size();
   out.learned_pieces = static_cast<std::size_t>(std::ceil(static_cast<double>(pieces) * (1 - recipe.holdout)));

@@ -176,6 +176,13 @@ TEST(FitChain, MoreModesThanSegmentsIsAnError) {
   EXPECT_THAT(fit.error().message, HasSubstr("segments in all, expected at least as many as modes, 50"));
 }
 
+TEST(FitChain, AVeryLongSegmentIsAnError) {
+  const Recording recording = made_falls({.falls = 1, .seconds = 5000, .orientation = false, .swing_seconds = 1500});
+  const auto fit = learned(recording, {.modes = 1}, kHorizontal);
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("rows between two events of horizontal_speed, expected at most 65535"));
+}
+
 TEST(FitChain, WithOrientationASegmentIsFollowedByOneOfItsBestJoiningOnes) {
   const auto fit = learned(made_falls({.falls = 30}));
   ASSERT_TRUE(fit) << fit.error().message;
