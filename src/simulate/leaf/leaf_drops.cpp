@@ -242,9 +242,7 @@ Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options) {
 }
 
 Result<LeafPairs> simulate_leaf_pairs(const LeafPairsOptions& options) {
-  auto good = flow::check_ranges("leaf pairs", {
-                                                   {"clones", static_cast<double>(options.clones), 1, 10000},
-                                               });
+  auto good = flow::check_ranges("leaf pairs", {{"clones", static_cast<double>(options.clones), 1, 10000}});
   if (!good) return good.error();
   const LeafDropsOptions& drops = options.drops;
   if (good = check(drops, static_cast<double>(drops.drops) * options.clones); !good) return good.error();

@@ -289,7 +289,6 @@ double squared_length(const leaf::Quaternion& q) { return q[0] * q[0] + q[1] * q
 
 // state + h · rate.
 LeafState moved(const LeafState& s, double h, const LeafState& rate) {
-  using leaf::operator+, leaf::operator*;
   LeafState out{{}, s.position + h * rate.position, s.velocity + h * rate.velocity, s.spin + h * rate.spin};
   for (std::size_t k = 0; k < 4; ++k) out.attitude[k] = s.attitude[k] + h * rate.attitude[k];
   return out;

@@ -17,7 +17,6 @@ constexpr double kRounding = 2e-4;   // deviation from unit length of a quaterni
 constexpr double kMaxWrong = 0.01;   // maximum deviation of a quaternion from unit length
 constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of it
 
-constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
 
 // Channel indices of a recording's pose.
@@ -25,10 +24,6 @@ struct Layout {
   std::array<std::size_t, 3> position{};
   std::optional<std::array<std::size_t, 4>> orientation;
 };
-
-std::string place(const Recording& recording, std::size_t row) {
-  return recording.source + ": row " + std::to_string(row + 1);
-}
 
 Result<Layout> layout_of(const Recording& recording) {
   Layout layout;
@@ -69,7 +64,7 @@ Result<void> check_time(const Recording& recording) {
         const double found = (time[row] - time[last]) / static_cast<double>(row - last);
         last = row;
         if (!(std::abs(found - step) > kMaxJitter * step)) continue;
-        return Error{place(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
+        return Error{row_name(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
                      std::to_string(step) +
                      " everywhere: resample the recording to one rate, or give the rate that it has"};
       }
@@ -89,7 +84,7 @@ Result<Quad> unit_quaternion(const Recording& recording, const std::array<std::s
   }
   const double length = std::sqrt(square), wrong = std::abs(length - 1);
   if (!(wrong <= kMaxWrong)) {
-    return Error{place(recording, row) + ": the quaternion q has length " + std::to_string(length) +
+    return Error{row_name(recording, row) + ": the quaternion q has length " + std::to_string(length) +
                  ", expected 1 within 1 %: w comes first; what is no orientation can't be learned"};
   }
   worst = std::max(worst, wrong);
@@ -286,6 +281,10 @@ std::array<double, kSize> cubic(std::span<const std::array<double, kSize>> value
 }
 
 }  // namespace
+
+std::string row_name(const Recording& recording, std::size_t row) {
+  return recording.source + ": row " + std::to_string(row + 1);
+}
 
 Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows) {
   if (recordings.empty()) return Error{"there is no recording to learn motion from"};

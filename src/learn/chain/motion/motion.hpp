@@ -16,6 +16,11 @@ namespace wisp::chain {
 using Triple = std::array<double, 3>;
 using Quad = std::array<double, 4>;
 
+inline constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
+
+/// Names a row, from 1, in an error.
+std::string row_name(const Recording& recording, std::size_t row);
+
 inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline double length_of(const Triple& v) { return std::sqrt(dot(v, v)); }
 
