@@ -327,16 +327,9 @@ ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const Chain
 }
 
 Result<RealisedSegments> realised(const SortedSegments& from, const ChainRecipe& recipe) {
-  switch (recipe.realisation) {
-    case Realisation::kSpline:
-      return spline_segments(from, recipe.heading_free);
-    case Realisation::kLinear:
-      return system_segments(from, 1, recipe.seed);
-    case Realisation::kOde:
-      return system_segments(from, 2, recipe.seed);
-    default:
-      return half_segments(from, recipe.heading_free, recipe.seed);
-  }
+  if (recipe.realisation == Realisation::kSpline) return spline_segments(from, recipe.heading_free);
+  if (recipe.realisation == Realisation::kChain) return half_segments(from, recipe.heading_free, recipe.seed);
+  return system_segments(from, recipe.realisation == Realisation::kOde ? 2 : 1, recipe.seed);
 }
 
 Result<FittedWalk> walk_of(const Cut& data, const Modes& modes, const ChainRecipe& recipe) {

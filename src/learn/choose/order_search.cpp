@@ -37,11 +37,7 @@ Result<std::vector<OrderCandidate>> list_candidates(const ChannelChoice& channel
   for (uniform.nk = nk.first; uniform.nk <= nk.last; ++uniform.nk) {
     for (uniform.na = options.na.first; uniform.na <= options.na.last; ++uniform.na) {
       for (uniform.nb = nb.first; uniform.nb <= nb.last; ++uniform.nb) {
-        OrderCandidate& candidate = list.emplace_back();
-        candidate.orders = make_orders(uniform);
-        candidate.na = uniform.na;
-        candidate.nb = uniform.nb;
-        candidate.nk = uniform.nk;
+        list.push_back({{}, make_orders(uniform), uniform.na, uniform.nb, uniform.nk});
       }
     }
   }

@@ -187,14 +187,13 @@ Result<void> add_row(const Recording& recording, const Layout& layout, std::size
   return {};
 }
 
-double distance_between(const Triple& a, const Triple& b) { return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]); }
-
 // Errors: a jump, as between two falls in one episode: a step more than kMaxJump times as long as the usual step and as
 // the four steps around it.
 Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
   std::vector<double> steps;
   for (std::size_t row = 1; row < piece.rows(); ++row) {
-    steps.push_back(distance_between(piece.position[row - 1], piece.position[row]));
+    const Triple &a = piece.position[row - 1], &b = piece.position[row];
+    steps.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
   }
   const double usual = quantile(steps, kUsualStep);
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -266,14 +265,9 @@ std::array<double, kSize> cubic(std::span<const std::array<double, kSize>> value
     for (long k = 0; k < 4; ++k) {
       const long at = place.row + k - 1;
       // Values are extrapolated linearly beyond the ends.
-      double x = 0;
-      if (at < 0) {
-        x = 2 * value(0, i) - value(std::min(1L, last), i);
-      } else if (at > last) {
-        x = 2 * value(last, i) - value(std::max(0L, last - 1), i);
-      } else {
-        x = value(at, i);
-      }
+      const double x = at < 0      ? 2 * value(0, i) - value(std::min(1L, last), i)
+                       : at > last ? 2 * value(last, i) - value(std::max(0L, last - 1), i)
+                                   : value(at, i);
       out[i] += place.weight[static_cast<std::size_t>(k)] * x;
     }
   }
