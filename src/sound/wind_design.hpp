@@ -34,8 +34,8 @@ struct Design {
 
   int hop = 80;        ///< analysis samples per hop; a multiple of voice_step
   int voice_step = 2;  ///< decimation for the search of a voice's period (to about 4 kHz)
-  int first_lag = 10;  ///< shortest and longest period of a voice, in samples after that decimation
-  int last_lag = 57;
+  int first_lag = 10;  ///< shortest period of a voice, in samples after that decimation
+  int last_lag = 57;   ///< longest period
 
   float power_approach = 1;     ///< weight of one hop in the mean of band powers (50 ms)
   float voice_release = 1;      ///< decay of the peak-held voicing per hop (300 ms)

@@ -13,8 +13,8 @@
 
 namespace wisp::wind {
 
-/// One channel: the mean of `box` samples, a low-pass, decimation by `decimation`. All channels of a stream run in
-/// step.
+/// Reduces one channel to the analysis rate: the mean of `box` samples, a low-pass, decimation by `decimation`. All
+/// channels of a stream run in step.
 template <class T>
 class Decimator {
  public:
@@ -116,7 +116,7 @@ class Bands {
 constexpr float kNothingDb = -110;  ///< loudness below which there is no sound at all (a muted or starting stream)
 constexpr int kWarmHops = 15;       ///< hops until the 50 ms mean is settled
 
-/// Whether the current sound began suddenly, whatever it is, including sound that began during a voice and outlasts it.
+/// Whether the current sound, of any kind, began suddenly; also of sound that began during a voice and outlasts it.
 template <class T>
 class Sudden {
  public:

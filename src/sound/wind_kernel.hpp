@@ -27,7 +27,7 @@ struct Features {
   T peaked = T(0.0F);          ///< log of the voice band's kurtosis relative to a Gaussian's, −1 to 3
   T voice_db = T(0.0F);        ///< power of the voice band relative to all above 100 Hz
   T newest_db = T(0.0F);       ///< power of the voice band in the newest 10 ms relative to the 50 ms
-  T flutter_db = T(0.0F);      ///< mean absolute change of that power from hop to hop, over 150 ms
+  T flutter_db = T(0.0F);      ///< mean absolute change of the newest power from hop to hop, over 150 ms
   T clipped = T(0.0F);         ///< share of samples at full scale: a blow overloads the capsule
   T loudness_db = T(-120.0F);  ///< power of the voice band (100–900 Hz)
 };

@@ -38,10 +38,9 @@ struct WindLevel::State {
   }
 
   const WindFrame& end_frame() {
-    const std::int64_t index = last_index + 1;
     latest = listener.end_frame();
-    latest.index = last_index = index;
-    next_frame_at = end_of(index + 1);
+    latest.index = ++last_index;
+    next_frame_at = end_of(last_index + 1);
     return latest;
   }
 
@@ -105,9 +104,6 @@ void WindLevel::set_calibration(const WindCalibration& known) {
 
 void WindLevel::reset() { state_ = std::make_unique<State>(state_->format, state_->options); }
 
-double WindLevel::latency_seconds() const {
-  const wind::Design& d = state_->design;
-  return d.delay_seconds + state_->options.smoothing_seconds;
-}
+double WindLevel::latency_seconds() const { return state_->design.delay_seconds + state_->options.smoothing_seconds; }
 
 }  // namespace wisp

@@ -15,7 +15,7 @@
 
 namespace wisp::wind {
 
-constexpr float kMinFloorDb = -95;  ///< a lower floor is that of a gated microphone
+constexpr float kMinFloorDb = -95;  ///< minimum floor: only a gated microphone's is lower
 constexpr float kQuietDb = 6;       ///< minimum loudness of wind over the floor
 constexpr float kSwellDb = 3;       ///< maximum distance of the floor below the room's recent loudness
 
@@ -207,8 +207,8 @@ class Reference {
     end();
   }
 
-  /// A guided calibration heard certainly soft breath, or hard blowing. It sets the level: halfway where both are known
-  /// and far enough apart, else by the breath, which must not extinguish a flame. Adaptation continues from there.
+  /// Sets the level from a guided calibration's soft breath, or hard blow: halfway between both where both are known
+  /// and far enough apart, else from the breath, which must not extinguish a flame. Adaptation continues from there.
   void set_soft(T gust_db) {
     soft_db_ = gust_db + T(kSoftDb);
     knows_soft_ = true;
@@ -225,13 +225,13 @@ class Reference {
   static constexpr float kKnownGusts = 3;  ///< weight of a given or calibrated level, in gusts
 
  private:
-  static constexpr float kHardDb = 17;     ///< level of a hard blow above wind 1,
-  static constexpr float kSoftDb = 4;      ///< level of a soft breath below it,
-  static constexpr float kSpreadDb = 6;    ///< and the standard deviation of either
+  static constexpr float kHardDb = 17;     ///< level of a hard blow above wind 1
+  static constexpr float kSoftDb = 4;      ///< level of a soft breath below wind 1
+  static constexpr float kSpreadDb = 6;    ///< standard deviation of both levels
   static constexpr float kNeither = 0.1F;  ///< likelihood of a gust of neither kind, which hardly moves the level
   static constexpr float kMaxGusts = 6;    ///< memory, in gusts
-  static constexpr float kFallDb = 8;      ///< maximum fall below the initial level,
-  static constexpr float kRiseDb = 12;     ///< and maximum rise above it, as microphones differ
+  static constexpr float kFallDb = 8;      ///< maximum fall below the initial level
+  static constexpr float kRiseDb = 12;     ///< maximum rise above the initial level
 
   void learn(T gust_db) {
     const T hard = (gust_db - level_db_ - T(kHardDb)) * T(1 / kSpreadDb);

@@ -38,7 +38,7 @@ class Listener {
     return frame;
   }
 
-  /// Uses the coming frames for a guided calibration with the requested kind of wind.
+  /// Uses the next `frames` frames for a guided calibration with the requested kind of wind.
   void calibrate(WindAsk ask, int frames) {
     ask_ = ask;
     asked_frames_ = frames;

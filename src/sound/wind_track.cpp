@@ -90,7 +90,7 @@ class Spectra {
   std::vector<float> powers_;
 };
 
-/// Mean spectra of wind and room in those bands.
+/// Mean spectra of wind and room, in the bands of Spectra.
 struct BandMeans {
   std::vector<double> wind;  ///< of wind 1, without the room's
   std::vector<double> room;
@@ -118,8 +118,9 @@ constexpr float kBlowingConfidence = 0.5F;  // threshold of probable blowing
 constexpr float kWindHeard = 0.05F;         // in wind units: minimum that is reported as wind
 constexpr double kShortestPuff = 0.1;       // minimum seconds above half of a puff's maximum
 
-// A knock exceeds `wind` for at most `seconds` and reaches `peak`. Unlike a gust's short peaks it has no such wind for
-// `seconds` before and after. Knocks far stronger than wind (the first entry) ring in the room, so they last longer.
+// A knock exceeds `wind` for at most `seconds` and reaches `peak`. Around it, unlike around the short peaks of a gust,
+// the wind is below `wind` for `seconds`. Knocks far stronger than wind (the first entry) ring in the room and so last
+// longer.
 struct Knock {
   float wind, peak;
   double seconds;

@@ -82,10 +82,10 @@ T heard_speed(T speed, const Observation<T>& seen, T floor_db) {
 }
 
 /// Live estimate. Frames that sound like blowing, or in which nothing is heard, pass unchanged. In others the wind is
-/// at most that before them, decaying within half a second.
+/// at most the wind before them, decaying within half a second.
 ///
 /// "Before" is 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a few
-/// frames, so after blowing the measurement is still accepted for as long as that lasted, at most 80 ms.
+/// frames, so after blowing the measurement is still accepted for as long as the blowing lasted, at most 80 ms.
 template <class T>
 class LiveBridge {
  public:
@@ -105,7 +105,7 @@ class LiveBridge {
     return speed < most_ ? speed : most_;
   }
 
-  /// Takes the frame's wind as it was passed on.
+  /// Stores the final wind of a frame.
   void end_frame(T wind) { before_[at_++ % before_.size()] = wind; }
 
  private:

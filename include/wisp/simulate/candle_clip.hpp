@@ -54,8 +54,8 @@ struct VirtualMicrophoneOptions {
 /// Kinds of wind.
 enum class WindKind {
   kCalm,      ///< no wind: a perfectly still flame
-  kDraughts,  ///< a closed room's still air: a few cm/s from either side, which vary the brightness by 1 %, as of an
-              ///< undisturbed candle (cpldcpu/RealCandle, a photodiode's record)
+  kDraughts,  ///< air of a closed room, a few cm/s from either side: brightness varies by 1 %, as a photodiode measured
+              ///< beside an undisturbed candle (cpldcpu/RealCandle)
   kGusts,     ///< wideband noise and gusts of all lengths, with rests: excitation for learning
 };
 

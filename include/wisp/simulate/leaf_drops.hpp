@@ -49,11 +49,11 @@ struct LeafDropsOptions {
   MeasuredWind track{};       ///< if it has rows, the wind of every drop, from the recording's beginning
   int drops = 200;            ///< episodes, 1 … 100000
   double seconds = 20;        ///< recorded duration of each drop, 0.1 … 3600
-  double settle_seconds = 2;  ///< simulated before that, 0 … 60: until the initial state is forgotten
+  double settle_seconds = 2;  ///< simulated before the recording, 0 … 60: until the initial state is forgotten
   double rate_hz = 60;        ///< rows per second, 1 … 10000
   std::uint64_t seed = 1;
   int threads = 0;                               ///< 0 … 256; 0: one per core. The result does not depend on it
-  std::function<void(double)> on_progress = {};  ///< called now and then with the finished share
+  std::function<void(double)> on_progress = {};  ///< called on the calling thread with the share of falls done
 };
 
 /// Simulates all falls.

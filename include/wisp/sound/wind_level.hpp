@@ -57,7 +57,7 @@ struct WindFrame {
                            ///< another sound no more than the preceding wind (in a recording: also the following one,
                            ///< and under a knock far above wind 1); live at most 1 until wind above 1 that sounds like
                            ///< blowing adds up to 0.24 s of wind 1
-  float confidence = 0;    ///< 0 to 1: that this is blowing, not talking
+  float confidence = 0;    ///< confidence that this is blowing, not talking, 0 to 1
   float background = 0;    ///< the plain RMS of the background as estimated at this frame
   float clipped = 0;       ///< share of samples at full scale, 0 to 1
 };
@@ -120,9 +120,9 @@ class WindLevel {
   /// Returns whether the last calibration has ended and heard its request: at least 0.1 s of certain blowing.
   bool calibrated() const;
 
-  /// Returns the rise of the room's level since its first seconds or its lowest since, dB, at least 0: sound without
-  /// pauses that is no breath. From 6 on a steady sound has begun (rain, a fan, an engine) that may be mistaken for
-  /// wind; reset() makes it the background.
+  /// Returns by how many dB the room is louder than in its first seconds or at its quietest since; at least 0. From 6
+  /// on a steady sound has begun (rain, a fan, an engine) that may be mistaken for wind; reset() makes it the
+  /// background.
   float room_rise_db() const;
 
   /// Returns the current estimate of microphone and room.

@@ -1,7 +1,7 @@
 #pragma once
 // Wind estimate of a whole recording: like WindLevel, but since all sound is known when the frames are made, the
-// background is the mean of all stretches without wind, the gain is exact, and under voices the wind is measured
-// between their harmonics.
+// background is the mean of all stretches without wind, wind 1 is measured over all gusts, and under voices the wind is
+// measured between their harmonics.
 
 #include <cstdint>
 #include <memory>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -24,7 +25,7 @@ constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
 constexpr std::size_t kMaxWindows = 500;  // maximum number on each side
 constexpr int kSynthesizedPerReal = 2;    // synthesized falls per recorded fall
 constexpr double kLongWindowSeconds = 2;
-constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // below what an eye can see
+constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // limits of visibility
 
 struct Jumps {
   std::vector<double> position;
@@ -168,8 +169,8 @@ double energy_of(const FeatureWindows& reference, const FeatureWindows& other) {
   return energy_distance(x, y);
 }
 
-// Places a value between its floor (distance of two halves of the real falls: every other fall, or a single one cut in
-// time) and its ceiling (distance to their rows in random order). `windows_of`: windows of a series.
+// Distance between real and made falls, its floor (between two halves of the real falls: every other fall, or a single
+// fall cut in time) and its ceiling (from real falls to their rows in random order). `windows_of`: windows of a series.
 template <typename Windows>
 Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::uint64_t seed,
                  const Windows& windows_of) {
@@ -212,7 +213,12 @@ std::vector<Stretch> signals_of(const Motion& motion, std::uint64_t seed) {
   return out;
 }
 
-std::size_t long_rows(double rate_hz) { return static_cast<std::size_t>(std::lround(kLongWindowSeconds * rate_hz)); }
+// Rows of a window of two seconds, made even. Spectra need at least 8: where two seconds have fewer, the number exceeds
+// every stretch's, so that there is no window.
+std::size_t long_rows(double rate_hz) {
+  const auto rows = 2 * static_cast<std::size_t>(std::lround(kLongWindowSeconds / 2 * rate_hz));
+  return rows >= 8 ? rows : std::numeric_limits<std::size_t>::max() / 2;
+}
 
 }  // namespace
 
@@ -322,12 +328,11 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
   auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
   if (!bank) return 0;
   const InstanceId id = bank->spawn();
-  std::size_t steps = 0, run = 0, longest = 0, joined = 0;
+  std::size_t run = 0, longest = 0, joined = 0;
   const ChainFacet& chain = *bank->chain();
   std::uint64_t before = origin[chain.place_of(id)->segment];
   while (joined < segments) {
     bank->step();
-    ++steps;
     ++run;
     const auto place = *chain.place_of(id);
     if (place.step != 0) continue;

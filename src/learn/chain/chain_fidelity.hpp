@@ -27,12 +27,12 @@ struct JoinDefect {
   double position_floor = 0, rotation_floor = 0;
 };
 
-/// Time series of descent speed, horizontal speed, rate of heading, for poses tilt and spin, and segment duration (SI
-/// units): one row per row of each piece, from its first event to its last.
-/// A piece with fewer than two events has no rows.
+/// Time series in SI units, one per piece, from its first event to its last: descent speed, horizontal speed, rate of
+/// heading, for poses also tilt and spin, and the duration of the row's segment. A piece with fewer than two events has
+/// no rows.
 std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments);
 
-/// Windows of `rows` rows, end to end: mean, deviation, minimum and maximum of every column; noise is added to tilt.
+/// Adjacent windows of `rows` rows: mean, deviation, minimum and maximum of every column. Tilt gets noise of ±0.2°.
 ///
 /// Precondition: rows >= 2.
 FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows);
@@ -57,7 +57,7 @@ Bounded spectra_apart(const Motion& real, const Motion& synthesized, std::uint64
 struct ChainFidelity {
   FallFigures real;
   FallFigures synthesized;
-  Bounded energy_distance;
+  Bounded energy_distance;       ///< over windows of 2.5 recorded segments of mean duration
   Bounded long_energy_distance;  ///< the same over windows of two seconds; NaN where recordings are shorter
   Bounded spectra;               ///< result of spectra_apart()
   JoinDefect join_defect;
@@ -89,7 +89,8 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
 
 ReportSection segments_section(const ChainSummary& summary);
 
-/// Section `fidelity` and `join_defect`; figures that need a missing orientation are for programs only.
+/// Section with the figures `fidelity.*` and `join_defect.*`. Figures that need a missing orientation are unlabelled:
+/// for programs only.
 ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientation);
 
 /// Copies the figures that a model stores to its training record.

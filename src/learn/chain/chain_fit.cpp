@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kRounds = 40;          // horizon in segments, longer than a heading persists
 constexpr int kSettlingRounds = 60;  // iterations until visit shares are stationary
-constexpr std::size_t kAnyOf = 8;    // successors considered in a mode whose segments are equally probable
+constexpr std::size_t kAnyOf = 8;    // maximum successors considered in a mode whose segments are equally probable
 constexpr double kMaxStored = 32767;
 constexpr double kMinSpread = 1e-9;
 
@@ -101,9 +101,9 @@ class Walk {
         those.assign(best, best + static_cast<long>(breadth));
       } else {
         const auto [low, high] = std::equal_range(segments.mode.begin(), segments.mode.end(), mode);
-        const auto members = static_cast<std::size_t>(high - low);
-        for (std::size_t k = 0; k < std::min(members, kAnyOf); ++k) {
-          those.push_back(static_cast<std::size_t>(low - segments.mode.begin()) + (s + k * members / kAnyOf) % members);
+        const auto members = static_cast<std::size_t>(high - low), count = std::min(members, kAnyOf);
+        for (std::size_t k = 0; k < count; ++k) {
+          those.push_back(static_cast<std::size_t>(low - segments.mode.begin()) + (s + k * members / count) % members);
         }
       }
       for (std::size_t to : those) {
@@ -120,7 +120,7 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Expected displacement after each segment, beyond the mean velocity's; `memory`: seconds until half of it is reached.
+// Expected displacement after each segment in excess of `drift`; `memory`: receives the seconds until half is reached.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
   std::vector<double> size;  // root mean square after each iteration
@@ -208,6 +208,12 @@ Result<Cut> cut(std::span<const Recording> recordings, const ChainRecipe& recipe
   if (!motion) return motion.error();
   auto segmentation = segment(*motion, recordings, segmentation_of(recipe));
   if (!segmentation) return segmentation.error();
+  for (const Segment& one : segmentation->segments) {
+    if (static_cast<std::size_t>(one.steps) <= kMaxSegmentSteps) continue;
+    return Error{recordings[motion->pieces[one.piece].recording].source + ": has " + std::to_string(one.steps) +
+                 " rows between two events of " + recipe.event.signal + ", expected at most " +
+                 std::to_string(kMaxSegmentSteps) + ": choose another event, or resample to a lower rate"};
+  }
   Cut out{std::move(*motion), std::move(*segmentation)};
   const std::size_t pieces = out.motion.pieces.size();
   out.learned_pieces = static_cast<std::size_t>(std::ceil(static_cast<double>(pieces) * (1 - recipe.holdout)));
@@ -267,8 +273,8 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// Without requested modes, one mode where orientation is known: a segment is then followed by a well-joining one.
-// Without orientation well-joining successors are too often short ones; modes preserve their mean duration.
+// If no number of modes is requested: one where orientation is known, since the next segment is chosen by its join.
+// Without orientation, the best-joining successors are too often short ones; modes preserve the mean duration.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {
@@ -321,16 +327,9 @@ ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const Chain
 }
 
 Result<RealisedSegments> realised(const SortedSegments& from, const ChainRecipe& recipe) {
-  switch (recipe.realisation) {
-    case Realisation::kSpline:
-      return spline_segments(from, recipe.heading_free);
-    case Realisation::kLinear:
-      return system_segments(from, 1, recipe.seed);
-    case Realisation::kOde:
-      return system_segments(from, 2, recipe.seed);
-    default:
-      return half_segments(from, recipe.heading_free, recipe.seed);
-  }
+  if (recipe.realisation == Realisation::kSpline) return spline_segments(from, recipe.heading_free);
+  if (recipe.realisation == Realisation::kChain) return half_segments(from, recipe.heading_free, recipe.seed);
+  return system_segments(from, recipe.realisation == Realisation::kOde ? 2 : 1, recipe.seed);
 }
 
 Result<FittedWalk> walk_of(const Cut& data, const Modes& modes, const ChainRecipe& recipe) {

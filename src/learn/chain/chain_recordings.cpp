@@ -16,11 +16,6 @@ namespace {
 
 constexpr double kFarthest = 1e6;     // metres: limit of positions in players
 constexpr double kMaxClones = 10000;  // limit of `simulate leaf --clones`
-constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
-
-std::string place(const Recording& recording, std::size_t row) {
-  return recording.source + ": row " + std::to_string(row + 1);
-}
 
 // Checks that every channel of the pose has a sample.
 Result<void> check_filled(const Recording& recording) {
@@ -36,7 +31,7 @@ Result<void> check_filled(const Recording& recording) {
 }
 
 Result<void> check_metres(const Recording& recording) {
-  for (const char* name : kPositions) {
+  for (const char* name : chain::kPositions) {
     const Channel& channel = recording.channels[*find_channel(recording, name)];
     if (!channel.unit.empty() && channel.unit != "m") {
       return Error{recording.source + ": " + name + " is in " + channel.unit + ", expected metres: convert it"};
@@ -44,7 +39,7 @@ Result<void> check_metres(const Recording& recording) {
     const auto& samples = channel.samples;
     const auto far = std::find_if(samples.begin(), samples.end(), [](double x) { return std::abs(x) > kFarthest; });
     if (far == samples.end()) continue;
-    return Error{place(recording, static_cast<std::size_t>(far - samples.begin())) + ": " + name + " is " +
+    return Error{chain::row_name(recording, static_cast<std::size_t>(far - samples.begin())) + ": " + name + " is " +
                  number_text(*far, 3) +
                  ", expected metres, within 1000 km: give positions in metres from where it starts"};
   }
@@ -56,7 +51,7 @@ Result<void> check_paired(const Recording& recording) {
     const auto& samples = recording.channels[channel].samples;
     const auto missing = std::find_if(samples.begin(), samples.end(), [](double x) { return std::isnan(x); });
     if (missing == samples.end()) continue;
-    return Error{place(recording, static_cast<std::size_t>(missing - samples.begin())) + ": has no " +
+    return Error{chain::row_name(recording, static_cast<std::size_t>(missing - samples.begin())) + ": has no " +
                  recording.channels[channel].name + ", expected the wind in every row of a pair: fill it in"};
   }
   const auto clones = numbers_attribute(recording, "clones");

@@ -14,10 +14,10 @@ namespace wisp {
 namespace chain {
 namespace {
 
-constexpr double kMaxSpeed = 100;  // m/s: no fall is as fast, but one in millimetres read as metres is
-constexpr std::size_t kVerbatimSegments = 20000;
+constexpr double kMaxSpeed = 100;                 // m/s: a faster mean speed suggests positions in millimetres
+constexpr std::size_t kVerbatimSegments = 20000;  // length of the play that is searched for copied stretches
 
-// Takes the leaf's half axes from the attribute with its full ones, where that exists and the recipe has none.
+// Sets the recipe's half axes, if it has none, to half of the full axes in the recording's attribute.
 Result<void> take_size(const Recording& first, ChainRecipe& recipe) {
   if (recipe.half_width > 0 || recipe.half_length > 0) return {};
   const auto size = numbers_attribute(first, "leaf_length_width_density");
@@ -30,7 +30,7 @@ Result<void> take_size(const Recording& first, ChainRecipe& recipe) {
                number_text((**size)[1], 3) + ", expected a length and a width above 0, in metres"};
 }
 
-// A learning error, with the name of the file that it concerns.
+// Adds the first recording's name to a learning error that does not begin with a recording's name.
 Error about(std::span<const Recording> recordings, const Error& error) {
   if (error.message == kStopped) return error;
   for (const Recording& recording : recordings) {
@@ -98,7 +98,7 @@ Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, F
   std::get<ChainModel>(fit.model.dynamics).gust = gusts->response;
   fit.model.inputs = std::move(gusts->inputs);
   Training& training = fit.model.training;
-  training.inputs.assign(fit.model.inputs.size(), {});  // m/s
+  training.inputs.assign(fit.model.inputs.size(), {});  // not scaled: m/s
   for (const Recording& one : paired) training.sources.push_back(one.source);
   if (const auto sound = check(fit.model); !sound) {
     return Error{pairs->source + ": " + sound.error().message + " from more gusts than its " + std::to_string(told)};

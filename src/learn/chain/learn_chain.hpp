@@ -22,7 +22,7 @@ Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe
                         const Progress& progress = {});
 
 /// Compares falls that the model makes with recorded ones, which should be unseen in training; or, given a windy
-/// recording and its calm twin, the effect of gusts. The report's series are the tracks of both.
+/// recording and its calm twin, the effect of gusts. The report's series are recorded and played tracks.
 /// Errors: as check_motion(); the model is no chain, or lacks its segmentation options; rates that differ; an invalid
 /// pair; stopped by `progress`.
 Result<Report> validate_chain(const Model& model, std::span<const Recording> recordings, std::uint64_t seed,
@@ -41,7 +41,7 @@ struct SortedRecordings {
 /// Errors: as check_motion(); paired recordings other than one windy recording and its calm twin.
 Result<SortedRecordings> sorted_recordings(std::span<const Recording> recordings);
 
-/// Number of episodes that repeat an earlier one row by row. They add nothing to training or to validation.
+/// Number of episodes, and of those that repeat an earlier one row by row: they add nothing to training or validation.
 struct Repeats {
   std::size_t episodes = 0;
   std::size_t repeated = 0;

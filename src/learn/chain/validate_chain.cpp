@@ -20,8 +20,9 @@ constexpr std::size_t kFalls = 12;    // maximum number on each side: more would
 constexpr double kShownSeconds = 6;   // maximum duration of a plotted fall
 constexpr double kMarkedSeconds = 3;  // maximum duration of the fall with marked events
 
+// Rows of a piece to plot: `seconds`, but at least the 8 rows that motion_of() needs.
 std::size_t rows_of(const MotionPiece& piece, double seconds, double rate_hz) {
-  return std::min(piece.rows(), static_cast<std::size_t>(seconds * rate_hz));
+  return std::min(piece.rows(), std::max<std::size_t>(8, static_cast<std::size_t>(seconds * rate_hz)));
 }
 
 void add_point(const MotionPiece& piece, const Triple& at, std::size_t axis, ReportSeries& out) {

@@ -24,8 +24,8 @@ LagLayout all_lags(const Signals& signals, const DelayOptions& options, int most
   return LagLayout(signals.outputs, signals.inputs, used);
 }
 
-// Squared errors of every output (columns) in regressions on all outputs' lags, the other inputs' lags and `nb` lags of
-// input k from each delay on; the last row is without input k.
+// Squared errors of every output (column) in regressions on all outputs' lags, the other inputs' lags and `nb` lags of
+// input k, from each delay (row) on. The last row is of regressions without input k.
 Eigen::MatrixXd squares_of(SearchWindows& windows, const LagLayout& layout, const DelayOptions& options, int k) {
   std::vector<int> base, tail;
   if (options.offset == ArxOffset::kEstimate) base.push_back(0);
@@ -102,7 +102,7 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
   // Ends where two doublings change no delay, and all are supported: a short delay may be supported by chance, or
   // because the input resembles its own past. A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per
-  // further input, all of whose lags enter.
+  // lag of each further input, since all lags of the other inputs enter.
   for (int most = 2 * kFirst, unchanged = 0;
        delays && !options.most && most * std::max(1, signals->inputs) <= kLast &&
        rows >= static_cast<std::size_t>(most) *

@@ -37,11 +37,7 @@ Result<std::vector<OrderCandidate>> list_candidates(const ChannelChoice& channel
   for (uniform.nk = nk.first; uniform.nk <= nk.last; ++uniform.nk) {
     for (uniform.na = options.na.first; uniform.na <= options.na.last; ++uniform.na) {
       for (uniform.nb = nb.first; uniform.nb <= nb.last; ++uniform.nb) {
-        OrderCandidate& candidate = list.emplace_back();
-        candidate.orders = make_orders(uniform);
-        candidate.na = uniform.na;
-        candidate.nb = uniform.nb;
-        candidate.nk = uniform.nk;
+        list.push_back({{}, make_orders(uniform), uniform.na, uniform.nb, uniform.nk});
       }
     }
   }
@@ -87,7 +83,7 @@ class Search {
   }
 
  private:
-  // Layout of all candidates: that of one model with the first delay and every lag from there to the last.
+  // Layout with the columns of all candidates: that of a model with the smallest delay and every lag up to the largest.
   LagLayout layout() const {
     const int lags = options_.nb.last > 0 ? options_.nb.last + options_.nk.last - options_.nk.first : 0;
     const ArxOrders all = make_orders({.outputs = signals_.outputs,
@@ -179,7 +175,7 @@ class Search {
   std::optional<SearchWindows> validation_;
 };
 
-// Criteria that are sums over rows are divided by the number of rows, as candidates may have different windows.
+// Criteria that are sums over rows are divided by their number, since candidates may have different windows.
 double value_of(const Criteria& criteria, OrderCriterion by, std::size_t rows) {
   constexpr double Criteria::*kFigures[] = {&Criteria::fpe, &Criteria::aic, &Criteria::aicc, &Criteria::bic};
   const double value = criteria.*kFigures[static_cast<std::size_t>(by)];

@@ -11,10 +11,11 @@
 namespace wisp {
 namespace {
 
-// Residual products are small differences of large numbers: maximum rounding error, as a share of a residual's square.
+// Maximum rounding error of residual products, as a share of a residual's square: small differences of large numbers.
 constexpr double kMaxRounding = 1e-10;
 
-// Pivot below which a column is nearly a combination of those before it, so the triangle is used instead.
+// Minimum pivot, as a share of a column's square: below it the column is nearly a combination of the columns before it,
+// and the triangle is used instead of the Gram matrix.
 constexpr double kMinPivot = 1e-9;
 
 std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& annihilator) {
@@ -33,7 +34,7 @@ Eigen::MatrixXd products_by_triangle(const Eigen::MatrixXd& triangle, const Eige
   return residuals.transpose() * residuals;
 }
 
-// Whether no column depends on those before it; `squares` are the columns' own.
+// Whether no column depends on the columns before it; `squares`: sums of squares of the columns.
 bool well_determined(const Eigen::LLT<Eigen::MatrixXd>& cholesky, const Eigen::VectorXd& squares) {
   const Eigen::ArrayXd pivots = cholesky.matrixLLT().diagonal().array().square();
   return cholesky.info() == Eigen::Success && (pivots >= kMinPivot * squares.array()).all() && (pivots > 0).all();

@@ -17,7 +17,7 @@ constexpr double kVerbatimTolerance = 0.02;  // in standard deviations of a chan
 
 using Stretches = std::vector<Stretch>;
 
-// Lengths of windows and stretches, equal for a comparison and its two bounds, which makes them comparable.
+// Lengths of Welch's segments and of windows, rows. A comparison and its two bounds use the same lengths.
 struct Lengths {
   double rate_hz = 0;
   std::size_t welch = 0;
@@ -36,7 +36,7 @@ std::size_t longest(const Stretches& stretches) {
 }
 
 FeatureWindows windows_of(const Stretches& stretches, const Lengths& lengths, std::size_t most) {
-  // Extracts twice the number of windows, then thins them evenly: most of the spread without storing every window.
+  // Extracts about twice as many windows as needed and thins them evenly, so that not every window is stored.
   const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / (2 * most));
   return thinned(motion_windows(stretches, lengths.window, hop), most);
 }

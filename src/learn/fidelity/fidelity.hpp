@@ -17,14 +17,14 @@ namespace wisp {
 
 struct FidelityOptions {
   std::vector<std::string> channels;  ///< channels to compare; empty: all outputs of the first real recording
-  std::size_t welch_samples = 64;     ///< even, at least 16; reduced to the longest stretch of each half and of play
+  std::size_t welch_samples = 64;     ///< even, at least 16; reduced where a half or the play has no stretch as long
   std::size_t max_windows = 500;      ///< ≥ 2, maximum on each side
   std::uint64_t seed = 1;
 };
 
 struct Bounded {
   double value = 0;    ///< real against synthesized
-  double floor = 0;    ///< real against real: one half of the recordings, or of a single one's time, against the other
+  double floor = 0;    ///< real against real: every other recording, or half the time of a single one, against the rest
   double ceiling = 0;  ///< real against its own frames in random order
 };
 
@@ -42,7 +42,7 @@ struct Fidelity {
 
   Bounded energy_distance;  ///< normalised to [0, 1], over standardised windows of all channels and their velocities
 
-  // Measures over windows of two seconds (long_distances()). NaN where the recording has too few such windows.
+  // Measures of long_distances(). NaN where the recording is too short.
   Bounded long_motion;   ///< normalised energy distance of windows of all channels and their velocities
   Bounded long_spectra;  ///< normalised energy distance of log spectra in geometric bands
   Bounded tails;         ///< mean |ln| of the ratio of the 99th and 99.9th percentile of accelerations

@@ -37,10 +37,8 @@ double mean_distance(const FeatureWindows& x, const FeatureWindows& y) {
 }
 
 void append_window(const Stretch& stretch, std::size_t first, std::size_t rows, FeatureWindows& out) {
-  for (std::size_t t = first; t < first + rows; ++t) {
-    const auto row = stretch.row(t);
-    out.values.insert(out.values.end(), row.begin(), row.end());
-  }
+  const auto values = std::span(stretch.values).subspan(first * stretch.channels, rows * stretch.channels);
+  out.values.insert(out.values.end(), values.begin(), values.end());
   for (std::size_t t = first; t < first + rows; ++t) {
     for (std::size_t c = 0; c < stretch.channels; ++c) out.values.push_back(stretch(t, c) - stretch(t - 1, c));
   }

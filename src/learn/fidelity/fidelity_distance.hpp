@@ -90,7 +90,7 @@ void standardise(FeatureWindows& reference, FeatureWindows& other);
 /// Precondition: neither is empty, and both have the same features.
 double energy_distance(const FeatureWindows& x, const FeatureWindows& y);
 
-/// Distances of two sides over windows of two seconds (bursts, dives, drift). NaN where there are too few data.
+/// Distances of two sides: over windows of two seconds (bursts, dives, drift), and of tails. NaN for too few data.
 struct LongDistances {
   double motion = 0;   ///< normalised energy distance of windows of all channels and their differences
   double spectra = 0;  ///< energy distance of their log spectra in geometric bands, sensitive to each rhythm

@@ -24,8 +24,8 @@ Result<Report> validate_switched(const Model& model, const Recording& recording,
 
 namespace markov {
 
-/// Adds for programs, with `prefix` before their ids: `modes` [{A, B, constant, shock, radius, std_error}], `initial`
-/// and `transitions`.
+/// Adds figures for programs, whose ids begin with `prefix`: `modes` [{A, B, constant, shock, radius, std_error}],
+/// `initial` and `transitions`.
 void describe(const SwitchedArxModel& model, const std::string& prefix, ReportSection& section);
 
 }  // namespace markov

@@ -1,8 +1,8 @@
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "base/statistics.hpp"
 #include "learn/markov/markov_rows.hpp"
@@ -15,18 +15,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMaxTried = 6;             // maximum number of modes tried where the recipe leaves it open
+constexpr int kMaxTried = 6;             // maximum number of modes that is tried where the recipe states none
 constexpr int kStarts = 12;              // random starts for each number of modes
 constexpr int kFirstRounds = 25;         // iterations of expectation–maximisation of every start
 constexpr int kMaxRounds = 300;          // iterations of the best start
 constexpr double kHoldout = 0.3;         // share at the end of every stretch that is held out
 constexpr double kSureGain = 2;          // minimum gain of a further mode on held-out rows, in standard errors
 constexpr double kSmallResidual = 0.01;  // minimum residual, as a share of the single model's
-constexpr double kGain = 1e-6;           // iterations end where one gains less than this per row
+constexpr double kGain = 1e-6;           // nats per row: iterations end where one gains less
 constexpr double kUnseenSteps = 0.1;     // added to each transition count, so that none is impossible
-constexpr double kMaxRadius = 0.9999;    // of a mode after stabilisation
-constexpr double kUsableFit = 10;        // percent, one step ahead
-constexpr double kDifferent = 3;         // standard errors; chance exceeds it once in 370
+constexpr double kMaxRadius = 0.9999;    // maximum spectral radius of a mode after stabilisation
+constexpr double kUsableFit = 10;        // minimum fit one step ahead of a usable model, percent
+constexpr double kDifferent = 3;         // standard errors by which coefficients differ; chance exceeds it once in 370
 
 struct State {
   Chain chain;
@@ -288,7 +288,11 @@ Result<Fitted> fit(std::span<const Recording> recordings, const ChannelChoice& c
   summary.candidates = choice->candidates;
   summary.samples_used = static_cast<std::size_t>(rows->rows());
   summary.held_out = static_cast<std::size_t>(share_of(*rows, 1 - kHoldout, 1).rows());
-  const auto percents = [&](int steps) { return figures(out.model, recordings, channels, steps)->fit_percent; };
+  std::vector<Recording> judged;  // recordings with a usable row
+  for (std::size_t last = recordings.size(); const auto& place : rows->places) {
+    if (std::exchange(last, place.recording) != place.recording) judged.push_back(recordings[place.recording]);
+  }
+  const auto percents = [&](int steps) { return figures(out.model, judged, channels, steps)->fit_percent; };
   summary.fit_percent = percents(1);
   if (!channels.inputs.empty()) summary.free_run_fit_percent = percents(kFreeRun);
   summary.usable = verdict_of(summary, *choice, min_rows(*rows), noise_alone);

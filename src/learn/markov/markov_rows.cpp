@@ -104,7 +104,7 @@ class Predictor {
   Eigen::MatrixXd given_past_;
 };
 
-constexpr double kRidge = 1e-9;  // of columns scaled to one size: a column always 0 in a mode gets coefficient 0
+constexpr double kRidge = 1e-9;  // added to the Gram matrix of scaled columns: one that is always 0 gets coefficient 0
 
 std::vector<double> means_of(const Signals& signals) {
   std::vector<double> means;

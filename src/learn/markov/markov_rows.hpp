@@ -31,7 +31,7 @@ struct Rows {
   };
 
   ArxOrders orders;
-  ArxDesign design;             ///< one group per output; its columns are those of phi, the constant's last
+  ArxDesign design;             ///< one group per output, whose columns are indices of phi's; the constant's is last
   std::vector<double> offset;   ///< the operating point: outputs, then inputs
   Eigen::MatrixXd phi;          ///< rows × columns of the layout
   Eigen::MatrixXd y;            ///< rows × outputs
@@ -50,13 +50,13 @@ Result<Rows> make_rows(std::span<const Recording> recordings, const ChannelChoic
 /// Rows between two shares (0 to 1) of every run. Runs are cut, never joined.
 Rows share_of(const Rows& rows, double from, double to);
 
-/// Coefficients and noise of one mode, on the columns of the rows.
+/// Coefficients and noise of one mode, for the columns of Rows::phi.
 struct Mode {
   Eigen::MatrixXd theta;   ///< columns × outputs, signs of the prediction, 0 where an output lacks the coefficient
   Eigen::MatrixXd factor;  ///< lower triangular factor of the residuals' covariance
 };
 
-/// Modes, initial and transition probabilities, on the columns of the rows.
+/// Modes, for the columns of Rows::phi, with their initial and transition probabilities.
 struct Chain {
   std::vector<Mode> modes{};
   Eigen::VectorXd initial{};
@@ -95,7 +95,7 @@ Result<Belief> believe(const SwitchedArxModel& model, const Recording& recording
 Result<std::vector<std::vector<double>>> predict(const SwitchedArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, int steps);
 
-/// Figures of those predictions over all recordings together, as in prediction_figures().
+/// Figures of predict() over all recordings together, as in prediction_figures().
 /// Errors: as predict().
 Result<PredictionFigures> figures(const SwitchedArxModel& model, std::span<const Recording> recordings,
                                   const ChannelChoice& channels, int steps);
@@ -111,12 +111,12 @@ struct Candidate {
   int modes = 1;
   double log_likelihood = 0;           ///< of the training rows
   double held_out_log_likelihood = 0;  ///< of the held-out rows, the last 30 % of every stretch
-  double gain_std_error = 0;           ///< standard error of its held-out gain over the candidate before it
+  double gain_std_error = 0;           ///< standard error of its held-out gain over the preceding candidate
   bool determined = true;              ///< false: a mode had too few rows for its coefficients
 };
 
 struct Summary {
-  std::size_t samples_used = 0;  ///< number of rows of the returned model, which is learned from all rows
+  std::size_t samples_used = 0;  ///< number of rows that the returned model is learned from: all usable ones
   std::size_t held_out = 0;
   std::vector<Candidate> candidates;  ///< begins with a single mode
   std::vector<std::size_t> mode_rows;

@@ -20,7 +20,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kFramesAhead = 16;  // largest lead of the simulation over the camera
+constexpr std::size_t kFramesAhead = 16;  // largest lead of the simulation over the camera, frames
 
 // Output of the rig after each frame.
 struct Shot {
@@ -222,17 +222,12 @@ Result<void> shoot(Scene& scene, Crew& crew, std::uint64_t frames) {
   return result;
 }
 
-Result<void> check(const CandleClipOptions& o) {
-  return flow::check_ranges("candle clip", {
-                                               {"seconds", o.seconds, 1e-3, 86400},
-                                               {"settle_seconds", o.settle_seconds, 0, 60},
-                                           });
-}
-
 }  // namespace
 
 Result<Recording> simulate_candle(const CandleClipOptions& options, const CandleClipOutputs& outputs) {
-  if (auto good = check(options); !good) return good.error();
+  const auto good = flow::check_ranges(
+      "candle clip", {{"seconds", options.seconds, 1e-3, 86400}, {"settle_seconds", options.settle_seconds, 0, 60}});
+  if (!good) return good.error();
   auto wind = options.wind_recording ? WindSignal::from_recording(*options.wind_recording)
                                      : WindSignal::generate(options.wind, options.seconds);
   if (!wind) return wind.error();

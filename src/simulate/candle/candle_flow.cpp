@@ -9,8 +9,8 @@ namespace wisp::flow {
 namespace {
 
 constexpr float kGravity = 9.81F;
-constexpr float kLighterTemperature = 1500.0F;
-constexpr float kLighterFuel = 0.6F;  // share of the fuel rate drawn from the wick by a lighter's heat
+constexpr float kLighterTemperature = 1500.0F;  // K
+constexpr float kLighterFuel = 0.6F;            // share of the fuel rate drawn from the wick by a lighter's heat
 constexpr int kMaxIterations = 40;
 constexpr float kWickTime = 0.15F;          // s, calibrated: time constant of the fuel's response to the wick's heat
 constexpr float kFuelTemperature = 600.0F;  // K
@@ -24,7 +24,7 @@ constexpr float kPressureTolerance = 0.5F;  // 1/s, root mean square of the rema
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot does not diffuse
 
 constexpr double kNearWickMm = 2;
-constexpr double kReach = 1.7;
+constexpr double kReach = 1.7;  // size of the hump's ellipse relative to the box
 
 struct Box {
   double left, right, bottom, top;
@@ -53,9 +53,9 @@ bool inside(int i, int j, const Box& box) {
 // The axis lies on a line between cells if the candle is an even number of cells wide, else in the middle of one, so
 // that the wax is symmetric about it.
 double axis_of(const FlowGrid& grid, const CandleRigOptions& options) {
-  const int half_cells = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
+  const int width = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
   const double wanted = options.position * grid.nx;
-  return half_cells % 2 == 0 ? std::round(wanted) : std::floor(wanted) + 0.5;
+  return width % 2 == 0 ? std::round(wanted) : std::floor(wanted) + 0.5;
 }
 
 CandleBody candle_body(const FlowGrid& grid, const CandleRigOptions& o) {

@@ -24,8 +24,8 @@ inline constexpr double kWickHeightMm = 4;  ///< calibrated
 
 struct CandleBody {
   Plane open_x, open_y;         ///< 1 on faces open to air, 0 on those of the wax
-  Plane fuel_share;             ///< per cell, 1/m²: sums to 1 over the area
-  Plane drag;                   ///< per cell, 0 … 1: share of its area in the wick's box
+  Plane fuel_share;             ///< per cell, 1/m²: proportional to `drag`, sums to 1 over the area
+  Plane drag;                   ///< per cell, 0 … 1: a smooth hump over the wick's box
   std::vector<int> fuel_cells;  ///< cells with a fuel share
   std::vector<int> near_wick;   ///< cells within 2 mm of the box and outside the wax
   float axis = 0;               ///< position of the candle's axis, metres from the left edge
@@ -89,7 +89,7 @@ class CandleFlow {
   ScalarPlane cells_, cells_scratch_;
   Plane u_, v_, u_scratch_, v_scratch_;
   Plane way_x_, way_y_;
-  Plane temperature_;              // cells, with copies of the rim around them
+  Plane temperature_;              // cells; outside, copies of the rim left, right and above, ambient below
   Plane moved_temperature_;        // after advection, before combustion
   Plane keep_u_, keep_v_;          // factor of drag on a velocity per step
   Plane conductance_, corner_;     // (T/T0)^0.75 in cells, and at their lower left corners
@@ -104,7 +104,7 @@ class CandleFlow {
 
 namespace wisp {
 
-/// Mean light of the flame during the exposure, cell by cell from the lower left, and the candle's position.
+/// Mean light of the flame during the exposure, row by row from the lower left cell, and the candle's position.
 struct RigLight {
   int columns = 0;
   int rows = 0;
@@ -118,7 +118,7 @@ struct RigLight {
 /// State of the rig after the last frame.
 struct CandleState {
   double seconds = 0;              ///< time since the rig was created
-  bool lit = false;                ///< burns at least a tenth of fuel_rate, which a calm flame burns
+  bool lit = false;                ///< burns at least a tenth of fuel_rate (a calm flame burns fuel_rate)
   double fuel = 0;                 ///< emitted by the wick, as a share of fuel_rate
   double burning = 0;              ///< fuel burnt, as a share of fuel_rate
   double wick_temperature = 0;     ///< K, mean within 2 mm of the wick's box

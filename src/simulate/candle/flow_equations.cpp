@@ -106,7 +106,7 @@ constexpr float kMaxSoot = 1.2F;
 constexpr float kStoichiometric = 0.08F;         // mixture fraction of stoichiometric combustion
 constexpr float kHeat = 1700 / 0.08;             // K per unit of fuel burnt: 1700 K at stoichiometry
 constexpr float kReactionRate = 2000.0F;         // 1/s at the full rate
-constexpr float kIgnitionLow = 900.0F;           // K: no reaction below
+constexpr float kIgnitionLow = 900.0F;           // K: no reaction below; soot forms and burns from 1000 K on
 constexpr float kIgnitionWidth = 400.0F;         // K: width of the rise to the full rate
 constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated
 
@@ -357,12 +357,11 @@ void Combustion::soot_cell(Float4& cell, float oxygen) const {
 }
 
 double Combustion::burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const {
-  const float coldest = std::min(kIgnitionLow, 1000.0F);
   double total = 0;
   for (int j = 0; j < grid.ny; ++j) {
     float row_total = 0;
     for (int k = grid.at(0, j), end = k + grid.nx; k < end; ++k) {
-      if (cells[k][kTemperature] <= coldest) continue;
+      if (cells[k][kTemperature] <= kIgnitionLow) continue;
       const float burnt = burn_cell(cells[k]);
       row_total += burnt * kAmbientTemperature / cells[k][kTemperature];
       if (blue) (*blue)[k] += burnt / step_;
@@ -395,8 +394,6 @@ PressureSolver::PressureSolver(const FlowGrid& grid) {
   }
   phi_ = residual_ = direction_ = product_ = Plane(grid.size(), 0.0F);
 }
-
-void PressureSolver::reset() { std::fill(phi_.begin(), phi_.end(), 0.0F); }
 
 void PressureSolver::prepare() {
   for (std::size_t l = 0; l < levels_.size(); ++l) {

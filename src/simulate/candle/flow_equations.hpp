@@ -129,9 +129,6 @@ class PressureSolver {
   /// Iterates until the residual's root mean square is at most `tolerance`, but at most `most` times.
   PressureSolve solve(float tolerance, int most);
 
-  /// Resets the initial guess to zero.
-  void reset();
-
  private:
   void v_cycle(std::size_t level);
   void restrict_residual(const PressureLevel& fine, PressureLevel& coarse);

@@ -61,7 +61,7 @@ constexpr double kWickX = 0.35;       // x of the candle's axis, as a share of t
 constexpr double kRimY = 0.06;        // y of the candle's upper rim, as a share of the height from below
 constexpr double kContrast = 1.8;     // steepness of the tone curve: higher gives the flame a sharper edge
 
-// Tones have sixteenths of an 8-bit step until noise has been added.
+// Tones are in sixteenths of an 8-bit step until noise has been added.
 constexpr int kToneUnit = 16;
 constexpr int kTones = 8192;
 constexpr float kBrightest = 25.0F;  // upper end of the tables' exposure, where every channel is white
@@ -72,10 +72,10 @@ constexpr std::array<float, 3> kSootColour = {1.0F, 0.56F, 0.21F};
 constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
 constexpr float kBlueGain = 0.013F;  // exposure per 1/s of fuel burnt
 constexpr float kBlueVeil = 5.0F;    // attenuation of the blue by soot
-constexpr double kBlueFullMm = 4;    // full blue up to this height above the rim: a candle's blue is at its base
-constexpr double kBlueGoneMm = 16;   // no blue above: a planar flow has more of it than a camera sees
+constexpr double kBlueFullMm = 4;    // height above the rim up to which blue is full: a candle is blue at its base
+constexpr double kBlueGoneMm = 16;   // height above which there is no blue: a planar flow has more than a camera sees
 constexpr double kGlowReachMm = 2.5;
-constexpr float kDark = 2e-4F;  // light below the first tone of every channel
+constexpr float kDark = 2e-4F;  // light below which every channel is black
 
 Result<void> check(const VirtualCameraOptions& o) {
   const auto ranges = flow::check_ranges("virtual camera", {

@@ -17,8 +17,6 @@ namespace wisp::flow {
 struct SamplePlaces {
   std::vector<int> first;
   std::vector<float> weight;  ///< four weights per position
-
-  int size() const { return static_cast<int>(first.size()); }
 };
 
 /// Returns `count` positions start, start + step, … in cells (cell k's centre is k), over an axis of `cells`. Cells

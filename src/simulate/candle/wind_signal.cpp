@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kRate = 240;          // samples per second: forty times the noise's default bandwidth
+constexpr double kRate = 240;          // samples per second: 40 times the default bandwidth of the noise
 constexpr double kLongest = 86400;     // longest wind, s
 constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
 constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
@@ -102,7 +102,7 @@ std::vector<double> air(const WindSignalOptions& o, std::size_t count) {
   return {};
 }
 
-// A puff. Calm surrounds it, until kQuietAfter after the candle is relit.
+// A puff, with calm from kQuietBefore before it until kQuietAfter after the candle is relit.
 struct Puff {
   double at = 0;
   double speed = kBlowOutSpeed;
@@ -175,8 +175,8 @@ class Resonance {
   double a1_ = 0, a2_ = 0, gain_ = 0, y1_ = 0, y2_ = 0;
 };
 
-// Generates silence with occasional sounds of about unit level other than wind: a few syllables of a voice, a knock or
-// two on the table.
+// Generates occasional sounds other than wind, of about unit level, with silence between: a few syllables of a voice, a
+// knock or two on the table.
 class OtherSounds {
  public:
   /// `a_second`: mean number of sounds per second.
@@ -305,8 +305,6 @@ double WindSignal::at(double seconds) const {
   const std::size_t next = std::min(k + 1, samples_.size() - 1);
   return samples_[k] + (place - static_cast<double>(k)) * (samples_[next] - samples_[k]);
 }
-
-double WindSignal::seconds() const { return static_cast<double>(samples_.size() - 1) / rate_hz_; }
 
 struct VirtualMicrophone::Parts {
   explicit Parts(const VirtualMicrophoneOptions& o)

@@ -48,7 +48,7 @@ class LowPass {
 
 namespace wisp {
 
-/// A wind at a fixed rate, to be read sequentially or at any time.
+/// A wind sampled at a fixed rate.
 class WindSignal {
  public:
   /// Generates a wind, `seconds` long.
@@ -62,8 +62,6 @@ class WindSignal {
   /// Returns the wind at a time, interpolated linearly and constant beyond the ends.
   double at(double seconds) const;
 
-  double seconds() const;
-  double rate_hz() const { return rate_hz_; }
   const std::vector<double>& samples() const { return samples_; }
 
   /// Returns the times at which an extinguished candle is relit, ascending, in seconds.

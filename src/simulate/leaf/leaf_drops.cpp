@@ -19,7 +19,7 @@ using flow::RandomNumbers;
 
 constexpr double kMaxRows = 2147483648.0;
 constexpr double kMaxGust = 30;            // m/s
-constexpr double kCloneDifference = 0.05;  // of clones at the start: radians, m/s; 10 times as many rad/s
+constexpr double kCloneDifference = 0.05;  // deviation of clones' starts: rad, m/s; 10 times as many rad/s
 constexpr double kLeadSeconds = 0.5;       // from the start to the gust's onset, ± 20 %
 
 // Purposes of random streams.
@@ -191,13 +191,13 @@ Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work
   return {};
 }
 
-// Returns one gust with onset after about kLeadSeconds, otherwise like the gusts of a train.
+// Returns a gust like those of a train, but with its onset after about kLeadSeconds and in any direction.
 Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   const std::uint64_t seed = flow::random_word(o.drops.seed + 1, kWindSeed, index);
   Gust gust = LeafWind::gusty(seed, 2 * LeafWind::kRestSeconds).gusts().front();
   RandomNumbers random(o.drops.seed, (kGust << 32) + index);
   gust.start = kLeadSeconds * random.uniform(0.8, 1.2);
-  // Uniform over all directions, up and down included, unlike a train's gusts.
+  // Uniform over all directions, up and down included.
   const double up = random.uniform(-1, 1), over_ground = std::sqrt(1 - up * up);
   for (auto* vector : {&gust.velocity, &gust.slowness}) {
     auto& [x, y, z] = *vector;
@@ -242,9 +242,7 @@ Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options) {
 }
 
 Result<LeafPairs> simulate_leaf_pairs(const LeafPairsOptions& options) {
-  auto good = flow::check_ranges("leaf pairs", {
-                                                   {"clones", static_cast<double>(options.clones), 1, 10000},
-                                               });
+  auto good = flow::check_ranges("leaf pairs", {{"clones", static_cast<double>(options.clones), 1, 10000}});
   if (!good) return good.error();
   const LeafDropsOptions& drops = options.drops;
   if (good = check(drops, static_cast<double>(drops.drops) * options.clones); !good) return good.error();

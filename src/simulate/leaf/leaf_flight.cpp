@@ -67,8 +67,8 @@ WindSample sample_of(const MeasuredWind& track, double seconds) {
 
 using std::numbers::pi;
 
-// Lamb's integrals of an ellipsoid in the limit of zero thickness, divided by the thickness, along the long and the
-// short axis. With λ = b² tan²θ they become integrals of smooth functions over a quarter of their period, where
+// Lamb's integrals for the long and the short axis of an ellipsoid, divided by its thickness, in the limit of zero
+// thickness. With λ = b² tan²θ they become integrals of smooth functions over a quarter of their period, where
 // equidistant sums converge faster than any power of the step.
 struct LambIntegrals {
   double long_axis = 0;
@@ -265,13 +265,13 @@ LeafState rate_of(const Constants& c, const LeafState& s, const WindSample& wind
 namespace wisp {
 namespace {
 
-// Wind, m/s, above which steps shrink in inverse proportion: drag decays at a rate proportional to the speed of the
-// air. At 2.5 m/s steps of 1/60 s are unstable.
+// Wind, m/s, above which steps shrink in inverse proportion: drag damps motion at a rate proportional to the speed of
+// the air. At 2.5 m/s, steps of 1/60 s are unstable.
 constexpr double kFastestForWholeSteps = 1.6;
 
-constexpr double kStableRates = 1.2;  // steps longer than some 1.5 over fastest_rate() diverge
+constexpr double kStableRates = 1.2;  // maximum of step · fastest_rate(): above about 1.5, steps diverge
 
-// Rate of the fastest motions, 1/s: a turn over the width, and drag, both at the speed at which a flat leaf falls.
+// Rate of the fastest motions, 1/s: rotation across the width, and drag, both at the speed of a leaf that falls flat.
 double fastest_rate(const Leaf& leaf) {
   const double drag = leaf.air_density / leaf.areal_density, speed = std::sqrt(2 * leaf.gravity / drag);
   return speed * (1 / leaf.width + 1.5 * drag);
@@ -289,7 +289,6 @@ double squared_length(const leaf::Quaternion& q) { return q[0] * q[0] + q[1] * q
 
 // state + h · rate.
 LeafState moved(const LeafState& s, double h, const LeafState& rate) {
-  using leaf::operator+, leaf::operator*;
   LeafState out{{}, s.position + h * rate.position, s.velocity + h * rate.velocity, s.spin + h * rate.spin};
   for (std::size_t k = 0; k < 4; ++k) out.attitude[k] = s.attitude[k] + h * rate.attitude[k];
   return out;

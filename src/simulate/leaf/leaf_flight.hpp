@@ -110,7 +110,7 @@ struct WindSample {
 struct Gust {
   double start = 0;                  ///< seconds
   double seconds = 0;                ///< duration from start to end, edges included
-  double edge = 0;                   ///< duration of each edge, at most half of the length
+  double edge = 0;                   ///< duration of each edge, seconds, at most seconds / 2
   std::array<double, 3> velocity{};  ///< velocity at the maximum, m/s
   std::array<double, 3> slowness{};  ///< s/m: direction of travel / travel speed
 };
@@ -121,7 +121,7 @@ class LeafWind {
   /// Creates a calm.
   LeafWind() = default;
 
-  static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts
+  static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts, seconds
 
   /// Creates a train of random gusts for `seconds`, in random horizontal directions.
   static LeafWind gusty(std::uint64_t seed, double seconds);
@@ -136,7 +136,7 @@ class LeafWind {
   /// Precondition: rate_hz > 0, all rows finite.
   static LeafWind of_track(MeasuredWind track);
 
-  /// Returns the wind at a position and its rate of change for a leaf of that velocity (world axes).
+  /// Returns the wind at `place` and its rate of change along the path of a leaf with velocity `moving` (world axes).
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
 
   /// Returns whether there is no wind at any position and time.
@@ -148,7 +148,7 @@ class LeafWind {
   const std::vector<Gust>& gusts() const { return gusts_; }
 
  private:
-  std::vector<Gust> gusts_;  // sorted by start
+  std::vector<Gust> gusts_;
   MeasuredWind track_;
 };
 
@@ -160,7 +160,7 @@ namespace wisp::leaf {
 struct Constants {
   Vec carried{};       // added mass
   Vec inverse_mass{};  // 1 / (m + added mass)
-  Vec moment{};        // including the added one
+  Vec moment{};        // including added inertia
   Vec inverse_moment{};
   double mass = 0;
   double weight = 0;                 // m g
@@ -184,7 +184,8 @@ namespace wisp {
 class LeafFlight {
  public:
   /// Starts a leaf in a state, at time 0; the wind is kept by reference and must outlive the flight. Steps are
-  /// `longest_step` seconds at most, 1e-6 … 0.05, and in strong wind shorter in inverse proportion to its speed.
+  /// `longest_step` seconds at most, 1e-6 … 0.05, and shorter for narrow or light leaves and in strong wind, in inverse
+  /// proportion to its speed.
   /// Errors: leaf or step out of range, a state that is not finite, an attitude of norm 0.
   static Result<LeafFlight> begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
                                   double longest_step = 1.0 / 60);

@@ -36,5 +36,13 @@ TEST(SpectraApart, FallsShorterThanTwoSecondsHaveNone) {
   EXPECT_TRUE(std::isnan(spectra_apart(motion, motion, 1).value));
 }
 
+TEST(SpectraApart, TwoSecondsOfFewerThanEightRowsHaveNone) {
+  for (double rate_hz : {0.2, 3.0}) {
+    const Recording falls = made_falls({.falls = 4, .seconds = 400, .rate_hz = rate_hz, .swing_seconds = 60});
+    const Motion motion = *motion_of(std::span(&falls, 1));
+    EXPECT_TRUE(std::isnan(spectra_apart(motion, motion, 1).value)) << rate_hz;
+  }
+}
+
 }  // namespace
 }  // namespace wisp::chain::chain_fidelity_test

@@ -176,6 +176,13 @@ TEST(FitChain, MoreModesThanSegmentsIsAnError) {
   EXPECT_THAT(fit.error().message, HasSubstr("segments in all, expected at least as many as modes, 50"));
 }
 
+TEST(FitChain, AVeryLongSegmentIsAnError) {
+  const Recording recording = made_falls({.falls = 1, .seconds = 5000, .orientation = false, .swing_seconds = 1500});
+  const auto fit = learned(recording, {.modes = 1}, kHorizontal);
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("rows between two events of horizontal_speed, expected at most 65535"));
+}
+
 TEST(FitChain, WithOrientationASegmentIsFollowedByOneOfItsBestJoiningOnes) {
   const auto fit = learned(made_falls({.falls = 30}));
   ASSERT_TRUE(fit) << fit.error().message;
@@ -190,6 +197,16 @@ TEST(FitChain, WithoutOrientationASegmentOfTheNextModeFollows) {
   const auto& chain = std::get<ChainModel>(fit->model.dynamics);
   EXPECT_EQ(chain.modes, 6);
   EXPECT_EQ(chain.segments.breadth, 0);
+}
+
+TEST(FitChain, AnySuccessorOfFewSegmentsIsEquallyProbable) {
+  const auto fit = learned(made_falls({.falls = 1, .seconds = 3, .orientation = false}),
+                           {.heading_free = false, .modes = 1, .holdout = 0}, kHorizontal);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto& chain = std::get<ChainModel>(fit->model.dynamics);
+  ASSERT_GT(chain.segments.size(), 1U);
+  ASSERT_LT(chain.segments.size(), 8U);
+  for (const std::int16_t lead : chain.drift->lead) EXPECT_NEAR(lead * chain.drift->lead_scale, 0, 1e-9);
 }
 
 TEST(FitChain, OptionsOutOfRangeAreErrors) {

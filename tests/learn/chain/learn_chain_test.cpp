@@ -226,6 +226,14 @@ TEST(ValidateChain, SeriesAreTracksOfBothSides) {
   }
 }
 
+TEST(ValidateChain, FallsOfOneRowASecondAreCompared) {
+  const Recording slow = made_falls({.falls = 20, .seconds = 120, .rate_hz = 1, .swing_seconds = 12});
+  const auto fit = learned(slow);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto report = validate_chain(fit->model, std::span(&slow, 1), 1);
+  EXPECT_TRUE(report) << report.error().message;
+}
+
 TEST(ValidateChain, WhatIsNoChainOrSaysNotHowItWasCutIsAnError) {
   const Recording recording = made_falls({.falls = 4});
   auto fit = learned(recording);

@@ -124,6 +124,14 @@ TEST(MarkovFit, RowsWithAMissingSampleAreLeftOutAndNothingCrossesThem) {
   EXPECT_EQ(fit.model.modes.size(), 3U);
 }
 
+TEST(MarkovFit, ARecordingWithoutAUsableRowIsNotJudged) {
+  const std::vector<Recording> both{made_linear(1, 9).recording, made_linear(300, 10).recording};
+  const auto fit = markov::fit(both, kChannels, {.orders = first_order(), .modes = 1});
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->summary.samples_used, 299U);
+  EXPECT_GT(fit->summary.fit_percent[0], 70);
+}
+
 TEST(MarkovFit, TheSameSeedGivesTheSameModel) {
   const MadeSwitched made = made_chain(600, 7);
   const markov::Fitted one = fit_of(made.recording, 2), two = fit_of(made.recording, 2);

@@ -3,9 +3,9 @@
 // bank is placed at each calm fall's state at the gust's onset and exposed to the gust.
 //
 // Source: section 4.4 of the paper, v_windy − v_calm = F(w, x), whose figure 8 shows one response. Falls are chaotic: a
-// windy fall and its calm twin drift apart for reasons other than the wind. So the response is learned and judged on
-// means over clones of one gust with slightly different starts, of many gusts. It has one lag: a leaf is so light that
-// further lags add nothing.
+// windy fall and its calm twin drift apart for reasons other than the wind. So each gust is repeated over clones with
+// slightly different starts, and the response is learned and judged on the clones' means. It has one lag: a leaf is so
+// light that further lags add nothing.
 
 #include <array>
 #include <cstddef>
@@ -22,11 +22,11 @@
 
 namespace wisp::chain {
 
-/// A windy recording and its calm twin: piece k of both began equally; each gust has `clones` consecutive pieces.
+/// A windy recording and its calm twin: pieces k of both begin in one state; each gust has `clones` consecutive pieces.
 struct GustPairs {
   Motion windy;
   Motion calm;
-  std::array<const std::vector<double>*, 3> wind{};  ///< samples of the windy recording; it must outlive this
+  std::array<const std::vector<double>*, 3> wind{};  ///< wind of the windy recording, which must outlive the pairs
   std::size_t clones = 1;
   std::string source;  ///< source of the windy recording
 
@@ -86,7 +86,7 @@ struct GustPlayFigures {
   double largest_displacement = 0;  ///< metres, maximum of the played means
   double largest_recorded_displacement = 0;  ///< metres, maximum of the recorded means
   double left_after = 0;                     ///< m/s, maximum velocity difference in play two seconds after a gust
-  bool diverges = false;                     ///< whether left_after exceeds 0.1 m/s, or a maximum is infinite
+  bool diverges = false;                     ///< whether left_after exceeds 0.1 m/s, or a figure is not finite
 };
 
 /// Paths of every clone in one gust from its onset on, and the rows in which the wind blows.

@@ -14,10 +14,9 @@ constexpr std::size_t kMinRows = 8;
 constexpr double kUsualStep = 0.9;   // quantile of step lengths that counts as usual
 constexpr double kMaxJump = 20;      // maximum step, as a multiple of the usual and of the neighbouring steps
 constexpr double kRounding = 2e-4;   // deviation from unit length of a quaternion written with four digits
-constexpr double kMaxWrong = 0.01;   // deviation from unit length above which it is not a unit quaternion
+constexpr double kMaxWrong = 0.01;   // maximum deviation of a quaternion from unit length
 constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of it
 
-constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
 
 // Channel indices of a recording's pose.
@@ -25,10 +24,6 @@ struct Layout {
   std::array<std::size_t, 3> position{};
   std::optional<std::array<std::size_t, 4>> orientation;
 };
-
-std::string place(const Recording& recording, std::size_t row) {
-  return recording.source + ": row " + std::to_string(row + 1);
-}
 
 Result<Layout> layout_of(const Recording& recording) {
   Layout layout;
@@ -56,7 +51,7 @@ Result<Layout> layout_of(const Recording& recording) {
   return layout;
 }
 
-// Checks that a time channel, where there is one, has equal steps within each episode.
+// Checks that a time channel, where there is one, has equal steps within each episode, on average across missing ones.
 Result<void> check_time(const Recording& recording) {
   for (const char* name : kTimeColumns) {
     const auto channel = find_channel(recording, name);
@@ -64,10 +59,12 @@ Result<void> check_time(const Recording& recording) {
     const auto& time = recording.channels[*channel].samples;
     const double step = 1 / recording.rate_hz;
     for (const Episode& episode : episodes(recording)) {
-      for (std::size_t row = episode.begin + 1; row < episode.end; ++row) {
-        const double found = time[row] - time[row - 1];
-        if (std::abs(found - step) <= kMaxJitter * step) continue;
-        return Error{place(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
+      for (std::size_t last = episode.begin, row = last + 1; row < episode.end; ++row) {
+        if (std::isnan(time[row])) continue;
+        const double found = (time[row] - time[last]) / static_cast<double>(row - last);
+        last = row;
+        if (!(std::abs(found - step) > kMaxJitter * step)) continue;
+        return Error{row_name(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
                      std::to_string(step) +
                      " everywhere: resample the recording to one rate, or give the rate that it has"};
       }
@@ -87,7 +84,7 @@ Result<Quad> unit_quaternion(const Recording& recording, const std::array<std::s
   }
   const double length = std::sqrt(square), wrong = std::abs(length - 1);
   if (!(wrong <= kMaxWrong)) {
-    return Error{place(recording, row) + ": the quaternion q has length " + std::to_string(length) +
+    return Error{row_name(recording, row) + ": the quaternion q has length " + std::to_string(length) +
                  ", expected 1 within 1 %: w comes first; what is no orientation can't be learned"};
   }
   worst = std::max(worst, wrong);
@@ -190,14 +187,13 @@ Result<void> add_row(const Recording& recording, const Layout& layout, std::size
   return {};
 }
 
-double distance_between(const Triple& a, const Triple& b) { return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]); }
-
-// Errors: a jump, that is, a step many times as long as the steps around it and as the usual step. A jump comes from
-// two places or two falls in one episode.
+// Errors: a jump, as between two falls in one episode: a step more than kMaxJump times as long as the usual step and as
+// the four steps around it.
 Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
   std::vector<double> steps;
   for (std::size_t row = 1; row < piece.rows(); ++row) {
-    steps.push_back(distance_between(piece.position[row - 1], piece.position[row]));
+    const Triple &a = piece.position[row - 1], &b = piece.position[row];
+    steps.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
   }
   const double usual = quantile(steps, kUsualStep);
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -269,14 +265,9 @@ std::array<double, kSize> cubic(std::span<const std::array<double, kSize>> value
     for (long k = 0; k < 4; ++k) {
       const long at = place.row + k - 1;
       // Values are extrapolated linearly beyond the ends.
-      double x = 0;
-      if (at < 0) {
-        x = 2 * value(0, i) - value(std::min(1L, last), i);
-      } else if (at > last) {
-        x = 2 * value(last, i) - value(std::max(0L, last - 1), i);
-      } else {
-        x = value(at, i);
-      }
+      const double x = at < 0      ? 2 * value(0, i) - value(std::min(1L, last), i)
+                       : at > last ? 2 * value(last, i) - value(std::max(0L, last - 1), i)
+                                   : value(at, i);
       out[i] += place.weight[static_cast<std::size_t>(k)] * x;
     }
   }
@@ -284,6 +275,10 @@ std::array<double, kSize> cubic(std::span<const std::array<double, kSize>> value
 }
 
 }  // namespace
+
+std::string row_name(const Recording& recording, std::size_t row) {
+  return recording.source + ": row " + std::to_string(row + 1);
+}
 
 Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows) {
   if (recordings.empty()) return Error{"there is no recording to learn motion from"};

@@ -16,6 +16,11 @@ namespace wisp::chain {
 using Triple = std::array<double, 3>;
 using Quad = std::array<double, 4>;
 
+inline constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
+
+/// Names a row, from 1, in an error.
+std::string row_name(const Recording& recording, std::size_t row);
+
 inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline double length_of(const Triple& v) { return std::sqrt(dot(v, v)); }
 
@@ -38,8 +43,8 @@ struct Motion {
   std::vector<std::string> warnings;
 };
 
-/// Reads the channels pos.x, pos.y, pos.z and, if present, q.w, q.x, q.y, q.z. Velocities are derivatives of a parabola
-/// through `smooth_rows` rows (odd; 0: differences of fourth order, for data without noise).
+/// Reads the channels pos.x, pos.y, pos.z and, if present, q.w, q.x, q.y, q.z. Velocities are slopes of a parabola
+/// fitted to `smooth_rows` rows (odd; below 3: finite differences of fourth order, for data without noise).
 /// Quaternions are normalised, with a warning where they deviate by more than rounding; sign flips are
 /// undone. Pieces shorter than 8 rows are left out.
 /// Errors: no recordings, a missing channel, orientation in only some recordings, rates that differ, a quaternion more

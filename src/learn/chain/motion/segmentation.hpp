@@ -59,9 +59,9 @@ std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::s
   return stretches;
 }
 
-/// Whether height is bounded: its variance is hardly larger within a quarter of the longest stretch than within a
+/// Whether height is bounded: its variance within a quarter of the longest stretch is hardly larger than within a
 /// sixteenth. The ratio of variances is 1 for bounded motion, 4 for a random walk, 16 for a fall. False where a quarter
-/// has fewer than 8 usual segments.
+/// is shorter than 8 segments of mean duration.
 ///
 /// Precondition: `segments` are of the motion, at least one.
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);

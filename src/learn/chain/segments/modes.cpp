@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/numeric/clustering.hpp"
 
 namespace wisp::chain {
@@ -35,20 +36,13 @@ void add_features(const MotionPiece& piece, const Segment& segment, double headi
 }
 
 void standardise(FeatureTable& table) {
-  const std::size_t rows = table.rows();
   for (std::size_t k = 0; k < table.features; ++k) {
-    double mean = 0, square = 0;
-    for (std::size_t row = 0; row < rows; ++row) mean += table.values[row * table.features + k];
-    mean /= static_cast<double>(rows);
-    for (std::size_t row = 0; row < rows; ++row) {
-      double& value = table.values[row * table.features + k];
-      value -= mean;
-      square += value * value;
-    }
-    const double deviation = std::sqrt(square / static_cast<double>(rows));
-    for (std::size_t row = 0; row < rows; ++row) {
-      double& value = table.values[row * table.features + k];
-      value = deviation > 1e-12 * (1 + std::abs(mean)) ? value / deviation : 0;
+    std::vector<double> column;
+    for (std::size_t at = k; at < table.values.size(); at += table.features) column.push_back(table.values[at]);
+    const double middle = mean(column), spread = deviation(column);
+    for (std::size_t at = k; at < table.values.size(); at += table.features) {
+      double& value = table.values[at];
+      value = spread > 1e-12 * (1 + std::abs(middle)) ? (value - middle) / spread : 0;
     }
   }
 }

@@ -4,8 +4,8 @@
 //
 // Source: sections 2.2 and 4.1.3 of the paper. Section 2.2 names splines, linear systems, differential equations and
 // chains besides segments as realisations. Learning converts each into segments, so that a model stores and plays
-// segments only: each in its own frame, resampled to whole steps, as scaled 16-bit numbers, with the successors that
-// join it best.
+// segments only: each in its own frame, cut at whole rows, as scaled 16-bit numbers, with the successors that join it
+// best.
 
 #include <cstddef>
 #include <cstdint>
@@ -57,11 +57,11 @@ struct ModeChain {
 /// Counts transitions from each mode, or each pair of modes. A pair that was never followed takes the probabilities of
 /// its last mode, and a mode that was never followed the overall frequencies, so every walk can continue.
 ///
-/// Precondition: there is a mode, all are below `modes`; history is 1 or 2.
+/// Precondition: modes >= 1, every mode of the sequences is below `modes`; history is 1 or 2.
 ModeChain counted_chain(const ModeSequences& sequences, int modes, int history);
 
-/// Mean log probability (natural) that the chain gives to each mode with one before it: −ln(modes) for a uniform chain.
-/// A probability of 0 counts as 1e-6. NaN without transitions.
+/// Mean natural log probability of the sequences' transitions under the chain: −ln(modes) for a uniform chain. A
+/// probability of 0 counts as 1e-6. NaN without transitions.
 double log_likelihood(const ModeChain& chain, const ModeSequences& sequences);
 
 struct SortedSegments {
@@ -83,11 +83,12 @@ struct RealisedSegments {
 RealisedSegments spline_segments(const SortedSegments& from, bool heading_free);
 
 /// Segments simulated by a system of each mode, from the recorded initial states and for the recorded durations:
-/// velocities in body axes as a linear system with noise (degree 1), or with products of velocities without (degree 2).
+/// velocities in body axes follow a linear system with noise (degree 1) or a quadratic one without (degree 2).
 /// Errors: motion without orientation, a mode with fewer rows than a fit needs.
 Result<RealisedSegments> system_segments(const SortedSegments& from, int degree, std::uint64_t seed);
 
-/// Halves of the segments, each half of a mode clustered into two: a mode then is a chain of four modes.
+/// Splits segments into halves, and clusters the first and the second halves of each mode into two modes each: a mode
+/// becomes a chain of four.
 /// Errors: more than 64 modes in total; as k_means().
 Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_free, std::uint64_t seed);
 

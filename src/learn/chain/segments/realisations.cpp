@@ -220,7 +220,7 @@ void play(const System& system, int degree, double rate_hz, std::mt19937& words,
   }
 }
 
-// Every segment as a separate piece, and those pieces by mode.
+// Turns every segment into a piece of its own.
 RealisedSegments cut_apart(const SortedSegments& from, bool heading_free) {
   RealisedSegments out{
       {from.motion.has_orientation, from.motion.rate_hz, {}, {}}, {}, {from.mode.begin(), from.mode.end()}, from.modes};

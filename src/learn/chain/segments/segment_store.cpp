@@ -12,12 +12,12 @@ namespace {
 // Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
 constexpr double kAttitudeWeight = 1.5;
 
-// Weight of height: a difference in height fades while the body moves there, other differences within a join.
+// Weight of height: a join's difference in height is corrected by moving the body there, other differences by blending.
 constexpr double kHeightWeight = 3;
 
-// States of a body at moments, in groups of three numbers: velocity, angular velocity and attitude ("up" in body
-// axes, or the body's three axes in the world); without orientation velocity and its change. Bounded height is one more
-// group.
+// States of a body at the ends of segments, in groups of three numbers. With orientation: velocity, angular velocity
+// and attitude ("up" in body axes where heading is free, else the body's three axes in the world). Without: velocity
+// and its change. A bounded height adds a group.
 struct Moments {
   std::vector<double> weight;  // per group
   std::vector<double> values;  // moments × size
@@ -50,8 +50,8 @@ void add_moment(const MotionPiece& from, double row, const SegmentStoreOptions& 
   if (options.bounded_height) add({at_row(from.position, row)[2], 0, 0}, kHeightWeight);
 }
 
-// Weight of each number: its group's weight divided by the group's standard deviation, which preserves the proportions
-// of axes.
+// Weight of each number: its group's weight divided by the group's standard deviation, so that the axes of a group keep
+// their proportions.
 std::vector<double> weights_of(const Moments& moments) {
   const std::size_t count = moments.values.size() / moments.size();
   std::vector<double> weight;
@@ -207,13 +207,13 @@ std::vector<std::size_t> thinned(const std::vector<std::size_t>& members, std::s
   return out;
 }
 
-// Segments to store, by mode and in recording order. Where not all fit, a stratified sample that preserves the
-// distribution of dives, speeds and turns.
+// Indices of the segments to store, by mode and in recording order. Where not all fit, a stratified sample that
+// preserves the distribution of dives, speeds and turns.
 std::vector<std::size_t> kept_segments(const SortedSegments& from, const SegmentStoreOptions& options) {
   const std::span segments = from.segments;
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(from.modes));
   double bytes = 0;
-  const double successors = kSuccessorBytes * options.breadth * from.modes + 6;  // 6 bytes for the lead
+  const double successors = kSuccessorBytes * options.breadth * from.modes + 6;  // 6 bytes of ChainDrift::lead
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[from.mode[k]].push_back(k);
     bytes += bytes_of(segments[k], from.motion.has_orientation, successors);

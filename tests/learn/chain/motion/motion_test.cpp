@@ -99,6 +99,17 @@ TEST(Motion, TimeThatDoesNotGoOnEvenlyIsAnError) {
   EXPECT_THAT(motion.error().message, HasSubstr("row 11"));
 }
 
+TEST(Motion, AMissingTimeIsNoError) {
+  Recording recording = made_falls({.falls = 1});
+  Channel time{"t", "s", Role::kMotion, {}};
+  for (std::size_t row = 0; row < recording.rows(); ++row) time.samples.push_back(static_cast<double>(row) / 60);
+  time.samples[0] = time.samples[20] = std::nan("");
+  recording.channels.push_back(time);
+  EXPECT_TRUE(motion_of_one(recording));
+  recording.channels.back().samples[21] += 1;
+  EXPECT_FALSE(motion_of_one(recording));
+}
+
 TEST(Motion, MissingSamplesCutTheMotion) {
   Recording recording = made_falls({.falls = 1});
   recording.channels[1].samples[100] = std::numeric_limits<double>::quiet_NaN();
