@@ -66,7 +66,7 @@ def leaf(program, models, work, frames=180, instances=3):
                     "--seed", "3", "-o", numbers, "--quiet"], check=True, stdout=subprocess.DEVNULL)
     info = json.loads(subprocess.run([program, "info", models / "leaf.wisp", "--json"], check=True,
                                      capture_output=True).stdout)
-    width, length = (info["view"][side] or 0.03 for side in ("half_width", "half_length"))
+    first, second = (info["view"][side] or 0.03 for side in ("half_width", "half_length"))
     worst_place = worst_turn = 0
     # An instance is an episode: all its frames, then those of the next.
     rows = rows_of(numbers)
@@ -78,9 +78,9 @@ def leaf(program, models, work, frames=180, instances=3):
             place = [row[f"pos.{axis}"] for axis in "xyz"]
             turn = [row[f"q.{axis}"] for axis in "wxyz"]
             worst_place = max(worst_place, *(abs(a - b) for a, b in zip(place, thing["at"])))
-            # Rows of three points: an edge, the midrib, the other edge. The edges of the middle one are 2 / 1.08 half
-            # widths apart along the body's first axis, the first and the last midrib 2 half lengths along the second.
-            for axis, (low, high), apart in ((0, (18, 20), 2 * width / 1.08), (1, (1, 37), 2 * length)):
+            # Rows of three points: an edge, the midrib, the other edge. The first and the last midrib are 2 half sizes apart
+            # along the first axis of the body, the edges of the middle row 2 / 1.08 half sizes along the second.
+            for axis, (low, high), apart in ((0, (1, 37), 2 * first), (1, (20, 18), 2 * second / 1.08)):
                 found_axis = [(b - a) / apart for a, b in zip(thing["points"][low], thing["points"][high])]
                 worst_turn = max(worst_turn, *(abs(a - b) for a, b in zip(axis_of(turn, axis), found_axis)))
     print(f"leaf: {frames} frames of {instances}: places within {worst_place:.1e} m, axes within {worst_turn:.1e}")
