@@ -30,6 +30,15 @@ std::string at(const char* what, int i, int j) {
   return std::string(what) + "(" + std::to_string(i) + "," + std::to_string(j) + ")";
 }
 
+// Number of past values that a block of outputs is computed from, the size of its companion matrix.
+int fed_back(const OrderMatrix& na, const std::vector<int>& outputs) {
+  int order = 0;
+  for (int i : outputs) {
+    for (int j : outputs) order = std::max(order, na(i, j));
+  }
+  return order * static_cast<int>(outputs.size());
+}
+
 Result<void> check_orders(const ArxOrders& orders) {
   const int ny = orders.outputs();
   const int nu = orders.inputs();
@@ -48,6 +57,11 @@ Result<void> check_orders(const ArxOrders& orders) {
         }
       }
     }
+  }
+  for (const std::vector<int>& outputs : coupled_outputs(orders.na)) {
+    if (fed_back(orders.na, outputs) <= kMaxOrder) continue;
+    return Error{std::to_string(outputs.size()) + " coupled outputs are computed from " +
+                 std::to_string(fed_back(orders.na, outputs)) + " past values, expected at most 4096"};
   }
   return {};
 }
@@ -138,12 +152,8 @@ using Square = std::vector<double>;  // n × n, row-major
 
 // Returns the companion matrix of one block of outputs, with coefficients rounded to single precision.
 Square companion(const ArxModel& model, const std::vector<int>& outputs, int& size) {
-  int order = 0;
-  for (int i : outputs) {
-    for (int j : outputs) order = std::max(order, model.orders.na(i, j));
-  }
   const int ny = static_cast<int>(outputs.size());
-  size = ny * order;
+  size = fed_back(model.orders.na, outputs);
   Square matrix(static_cast<std::size_t>(size) * size, 0.0);
   for (int r = 0; r < ny; ++r) {
     for (int c = 0; c < ny; ++c) {

@@ -45,6 +45,15 @@ TEST(ArxModel, CoupledOutputsAreOneSystem) {
 
 TEST(ArxModel, OneWithoutOutputsIsRefused) { EXPECT_FALSE(check(ArxModel{})); }
 
+TEST(ArxModel, CoupledOutputsWithMorePastThanAComputerHoldsAreRefused) {
+  ArxModel model;
+  model.orders = {OrderMatrix(64, 64), OrderMatrix(64, 0), OrderMatrix(64, 0)};
+  for (int i = 0; i < 64; ++i) model.orders.na(i, 0) = 1;
+  model.orders.na(0, 0) = 4096;
+  EXPECT_EQ(check(model).error().message,
+            "64 coupled outputs are computed from 262144 past values, expected at most 4096");
+}
+
 TEST(ArxModel, CoefficientsAreFoundByOutputAndInput) {
   const ArxModel model = std::get<ArxModel>(sample_model().dynamics);
   EXPECT_EQ(model.a(1, 0).size(), 1u);
