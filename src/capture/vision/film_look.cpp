@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxPoints = 96;              // maximum width and height of the grid, points
 constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
 constexpr int kDark = 24;                   // grey levels: above coding errors and camera noise
-constexpr double kMaxIsNew = 0.4;           // share of the light that is new: cuts 0.6 to 1, a snuffed candle 0.2
+constexpr double kMaxIsNew = 0.4;           // share of new light in one scene: cuts have 0.6 to 1, a snuffed candle 0.2
 constexpr double kMinTotalLight = 3 * 255;  // sum over all points: less is a spark
 constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 
@@ -31,7 +31,7 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr int kMaxStep = 8;
-  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // largest share left; least difference, levels, above noise
+  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // maximum share left by a shift; above noise, levels
   const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {

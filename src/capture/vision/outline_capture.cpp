@@ -21,11 +21,11 @@ constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
 constexpr int kEdgePointsEach = 12;  // per control point: more add no stability, as their errors correlate
 constexpr int kShownPoints = 64;
-constexpr std::size_t kSurveyed = 20;  // number of held frames in the survey
-constexpr std::size_t kSamples = 6;    // … and of those used to try outlines
+constexpr std::size_t kSurveyed = 20;  // maximum number of held frames in the survey
+constexpr std::size_t kSamples = 6;    // … and of held frames from which the curve's shape is chosen
 
-// Minimum change of shape of a flame: flames reach 0.05 and more within a second, lit walls and lamps 0.015 at most.
-// With a hand-held camera, a round lamp's rim falls on different pixels: 0.05 for one that is 24 pixels wide.
+// Bounds within which the survey's object burns. Change of shape: flames reach 0.05 and more within a second, lit walls
+// and lamps 0.015 at most; filmed by hand, a round lamp 24 pixels wide reaches 0.05, as its rim shifts between pixels.
 constexpr double kMinChange = 0.02;
 constexpr double kMinRoundChange = 0.1;
 constexpr double kMinNarrowing = 0.25;

@@ -99,7 +99,7 @@ Motion motion_of(const std::vector<OutlineRow>& shapes) {
       double squares = 0;
       for (std::size_t i = 1; i + 1 < values.size(); ++i) {
         const double bend = values[i - 1] - 2 * values[i] + values[i + 1];
-        squares += bend * bend / 6;  // for noise alone, its variance
+        squares += bend * bend / 6;  // of independent noise: its variance
       }
       out.noise[k] += squares / static_cast<double>(std::max<std::size_t>(shapes.size(), 3) - 2);
     }
@@ -153,7 +153,7 @@ std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width
 
 bool repeats(const DroppedFrame& one) { return one.reason == "duplicate"; }
 
-// Row after the last outline, where the absence is long enough and the film does not fade out or end in one picture.
+// Row after the last outline; empty if the absence is short, or the film fades out or ends in a repeated frame.
 std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
   const std::size_t dark = report.frames - 1 - last;
   if (!report.dropped.empty() && repeats(report.dropped.back())) return std::nullopt;

@@ -34,7 +34,7 @@ constexpr double kWiderBelow = 1.6;    // minimum ratio of a shoulder's width to
 constexpr int kMinStep = 3;            // … and minimum difference in pixels
 constexpr double kWithin = 0.05;       // share of the length above within which it widens
 constexpr double kSlenderness = 0.7;   // minimum length / width of the part above, since a blunt tip widens too
-constexpr std::size_t kMinLength = 4;  // rows
+constexpr std::size_t kMinLength = 4;  // minimum rows of the part above
 
 bool along_rows(BaseSide side) { return side == BaseSide::kBottom || side == BaseSide::kTop; }
 

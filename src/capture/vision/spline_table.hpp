@@ -91,7 +91,7 @@ class SplineTable {
 /// Precondition: count >= 2.
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count);
 
-/// Whether an open polyline intersects itself (adjacent sides do not count). No outline does.
+/// Whether an open polyline intersects itself (adjacent sides do not count); the outline of an object never does.
 bool crosses_itself(std::span<const CurvePoint> polyline);
 
 }  // namespace wisp

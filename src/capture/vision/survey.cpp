@@ -336,8 +336,7 @@ BaseSide steady_end(const Survey& survey) {
 
 void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
   assert(step >= 1);
-  // Neighbouring pixels mostly have equal levels, and each increment would wait for the last: four histograms
-  // alternate.
+  // Neighbouring pixels are mostly equal, and each increment would wait for the last: four histograms alternate.
   std::array<std::array<std::uint32_t, 256>, 4> counts{};
   for (int y = step / 2; y < image.height; y += step) {
     const std::uint8_t* row = image.row(y);
