@@ -36,7 +36,7 @@ ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   return times;
 }
 
-// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty where there is none.
+// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty without a sound track.
 template <class Hear>
 Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, double speed, Hear hear) {
   Result<void> heard;
@@ -89,7 +89,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest run of rows without a break, in the film's frames; empty if it is shorter than 1.5 s or nearly the film.
+// The longest run of rows without a break, as the film's frames; empty if shorter than 1.5 s or nearly the whole film.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
@@ -113,7 +113,7 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // frames tried first; a mere glow is seldom certain to 0.8
+  constexpr std::int64_t kEnoughFrames = 120;  // frames tried before the whole film
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -121,6 +121,7 @@ Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, cons
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     FilmFacts ignored;
     const auto captured = look_at(path, other, turn, ignored, progress);
+    // A mere glow may be usable in any position, but its outline seldom is right with a probability above 0.8.
     return captured && captured->report.verdict->usable &&
            (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > 0.8);
   };

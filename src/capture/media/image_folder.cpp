@@ -34,7 +34,7 @@ constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
 
 // Maximum gap in the numbers, as in a video; longer gaps are shortened, as an episode ends there anyway.
 constexpr double kLongestGapSeconds = 2;
-constexpr std::size_t kMaxDigits = 18;
+constexpr std::size_t kMaxDigits = 18;  // fit in 64 bits
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -61,7 +61,7 @@ std::string digits_in(const std::filesystem::path& path, int group = 0) {
   }
 }
 
-// The last group of digits in which images' names differ: others state a size, or how many there are.
+// The last group of digits in which the images' names differ: equal groups state a size or the number of images.
 int counting_group(const std::vector<std::filesystem::path>& images) {
   for (int group = 0; !digits_in(images.front(), group).empty(); ++group) {
     const auto differs = [&](const auto& path) { return digits_in(path, group) != digits_in(images.front(), group); };

@@ -24,16 +24,16 @@ constexpr double kOverlapSeconds = 0.2;  // time in which the end of one part an
 constexpr std::size_t kSteady = 3;       // frames over which speed is averaged, as the last view may be partial
 constexpr std::size_t kMinRows = 3;      // minimum length of a track; shorter ones are noise
 
-constexpr double kMinSeconds = 0.3;
+constexpr double kMinSeconds = 0.3;         // minimum duration of a fall
 constexpr std::size_t kMinStretchRows = 8;  // minimum rows of a stretch that a chain can be learned from
 constexpr double kMinDescent = 0.25;        // minimum descent of a fall, picture heights
 constexpr double kPieceDescent = 0.1;       // heights: minimum descent of a fragment of a fall
 constexpr double kAtRest = 0.01;            // heights: distance from start or end within which it hangs or lies
-constexpr std::size_t kRests = 3;           // frames at rest
-constexpr double kApart = 0.03;             // heights: a track whose distance varies less is a part or a shadow
+constexpr std::size_t kRests = 3;           // minimum frames for which an object that lies is seen
+constexpr double kApart = 0.03;             // heights: variation of the distance of a part or shadow from its object
 constexpr double kRound = 1.3;              // aspect below which the long axis is undefined
 constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
-constexpr double kNearSide = 2;             // reduced pixels
+constexpr double kNearSide = 2;             // distance from the picture's side at which it is cut, reduced pixels
 constexpr std::size_t kAhead = 3;           // frames ahead in which crossing the picture's side counts as leaving
 constexpr double kSameSeconds = 0.5;        // longest gap between fragments of one fall
 

@@ -33,15 +33,15 @@ Wall wall_of(std::span<const Frame> frames, int width, int height);
 
 /// An object before the wall. Units: pixels of the reduced picture, y down.
 struct Thing {
-  double x = 0;         ///< centroid
-  double y = 0;         ///<
+  double x = 0;  ///< centroid
+  double y = 0;
   double area = 0;      ///< covered area in pixels
   double contrast = 0;  ///< difference from the wall, grey levels
   double angle = 0;     ///< of its long axis to the horizontal, anticlockwise, −π/2 to π/2
   double aspect = 1;    ///< length / width
-  double left = 0;      ///< bounding box
-  double right = 0;     ///<
-  double bottom = 0;    ///<
+  double left = 0;      ///< first and last column, and lowest row
+  double right = 0;
+  double bottom = 0;
 };
 
 struct Seen {
@@ -55,11 +55,11 @@ Seen seen_in(const Frame& frame, const Wall& wall);
 /// Picture size and frame rate of the tracking.
 struct Scale {
   double rate_hz = 0;
-  double width = 0;   ///< picture width, reduced pixels
-  double height = 0;  ///<
+  double width = 0;  ///< of the picture, reduced pixels
+  double height = 0;
 };
 
-/// Reason why a fall was not followed from its release to its end.
+/// Whether a fall was followed from its release to its end (kNo), or why not.
 enum class Cut {
   kNo,
   kSide,    ///< it leaves or enters the picture at a side
