@@ -75,7 +75,6 @@ struct EdgeCloud {
 struct BoundaryWindow {
   ImageView image;  ///< the window's pixels
   Region place;     ///< position of the window in the picture
-  Region area;      ///< searched part of the picture
   int level = 0;    ///< brightness threshold of the region
 };
 

@@ -109,7 +109,7 @@ class PaceMeasure {
 }  // namespace
 
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots) {
-  OutlineTracker tracker(knots, {.slip = 0.1});
+  OutlineTracker tracker(knots);
   CurveShape best{{knots.begin(), knots.end()}, even_pace(), 1e30, {}};
   std::vector<double> pace = best.pace;
   for (int round = 0; round < kPaceRounds; ++round) {

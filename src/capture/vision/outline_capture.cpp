@@ -92,7 +92,7 @@ class OutlineCapture::Stage {
   Samples take_samples(std::span<const Picture> pictures) const;
   std::vector<double> decide_shape(Samples& samples);
   void look(const Picture& picture);
-  void note(FrameFinding::Kind kind);
+  void note(const FrameFinding& finding);
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
   Error no_flame(const std::string& why) const;
   void describe(CapturedOutline& out) const;
@@ -163,14 +163,14 @@ Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
 }
 
 void OutlineCapture::Stage::lost() {
-  if (survey_) return note(FrameFinding::Kind::kLost);
+  if (survey_) return note({FrameFinding::Kind::kLost});
   held_.emplace_back(std::nullopt);
 }
 
-// Records a frame without an outline.
-void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
-  findings_.frames.push_back({kind, 0, 0, 0});
-  findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
+// Records a frame; its control points are 0 unless they have been appended.
+void OutlineCapture::Stage::note(const FrameFinding& finding) {
+  findings_.frames.push_back(finding);
+  findings_.controls.resize(2 * static_cast<std::size_t>(options_.points) * findings_.size());
 }
 
 // Discards half of the held frames, as they contain no flame yet. From then on glimpses, in which none was found
@@ -179,7 +179,7 @@ void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
   if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
   for (std::size_t k = 0; k < half; ++k) {
-    note(held_[k] ? FrameFinding::Kind::kNothing : FrameFinding::Kind::kLost);
+    note({held_[k] ? FrameFinding::Kind::kNothing : FrameFinding::Kind::kLost});
     if (held_[k]) held_bytes_ -= held_[k]->bytes();
   }
   held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(half));
@@ -218,7 +218,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
     if (held) {
       look(held->picture());
     } else {
-      note(FrameFinding::Kind::kLost);
+      note({FrameFinding::Kind::kLost});
     }
   }
   held_.clear();
@@ -302,9 +302,8 @@ void OutlineCapture::Stage::look(const Picture& picture) {
                                       : film_.another(picture, picture.frame()) ||
                                             (seeker_->elsewhere() && film_.another(picture, seeker_->found().box));
     tracker_->forget();
-    findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }
-  findings_.frames.push_back(finding);
+  note(finding);
 }
 
 // Converts a level of the survey to brightness.

@@ -38,11 +38,6 @@ OutlineRow shape_of(const Recording& recording, const SplineTable& table, std::s
   return shape;
 }
 
-// Twice the signed area of the triangle a, b, c; positive for a left turn.
-double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 // Width of a shape across its axis, at a share of its height above the base.
 double width_at(const OutlineRow& shape, double share) {
   const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
@@ -64,7 +59,7 @@ double width_at(const OutlineRow& shape, double share) {
 double full_width(const OutlineRow& shape) {
   double low = 1e30, high = -1e30;
   for (const CurvePoint& p : shape.curve) {
-    const double across = turn(shape.base, shape.tip, p) / (shape.height * shape.height);
+    const double across = side_of(shape.base, shape.tip, p) / (shape.height * shape.height);
     low = std::min(low, across);
     high = std::max(high, across);
   }
@@ -181,7 +176,6 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
   facts.width = usual(full_width);
   facts.lean = usual(lean_of);
   gather_motion(shapes, facts);
-  facts.misfit = report.residual / facts.height;
   facts.jumps = jumps_of(shapes, facts.height);
   facts.border = border_of(shapes, report.width, report.height);
   const std::size_t first = shapes.front().row, last = shapes.back().row;

@@ -248,7 +248,7 @@ bool OutlineSeeker::seek(const Picture& picture) {
 }
 
 bool OutlineSeeker::edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const {
-  return make_edge_cloud({window_.image, window_.place, area_, level_}, boundary_, options, cloud);
+  return make_edge_cloud({window_.image, window_.place, level_}, boundary_, options, cloud);
 }
 
 }  // namespace wisp

@@ -140,8 +140,7 @@ void follow_boundary(const ImageView& image, int level, PixelPosition seed, std:
     boundary.push_back(at);
     if (step < 0) return;  // a single pixel
     at = {at.x + kDx[step], at.y + kDy[step]};
-    from = (step + 5) & 7;  // the last dark pixel examined, relative to the new position
-    if ((step & 1) == 0) from = (step + 6) & 7;
+    from = (step + ((step & 1) == 0 ? 6 : 5)) & 7;  // the last dark pixel examined, relative to the new position
   }
 }
 

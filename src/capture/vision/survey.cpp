@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -63,7 +62,7 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
 // The level that only the brightest points reach.
 double brightest_of(const ImageView& luma) {
   Histogram histogram{};
-  add_to_histogram(histogram, luma, 1);
+  add_to_histogram(histogram, luma);
   const double points = static_cast<double>(luma.width) * luma.height;
   const double enough = std::max(4.0, kBrightest * points);
   double count = 0;
@@ -295,7 +294,7 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   Survey out{thing};
   out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid& grid = *grids.of(thing.channel);
-  for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
+  for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k));
   return out;
 }
 
@@ -334,14 +333,12 @@ BaseSide steady_end(const Survey& survey) {
 
 }  // namespace
 
-void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
-  assert(step >= 1);
+void add_to_histogram(Histogram& histogram, const ImageView& image) {
   // Neighbouring pixels are mostly equal, and each increment would wait for the last: four histograms alternate.
   std::array<std::array<std::uint32_t, 256>, 4> counts{};
-  for (int y = step / 2; y < image.height; y += step) {
+  for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.row(y);
-    int turn = 0;
-    for (int x = step / 2; x < image.width; x += step) ++counts[turn++ & 3][row[x]];
+    for (int x = 0; x < image.width; ++x) ++counts[x & 3][row[x]];
   }
   for (const auto& count : counts) {
     for (int v = 0; v < 256; ++v) histogram[v] += count[v];

@@ -89,10 +89,8 @@ Region usual_place(std::span<const Region> seen);
 /// Intersection over union of two rectangles.
 double shared_share(const Region& a, const Region& b);
 
-/// Counts every `step`-th pixel of every `step`-th row.
-///
-/// Precondition: step >= 1.
-void add_to_histogram(Histogram& histogram, const ImageView& image, int step);
+/// Adds an image's pixels to a histogram.
+void add_to_histogram(Histogram& histogram, const ImageView& image);
 
 struct SurveyOptions {
   std::optional<PixelChannel> channel;  ///< channel to use; empty: all are tried

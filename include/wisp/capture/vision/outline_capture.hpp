@@ -66,7 +66,6 @@ struct OutlineFacts {
   double wander = 0;               ///< motion of the base over motion of the shape relative to it
   double steadiness = 0;           ///< tip's motion / (tip's + base's motion), in the survey; 1: only the tip moves
   int stands = 1;                  ///< number of consecutive rows that show each frame of the film
-  double misfit = 0;               ///< mean distance of edge points from the curve, over median height
   double taper = 0;                ///< median reduction of the width from the middle to near the tip
   double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
   double width = 0;                ///< median of the maximum width across the axis, over height
