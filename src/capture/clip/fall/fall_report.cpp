@@ -15,9 +15,8 @@ constexpr std::size_t kMinFalls = 3;  // minimum number of falls; learning check
 constexpr std::size_t kGoodFalls = 20;
 constexpr double kMinWhole = 0.8;   // share of falls seen whole; below it, falls that stray are under-represented
 constexpr double kMaxFilled = 0.2;  // share of interpolated rows above which a warning is given
-constexpr double kLong = 1.8;       // aspect above which attitude is measurable …
-constexpr double kShort = 1.3;      // … and below which it is not
-constexpr double kMaxShort = 0.25;  // maximum share of rows below kShort
+constexpr double kLong = 1.8;       // minimum aspect with which attitude is measurable …
+constexpr double kMaxShort = 0.25;  // … and maximum share of rows with an aspect below kRound
 constexpr double kJerk = 0.52;      // rad per frame: a larger change of the turning rate is a jump of the measured axis
 constexpr double kMaxJerks =
     0.05;  // maximum share of rows with a jump, as where a leaf is seen edge-on or from its tip
@@ -100,7 +99,7 @@ Facts facts_of(const std::vector<Fall>& falls) {
   facts.jerks /= static_cast<double>(facts.rows);
   std::sort(aspects.begin(), aspects.end());
   facts.aspect = aspects[aspects.size() / 2];
-  const auto shorter = std::lower_bound(aspects.begin(), aspects.end(), kShort) - aspects.begin();
+  const auto shorter = std::lower_bound(aspects.begin(), aspects.end(), kRound) - aspects.begin();
   facts.short_share = static_cast<double>(shorter) / static_cast<double>(aspects.size());
   return facts;
 }

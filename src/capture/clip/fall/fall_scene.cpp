@@ -96,12 +96,11 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
     xy += weight * px * py;
     yy += weight * py * py;
   }
-  Thing thing{.x = x / sum, .y = y / sum, .area = sum, .contrast = contrast};
+  Thing thing{.x = x / sum, .y = y / sum, .contrast = contrast};
   const auto [left, right] =
       std::minmax_element(pixels.begin(), pixels.end(), [&](int a, int b) { return a % width < b % width; });
   thing.left = *left % width, thing.right = *right % width;
-  const int lowest_row = *std::max_element(pixels.begin(), pixels.end()) / width;
-  thing.bottom = lowest_row;
+  thing.bottom = *std::max_element(pixels.begin(), pixels.end()) / width;
   xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);

@@ -31,7 +31,6 @@ constexpr double kPieceDescent = 0.1;       // heights: minimum descent of a fra
 constexpr double kAtRest = 0.01;            // heights: distance from start or end within which it hangs or lies
 constexpr std::size_t kRests = 3;           // minimum frames for which an object that lies is seen
 constexpr double kApart = 0.03;             // heights: variation of the distance of a part or shadow from its object
-constexpr double kRound = 1.3;              // aspect below which the long axis is undefined
 constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
 constexpr double kNearSide = 2;             // distance from the picture's side at which it is cut, reduced pixels
 constexpr std::size_t kAhead = 3;           // frames ahead in which crossing the picture's side counts as leaving
