@@ -19,8 +19,7 @@ namespace {
 constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;  // per control point: more add no stability, as their errors correlate
-constexpr int kShownPoints = 64;
+constexpr int kEdgePointsEach = 12;    // per control point: more add no stability, as their errors correlate
 constexpr std::size_t kSurveyed = 20;  // maximum number of held frames in the survey
 constexpr std::size_t kSamples = 6;    // … and of held frames from which the curve's shape is chosen
 
@@ -323,7 +322,7 @@ OutlineSeen OutlineCapture::Stage::seen() const {
   out.found = seeker_->found().box;
   if (findings_.frames.back().kind != FrameFinding::Kind::kTracked) return out;
   const auto controls = std::span(findings_.controls).last(2 * static_cast<std::size_t>(options_.points));
-  for (const CurvePoint p : curve_polyline(tracker_->table(), controls, kShownPoints)) {
+  for (const CurvePoint p : curve_polyline(tracker_->table(), controls, kCurvePoints)) {
     out.polyline.insert(out.polyline.end(), {p.x, p.y});
   }
   return out;

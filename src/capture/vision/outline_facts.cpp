@@ -13,7 +13,6 @@ namespace {
 constexpr double kMoveShare = 0.35;  // heights: a base that moves farther between frames belongs to another object
 constexpr double kJumpRatio = 2.2;   // … as does a height that changes by this factor
 constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; gaps in films last 0.13 at most
-constexpr int kCurvePoints = 64;
 
 struct OutlineRow {
   std::size_t row = 0;

@@ -11,6 +11,9 @@
 
 namespace wisp {
 
+/// Number of points of the polyline by which an outline is measured and shown.
+inline constexpr int kCurvePoints = 64;
+
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;

@@ -18,8 +18,7 @@ constexpr double kMaxFilled = 0.2;  // share of interpolated rows above which a 
 constexpr double kLong = 1.8;       // minimum aspect with which attitude is measurable …
 constexpr double kMaxShort = 0.25;  // … and maximum share of rows with an aspect below kRound
 constexpr double kJerk = 0.52;      // rad per frame: a larger change of the turning rate is a jump of the measured axis
-constexpr double kMaxJerks =
-    0.05;  // maximum share of rows with a jump, as where a leaf is seen edge-on or from its tip
+constexpr double kMaxJerks = 0.05;  // maximum share of rows with a jump, as of a leaf that is seen edge-on
 
 std::size_t jerks_of(const Fall& fall) {
   std::size_t jerks = 0;
