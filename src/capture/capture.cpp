@@ -71,7 +71,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   const VideoInfo& info = reader->info();
   auto live = LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images}, options);
   if (!live) return live.error();
-  if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
+  if (auto read = read_into(*reader, live->picture(), options.frames, progress); !read) return read.error();
   film = live->picture().film();
   if (!info.images) {
     const auto heard = hear_sound(path, info.speed, [&](const auto& format, double begin, const auto& samples) {
@@ -257,6 +257,7 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
                                      const Progress& progress) {
   auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames});
   if (!reader) return reader.error();
+  const std::int64_t first = options.frames ? options.frames->first - 1 : 0;
   Channel channel{"brightness", "", Role::kOutput, {}};
   std::vector<std::uint8_t> pixels;
   for (;;) {
@@ -269,11 +270,11 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
       return Error{path.string() + ": the region lies outside its picture of " + std::to_string(picture.width) + " x " +
                    std::to_string(picture.height) + " pixels"};
     // Rows of lost frames stay missing (NaN).
-    channel.samples.resize(static_cast<std::size_t>((*frame)->index), std::nan(""));
+    channel.samples.resize(static_cast<std::size_t>((*frame)->index - first), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, reader->info().frames));
     const double done = static_cast<double>(channel.samples.size()) / frames;
-    if (progress && !progress("measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
+    if (!go_on(progress, "measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
   }
   const double usual = mean(present(channel.samples));
   if (!(usual > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
@@ -289,7 +290,7 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
   if (!reader) return reader.error();
   auto capture = FallCapture::create({path.string(), reader->info().rate_hz, reader->info().images}, options);
   if (!capture) return capture.error();
-  if (auto read = read_into(*reader, *capture, progress); !read) return read.error();
+  if (auto read = read_into(*reader, *capture, options.frames, progress); !read) return read.error();
   auto captured = capture->finish();
   if (!captured) return captured;
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));

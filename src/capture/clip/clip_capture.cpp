@@ -254,11 +254,8 @@ Result<ClipWind> LiveCapture::wind_of(std::size_t rows) const {
     none.note = source_.pictures ? "not heard: images have no sound" : "not heard: the clip has no sound track";
     return none;
   }
-  auto wind = ear_->finish(skipped_ + rows);
+  auto wind = ear_->finish(skipped_ + rows, skipped_);
   if (!wind) return Error{source_.name + ": its sound cannot be used: " + wind.error().message};
-  if (!wind->frames.empty()) {
-    wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped_));
-  }
   return wind;
 }
 
