@@ -79,9 +79,12 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
     });
     if (!heard) return heard.error();
   }
-  auto captured = live->finish(times_of(*reader, options));
+  const ClipTimes times = times_of(*reader, options);
+  auto captured = live->finish(times);
   if (!captured) return captured;
-  if (auto ok = check_frames(path, options.frames, captured->recording.rows()); !ok) return ok.error();
+  // The last frames of the range may be lost: then the times go on beyond the rows.
+  const std::size_t rows = std::max(captured->recording.rows(), times.offsets.size());
+  if (auto ok = check_frames(path, options.frames, rows); !ok) return ok.error();
   if (options.frames) {
     captured->recording.attributes.push_back({"first_frame", std::to_string(options.frames->first)});
   }
