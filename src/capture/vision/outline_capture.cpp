@@ -97,8 +97,6 @@ class OutlineCapture::Stage {
   void describe(CapturedOutline& out) const;
 
   OutlineCaptureOptions options_;
-  int width_ = 0;
-  int height_ = 0;
   std::size_t fed_ = 0;
   std::vector<std::optional<OwnedPicture>> held_;  // empty: a lost frame
   std::size_t held_bytes_ = 0;
@@ -112,7 +110,7 @@ class OutlineCapture::Stage {
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<CandleLook> candle_;
-  std::optional<Picture> format_;  // layout of the first picture, without its planes
+  std::optional<Picture> format_;  // size and layout of the first picture, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
   FilmLook film_;
@@ -123,15 +121,13 @@ class OutlineCapture::Stage {
 
 Result<void> OutlineCapture::Stage::accept(const Picture& picture) {
   if (fed_++ == 0) {
-    width_ = picture.width;
-    height_ = picture.height;
     format_ = picture;
     const Region& region = options_.region;
     if (!region.empty() && !(intersection(region, picture.frame()) == region)) {
       return complaint("the region " + std::to_string(region.x) + "," + std::to_string(region.y) + "," +
                        std::to_string(region.width) + "," + std::to_string(region.height) +
-                       " reaches outside the picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
-                       " pixels; give one inside it as X,Y,W,H");
+                       " reaches outside the picture of " + std::to_string(picture.width) + " x " +
+                       std::to_string(picture.height) + " pixels; give one inside it as X,Y,W,H");
     }
     if (options_.channel && !has_channel(picture, *options_.channel)) {
       return complaint("found grey pictures, expected colour for channel " +
@@ -139,10 +135,10 @@ Result<void> OutlineCapture::Stage::accept(const Picture& picture) {
     }
     return {};
   }
-  if (picture.width != width_ || picture.height != height_) {
+  if (picture.width != format_->width || picture.height != format_->height) {
     return complaint("frame " + std::to_string(fed_ - 1) + " is " + std::to_string(picture.width) + " x " +
-                     std::to_string(picture.height) + " pixels, expected " + std::to_string(width_) + " x " +
-                     std::to_string(height_) + " as the first one");
+                     std::to_string(picture.height) + " pixels, expected " + std::to_string(format_->width) + " x " +
+                     std::to_string(format_->height) + " as the first one");
   }
   return {};
 }
@@ -343,8 +339,8 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;
-  report.width = width_;
-  report.height = height_;
+  report.width = format_->width;
+  report.height = format_->height;
   report.threshold = bright(survey_->level);
   for (int v = 0; v < 256; ++v) {
     report.histogram[static_cast<std::size_t>(std::lround(bright(v)))] += survey_->histogram[v];
@@ -361,8 +357,8 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
     set_numbers_attribute(recording, "candle",
                           std::array{candle_->width, candle_->rgb[0], candle_->rgb[1], candle_->rgb[2]});
   recording.attributes.push_back({"source", options_.source});
-  recording.attributes.push_back({"width", std::to_string(width_)});
-  recording.attributes.push_back({"height", std::to_string(height_)});
+  recording.attributes.push_back({"width", std::to_string(format_->width)});
+  recording.attributes.push_back({"height", std::to_string(format_->height)});
   recording.attributes.push_back({"channel", std::string(channel_name(survey_->channel))});
   recording.attributes.push_back({"threshold", number_text(report.threshold, 6)});
   recording.attributes.push_back({"underside", report.underside ? "1" : "0"});

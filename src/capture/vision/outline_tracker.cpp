@@ -92,9 +92,8 @@ void OutlineTracker::predict(const EdgeCloud& cloud) {
   }
   widen(cloud.height);
   factor_ = estimate_.covariance;
-  const bool definite = cholesky(factor_, n);
+  [[maybe_unused]] const bool definite = cholesky(factor_, n);
   assert(definite);
-  static_cast<void>(definite);
   cholesky_inverse(factor_, n, prior_information_);
   for (int i = 0; i < n; ++i) {
     double sum = 0;
@@ -202,9 +201,8 @@ void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
 void OutlineTracker::solve() {
   const int n = static_cast<int>(vector_.size());
   factor_ = information_;
-  const bool definite = cholesky(factor_, n);
+  [[maybe_unused]] const bool definite = cholesky(factor_, n);
   assert(definite);
-  static_cast<void>(definite);
   estimate_.mean = vector_;
   cholesky_solve(factor_, n, estimate_.mean);
 }
