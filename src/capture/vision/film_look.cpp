@@ -71,8 +71,10 @@ void FilmLook::look(const Picture& picture) {
   brightest_point_ = std::max(brightest_point_, bright(*std::max_element(now_.begin(), now_.end())));
   if (!blocks_.empty()) {
     changes_.push_back(1 - likeness(blocks, blocks_));
+    change_rows_.push_back(rows_);
     moved_ += std::hypot(step_between(across_, across), step_between(down_, down));
   }
+  ++rows_;
   blocks_ = std::move(blocks);
   across_ = std::move(across);
   down_ = std::move(down);
@@ -84,7 +86,7 @@ FilmFacts FilmLook::facts() const {
   FilmFacts out{.pictures = flat_.size()};
   const double cut = std::max(kMinCut, kBeyondOthers * median(changes_));
   for (std::size_t k = 0; k < changes_.size(); ++k) {
-    if (changes_[k] > cut) out.cuts.push_back(k + 1);
+    if (changes_[k] > cut) out.cuts.push_back(change_rows_[k]);
   }
   out.brightest = brightest_point_;
   out.flat = median(flat_);

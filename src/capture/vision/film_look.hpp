@@ -20,6 +20,7 @@ class FilmLook {
  public:
   /// Takes in the next picture of the film; all have one size.
   void look(const Picture& picture);
+  void lost() { ++rows_; }  ///< a frame was lost here
 
   FilmFacts facts() const;  ///< facts of the pictures so far
 
@@ -41,6 +42,8 @@ class FilmLook {
   int step_ = 1;                                // pixels between the grid's points
   std::vector<double> blocks_, across_, down_;  // means of the last picture's blocks, columns and rows
   std::vector<double> changes_;                 // dissimilarity of each picture to the one before: 1 − correlation
+  std::vector<std::size_t> change_rows_;        // row of each of these
+  std::size_t rows_ = 0;                        // number of rows so far
   double brightest_point_ = 0;
   std::vector<double> flat_;  // share of saturated points in each picture
   double moved_ = 0;          // sum of shifts, as shares of the picture

@@ -158,6 +158,7 @@ Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
 }
 
 void OutlineCapture::Stage::lost() {
+  film_.lost();
   if (survey_) return note({FrameFinding::Kind::kLost});
   held_.emplace_back(std::nullopt);
 }

@@ -43,7 +43,7 @@ struct FilmFacts {
   double brightest = 255;         ///< brightness of the brightest point of all pictures, of 255 levels
   double flat = 0;                ///< share of a picture that is saturated, median
   double camera = 0;              ///< displacement of the whole picture per frame, share of its size, mean
-  std::vector<std::size_t> cuts;  ///< indices of the pictures that begin another scene, 0-based, ascending
+  std::vector<std::size_t> cuts;  ///< rows that begin another scene, 0-based, ascending; lost frames are counted
 };
 
 /// Features that distinguish the outline of a flame from that of another object. Shares are of rows with an outline.
