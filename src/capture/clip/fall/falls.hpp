@@ -38,7 +38,7 @@ Wall wall_of(std::span<const Frame> frames, int width, int height);
 struct Thing {
   double x = 0, y = 0;  ///< centroid
   double contrast = 0;  ///< difference from the wall, grey levels
-  double angle = 0;     ///< of its long axis to the horizontal, anticlockwise, −π/2 to π/2
+  double angle = 0;     ///< from the horizontal to the long axis, anticlockwise, −π/2 to π/2
   double aspect = 1;    ///< length / width
   double left = 0;      ///< first column
   double right = 0;     ///< last column
@@ -78,7 +78,7 @@ struct Fall {
 
 struct Falls {
   std::vector<Fall> falls;  ///< in order of their first frames
-  std::vector<Cut> missed;  ///< of sinking tracks that are no falls, and of falls that pass another object
+  std::vector<Cut> missed;  ///< cuts of sinking tracks that are no falls, and of falls that pass another object
 };
 
 /// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of
