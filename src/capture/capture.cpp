@@ -176,7 +176,13 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
   auto captured = look_at(path, options, 0, film, progress);
   if (captured ? captured->report.verdict->usable : captured.error().message.find("no flame") == std::string::npos)
     return captured;
-  const Cure cure = cure_of(path, options, captured, film, progress);
+  bool stopped = false;
+  const Progress watched = [&](std::string_view stage, double share) {
+    stopped = stopped || !go_on(progress, stage, share);
+    return !stopped;
+  };
+  const Cure cure = cure_of(path, options, captured, film, watched);
+  if (stopped) return Error{std::string(kStopped)};
   if (!captured) {
     return Error{cure.reason.empty() ? captured.error().message + cure.advice : path.string() + ": " + cure.reason};
   }
