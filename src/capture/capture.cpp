@@ -36,7 +36,7 @@ ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
   return times;
 }
 
-// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty where there is none.
+// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty without a sound track.
 template <class Hear>
 Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, double speed, Hear hear) {
   Result<void> heard;
@@ -71,7 +71,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   const VideoInfo& info = reader->info();
   auto live = LiveCapture::create({.name = path.string(), .rate_hz = info.rate_hz, .pictures = info.images}, options);
   if (!live) return live.error();
-  if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
+  if (auto read = read_into(*reader, live->picture(), options.frames, progress); !read) return read.error();
   film = live->picture().film();
   if (!info.images) {
     const auto heard = hear_sound(path, info.speed, [&](const auto& format, double begin, const auto& samples) {
@@ -79,9 +79,12 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
     });
     if (!heard) return heard.error();
   }
-  auto captured = live->finish(times_of(*reader, options));
+  const ClipTimes times = times_of(*reader, options);
+  auto captured = live->finish(times);
   if (!captured) return captured;
-  if (auto ok = check_frames(path, options.frames, captured->recording.rows()); !ok) return ok.error();
+  // The last frames of the range may be lost: then the times go on beyond the rows.
+  const std::size_t rows = std::max(captured->recording.rows(), times.offsets.size());
+  if (auto ok = check_frames(path, options.frames, rows); !ok) return ok.error();
   if (options.frames) {
     captured->recording.attributes.push_back({"first_frame", std::to_string(options.frames->first)});
   }
@@ -89,7 +92,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest run of rows without a break, in the film's frames; empty if it is shorter than 1.5 s or nearly the film.
+// The longest run of rows without a break, as the film's frames; empty if shorter than 1.5 s or nearly the whole film.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
@@ -113,7 +116,7 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // frames tried first; a mere glow is seldom certain to 0.8
+  constexpr std::int64_t kEnoughFrames = 120;  // frames tried before the whole film
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -121,6 +124,7 @@ Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, cons
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     FilmFacts ignored;
     const auto captured = look_at(path, other, turn, ignored, progress);
+    // A mere glow may be usable in any position, but its outline seldom is right with a probability above 0.8.
     return captured && captured->report.verdict->usable &&
            (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > 0.8);
   };
@@ -172,7 +176,13 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
   auto captured = look_at(path, options, 0, film, progress);
   if (captured ? captured->report.verdict->usable : captured.error().message.find("no flame") == std::string::npos)
     return captured;
-  const Cure cure = cure_of(path, options, captured, film, progress);
+  bool stopped = false;
+  const Progress watched = [&](std::string_view stage, double share) {
+    stopped = stopped || !go_on(progress, stage, share);
+    return !stopped;
+  };
+  const Cure cure = cure_of(path, options, captured, film, watched);
+  if (stopped) return Error{std::string(kStopped)};
   if (!captured) {
     return Error{cure.reason.empty() ? captured.error().message + cure.advice : path.string() + ": " + cure.reason};
   }
@@ -256,6 +266,7 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
                                      const Progress& progress) {
   auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames});
   if (!reader) return reader.error();
+  const std::int64_t first = options.frames ? options.frames->first - 1 : 0;
   Channel channel{"brightness", "", Role::kOutput, {}};
   std::vector<std::uint8_t> pixels;
   for (;;) {
@@ -268,11 +279,11 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
       return Error{path.string() + ": the region lies outside its picture of " + std::to_string(picture.width) + " x " +
                    std::to_string(picture.height) + " pixels"};
     // Rows of lost frames stay missing (NaN).
-    channel.samples.resize(static_cast<std::size_t>((*frame)->index), std::nan(""));
+    channel.samples.resize(static_cast<std::size_t>((*frame)->index - first), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, reader->info().frames));
     const double done = static_cast<double>(channel.samples.size()) / frames;
-    if (progress && !progress("measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
+    if (!go_on(progress, "measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
   }
   const double usual = mean(present(channel.samples));
   if (!(usual > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
@@ -288,7 +299,7 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
   if (!reader) return reader.error();
   auto capture = FallCapture::create({path.string(), reader->info().rate_hz, reader->info().images}, options);
   if (!capture) return capture.error();
-  if (auto read = read_into(*reader, *capture, progress); !read) return read.error();
+  if (auto read = read_into(*reader, *capture, options.frames, progress); !read) return read.error();
   auto captured = capture->finish();
   if (!captured) return captured;
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));

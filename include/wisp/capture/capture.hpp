@@ -19,7 +19,8 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
 
 /// Captures a flame's body, and its outline from beside each blow, from films of several level cameras at `azimuths`
 /// (degrees anticlockwise, seen from above), aligned in time by sound or flame height. Errors: those of capture() for
-/// each film; fewer than two films, not one azimuth per film, equal films, unequal rates, `frames`, no time in common.
+/// each film; fewer than two films, not one azimuth per film, equal or opposite azimuths, equal films, unequal rates,
+/// `frames` given, no time in common.
 Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
                                ClipCapture options, const Progress& progress = {});
 

@@ -32,9 +32,9 @@ OutlineCaptureOptions outline_options(const ClipSource& source, const ClipCaptur
 
 constexpr double kClippedShare = 0.01;  // share of samples at full scale above which peaks of the wind are clipped
 
-// An absence of the outline that begins during wind or just after, and ends with the flame back, is a blow-out followed
-// by re-ignition. Half of the strong wind is the least that extinguishes a flame.
-constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // in wind units; seconds; seconds
+// An absence of the outline of more than kMinOut seconds that begins up to kLookedBack seconds after wind of kBlowing,
+// and ends with the flame back, is a blow-out followed by re-ignition. Less wind extinguishes no flame.
+constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;
 
 void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
   if (wind.frames.empty()) return;
@@ -254,11 +254,8 @@ Result<ClipWind> LiveCapture::wind_of(std::size_t rows) const {
     none.note = source_.pictures ? "not heard: images have no sound" : "not heard: the clip has no sound track";
     return none;
   }
-  auto wind = ear_->finish(skipped_ + rows);
+  auto wind = ear_->finish(skipped_ + rows, skipped_);
   if (!wind) return Error{source_.name + ": its sound cannot be used: " + wind.error().message};
-  if (!wind->frames.empty()) {
-    wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped_));
-  }
   return wind;
 }
 

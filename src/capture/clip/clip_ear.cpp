@@ -8,7 +8,6 @@ namespace wisp {
 namespace {
 
 constexpr float kSilence = 1e-4F;  // −80 dB of full scale
-constexpr double kJitter = 0.05;   // seconds: tolerated offset of a block's time stamp from its samples
 
 WindFrame missing_frame(std::size_t index) {
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
@@ -93,7 +92,7 @@ std::size_t ClipEar::place(std::span<const WindFrame> heard, std::size_t frames,
   return end;
 }
 
-Result<ClipWind> ClipEar::finish(std::size_t frames) const {
+Result<ClipWind> ClipEar::finish(std::size_t frames, std::size_t skipped) const {
   ClipWind wind;
   if (peak_ < kSilence) {
     wind.note = "not heard: the sound track is silent";
@@ -104,7 +103,8 @@ Result<ClipWind> ClipEar::finish(std::size_t frames) const {
   wind.background = track->calibration.background_rms;
   wind.one_rms = track->one_rms;
   wind.clipped_share = track->clipped_share;
-  wind.uncovered = frames - std::min(frames, place(track->frames, frames, wind.frames));
+  wind.uncovered = frames - std::clamp(place(track->frames, frames, wind.frames), skipped, frames);
+  wind.frames.erase(wind.frames.begin(), wind.frames.begin() + static_cast<std::ptrdiff_t>(skipped));
   wind.holes = static_cast<std::size_t>(std::count_if(wind.frames.begin(), wind.frames.end(),
                                                       [](const WindFrame& one) { return std::isnan(one.rms); })) -
                wind.uncovered;

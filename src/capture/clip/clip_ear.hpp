@@ -16,17 +16,21 @@ void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording);
 /// Measures the wind of a clip from its sound, block by block.
 class ClipEar {
  public:
+  /// Offset of a block's time stamp from its samples, in seconds, above which sound was lost or repeated.
+  static constexpr double kJitter = 0.05;
+
   /// An ear for a picture of `rate_hz` frames a second. Errors: as WindTracker.
   ///
   /// Precondition: rate_hz > 0.
   static Result<ClipEar> create(const SoundFormat& format, double rate_hz);
 
   /// Takes interleaved samples, full scale ±1, beginning `begin` seconds after the picture's first frame (may be
-  /// negative). A `begin` more than 0.05 s from the end of the last block means lost or repeated sound.
+  /// negative).
   void feed(double begin, std::span<const float> samples);
 
-  /// Wind of the picture's first `frames` frames; empty where the sound was silent. Errors: as WindTracker.
-  Result<ClipWind> finish(std::size_t frames) const;
+  /// Wind of the picture's first `frames` frames without the first `skipped`; empty where the sound was silent. Errors:
+  /// as WindTracker.
+  Result<ClipWind> finish(std::size_t frames, std::size_t skipped = 0) const;
 
  private:
   struct Hole {

@@ -7,9 +7,6 @@
 namespace wisp {
 namespace {
 
-// Maximum length of a gap in a clip's times; longer gaps are shortened to it, as an episode ends there anyway.
-constexpr double kLongestGapSeconds = 2;
-
 // Offset from the grid, in places, above which frames do not have a fixed rate.
 constexpr double kIrregular = 0.6;
 

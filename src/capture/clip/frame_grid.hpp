@@ -10,6 +10,9 @@ namespace wisp {
 
 class FrameGrid {
  public:
+  /// Maximum length of a gap; longer gaps are shortened to it, as an episode ends there anyway.
+  static constexpr double kLongestGapSeconds = 2;
+
   /// Precondition: rate_hz > 0.
   explicit FrameGrid(double rate_hz) : rate_hz_(rate_hz) {}
 

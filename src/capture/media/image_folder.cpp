@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "wisp/base/file.hpp"
 
@@ -31,10 +32,7 @@ constexpr std::array<ImageKind, 9> kKinds{{{".png", AV_CODEC_ID_PNG},
 
 // Maximum size of an image file; a larger one is no frame of a clip.
 constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
-
-// Maximum gap in the numbers, as in a video; longer gaps are shortened, as an episode ends there anyway.
-constexpr double kLongestGapSeconds = 2;
-constexpr std::size_t kMaxDigits = 18;
+constexpr std::size_t kMaxDigits = 18;  // fit in 64 bits
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -61,7 +59,7 @@ std::string digits_in(const std::filesystem::path& path, int group = 0) {
   }
 }
 
-// The last group of digits in which images' names differ: others state a size, or how many there are.
+// The last group of digits in which the images' names differ: equal groups state a size or the number of images.
 int counting_group(const std::vector<std::filesystem::path>& images) {
   for (int group = 0; !digits_in(images.front(), group).empty(); ++group) {
     const auto differs = [&](const auto& path) { return digits_in(path, group) != digits_in(images.front(), group); };
@@ -129,7 +127,8 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
 void ImageFolder::place(std::vector<NumberedImage>& images) {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   for (std::size_t k = 1; k < images.size(); ++k) step = std::min(step, images[k].number - images[k - 1].number);
-  const auto longest = static_cast<std::int64_t>(std::ceil(std::min(kLongestGapSeconds * info_.rate_hz, 1e6)));
+  const auto longest =
+      static_cast<std::int64_t>(std::ceil(std::min(FrameGrid::kLongestGapSeconds * info_.rate_hz, 1e6)));
   for (std::size_t k = 1; k < images.size(); ++k) {
     const std::int64_t way = (images[k].number - images[k - 1].number) / step;
     if (way > longest + 1) ++long_gaps_;
@@ -165,8 +164,8 @@ Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const V
   folder.pictures_ = FramePictures(options.turn);
   if (folder.images_.empty()) return folder;
   if (auto decoded = folder.decode(folder.images_.front().path); !decoded) return decoded.error();
-  folder.info_.width = folder.frame_->width;
-  folder.info_.height = folder.frame_->height;
+  std::tie(folder.info_.width, folder.info_.height) =
+      folder.pictures_.shown(folder.frame_->width, folder.frame_->height);
   return folder;
 }
 
@@ -214,8 +213,9 @@ Result<std::optional<VideoFrame>> ImageFolder::next() {
   if (at_ == images_.size()) return std::optional<VideoFrame>();
   const NumberedImage& image = images_[at_++];
   if (auto decoded = decode(image.path); !decoded) return decoded.error();
-  if (frame_->width != info_.width || frame_->height != info_.height) {
-    return Error{image.path.string() + ": found " + pixels(frame_->width, frame_->height) + ", expected " +
+  const auto [width, height] = pictures_.shown(frame_->width, frame_->height);
+  if (width != info_.width || height != info_.height) {
+    return Error{image.path.string() + ": found " + pixels(width, height) + ", expected " +
                  pixels(info_.width, info_.height) + " as in " + images_.front().path.filename().string() +
                  "; keep images of one size in a folder"};
   }

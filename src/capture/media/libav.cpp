@@ -102,7 +102,7 @@ void read_alone(AVFormatContext& format, int track) {
 }
 
 bool is_truncated(const AVFormatContext& format, int track, double end) {
-  constexpr double kExact = 0.95, kSlack = 0.1;  // a duration is not exact to the frame; seconds
+  constexpr double kExact = 0.95, kSlack = 0.1;  // share; seconds: a stated duration is not exact to the frame
   return end < kExact * stated_seconds(format, *format.streams[track]) - kSlack;
 }
 

@@ -66,19 +66,21 @@ std::string libav_message(int code);
 
 /// Opens a media file and reads its list of tracks. FFmpeg's own messages on standard error are disabled.
 /// Only the file itself is read, whatever it refers to: playlists and scripts are not accepted.
-/// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index.
+/// Errors: missing, a folder, a pipe or a device, not a media file, truncated before its index, a picture of more than
+/// kMaxFilmPixels.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
-/// Duration that a track's header states, or else the file's, of its longest track, in seconds; 0: none is stated.
+/// Stated duration of a track, or else of the file (that of its longest track), in seconds; 0: none is stated.
 double stated_seconds(const AVFormatContext& format, const AVStream& track);
 
-/// Reads no packets of other tracks, unless only the file states a duration, which the longest of them tells.
+/// Discards packets of other tracks, unless the track states no duration: is_truncated() then needs the longest
+/// track's.
 void read_alone(AVFormatContext& format, int track);
 
 /// End of a packet, in seconds after the file's beginning; 0 where its time is unknown.
 double end_of(const AVFormatContext& format, const AVPacket& packet);
 
-/// Whether the packets that are read for a track end at `end`, earlier than is stated: the file is truncated.
+/// Whether the packets read, which end at `end` seconds, end before the stated duration: the file is truncated.
 bool is_truncated(const AVFormatContext& format, int track, double end);
 
 /// Opens a decoder with `threads` threads for one track.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "capture/clip/clip_ear.hpp"
 #include "capture/media/libav.hpp"
 
 namespace wisp {
@@ -23,8 +24,6 @@ struct SoundTrack {
   std::vector<float> samples;
 };
 
-constexpr double kJitter = 0.05;  // seconds: smaller deviations of time stamps are not gaps
-
 double start_of(const AVStream& track) {
   return track.start_time == AV_NOPTS_VALUE ? 0 : static_cast<double>(track.start_time) * av_q2d(track.time_base);
 }
@@ -41,7 +40,7 @@ void take_time(SoundTrack& track) {
   if (frame.best_effort_timestamp != AV_NOPTS_VALUE) {
     const double stamped =
         static_cast<double>(frame.best_effort_timestamp) * av_q2d(track.codec->pkt_timebase) - track.first_picture;
-    if (!track.now || std::abs(stamped - *track.now) > kJitter) track.now = stamped;
+    if (!track.now || std::abs(stamped - *track.now) > ClipEar::kJitter) track.now = stamped;
   }
   track.info.begin = track.now.value_or(track.info.begin);
   track.now = track.info.begin + static_cast<double>(frame.nb_samples) / track.info.rate_hz;

@@ -55,8 +55,8 @@ double usual_rate(const std::vector<double>& times, double nominal, double avera
   return 1 / step;
 }
 
-// Rate of the frames' grid: the camera's nominal rate (the lowest that represents all times) unless too many of its
-// frames were lost; then the most common rate.
+// Rate of the frames' grid: the camera's nominal rate (the lowest that represents all times), unless a third or more of
+// its frames are missing; then the most common rate.
 double grid_rate(const std::filesystem::path& path, const AVStream& track) {
   const double nominal = av_q2d(track.r_frame_rate), mean = av_q2d(track.avg_frame_rate);
   const bool plausible = nominal > 0 && nominal <= kHighestRate;

@@ -15,8 +15,8 @@ namespace wisp {
 /// Converts frames to pictures; reuses converters and memory between frames.
 class FramePictures {
  public:
-  /// Frames are rotated clockwise by this many quarter turns, as the file requests, and stretched to square pixels
-  /// where a pixel's width is `aspect` times its height.
+  /// Frames are rotated clockwise by this many quarter turns, and stretched to square pixels where a pixel's width is
+  /// `aspect` times its height.
   explicit FramePictures(int quarter_turns = 0, double aspect = 1) : quarter_turns_(quarter_turns), aspect_(aspect) {}
 
   /// Width and height of a frame as displayed.
@@ -106,7 +106,7 @@ class VideoFile {
   bool ended_ = false;
   bool read_error_ = false;
   std::int64_t decoded_ = 0;
-  double end_ = 0;  // of the packets read, of all tracks, seconds after the file's beginning
+  double end_ = 0;  // end of the packets read, of any track, seconds after the file's beginning
   std::optional<FrameGrid> grid_;
   std::int64_t broken_ = 0;
 };

@@ -13,7 +13,7 @@ namespace {
 constexpr float kPrimaries[3][3] = {
     {1.6605F, -0.5876F, -0.0728F}, {-0.1246F, 1.1329F, -0.0083F}, {-0.0182F, -0.1006F, 1.1187F}};
 
-constexpr int kSignals = 65536, kLights = 4096;  // of 16 bits; steps of light, of a quarter level near black
+constexpr int kSignals = 65536, kLights = 4096;  // 16-bit signals; steps of light, near black a quarter of a level each
 
 // Light on the camera (ITU-R BT.2100-2, table 5). Reference white has a signal of 0.75 (ITU-R BT.2408).
 double hlg_light(double signal) {
@@ -22,7 +22,7 @@ double hlg_light(double signal) {
   return light(signal) / light(0.75);
 }
 
-// Light on the camera whose reference white is shown with 203 cd/m², by the inverse of the reference OOTF (table 4).
+// Light on the camera, by the inverse of the reference OOTF (table 4). Reference white is shown with 203 cd/m².
 double pq_light(double signal) {
   constexpr double kM1 = 2610.0 / 16384, kM2 = 2523.0 / 32, kC1 = 3424.0 / 4096, kC2 = 2413.0 / 128, kC3 = 2392.0 / 128;
   const double power = std::pow(signal, 1 / kM2);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in the colours of BT.2020, or of high dynamic range (ITU-R BT.2100), as a camera of BT.709 takes them.
+// Converts pictures in the colours of BT.2020, or of high dynamic range (ITU-R BT.2100), to those of BT.709.
 
 #include "capture/media/libav.hpp"
 

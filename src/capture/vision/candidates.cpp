@@ -15,8 +15,8 @@ constexpr std::size_t kMinRows = 3;      // minimum rows of a region with a shap
 constexpr double kSurelyMoves = 0.06;    // change of shape that proves motion
 constexpr double kStillWorth = 0.15;     // … and the weight of a candidate without change
 constexpr double kAloneIsBetter = 0.5;   // weight of a candidate cut from its stand, against one seen alone
-constexpr double kLightPower = 8;        // exponent: 10 % less luma than the brightest halves the likelihood
-constexpr double kSolidPower = 4;        // exponent: a flame has no notches; one merged with something has
+constexpr double kLightPower = 8;        // exponent of light: 10 % less luma about halves the likelihood
+constexpr double kSolidPower = 4;        // exponent of solidity: a flame has no notches, a merged region has
 
 // One region followed over pictures.
 struct Track {
@@ -71,7 +71,7 @@ std::vector<Track> find_tracks(const PictureGrid& grid, int level) {
   return apart;
 }
 
-// Rows of a region's outline, and their position.
+// Rows of a region in one picture, and measures of them in grid points.
 struct Shape {
   std::size_t picture = 0;
   Profile profile;
@@ -127,7 +127,7 @@ std::vector<Shape> shapes_of(const PictureGrid& grid, int level, const Track& tr
   return shapes;
 }
 
-// Cuts off the stand where object and stand have merged in most pictures. Returns whether they have.
+// Cuts off the stand if object and stand have merged in at least half of the pictures. Returns whether they have.
 bool cut_stands(std::vector<Shape>& shapes) {
   std::vector<std::optional<std::size_t>> cuts;
   std::size_t count = 0;
@@ -323,7 +323,7 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
 
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence) {
-  // Area, at another level, of the candidate that overlaps most; a region that disappears has lost all of its area.
+  // Area, at another level, of the candidate that overlaps most; `none` if no candidate overlaps by more than a fifth.
   const auto area_in = [](const std::vector<Candidate>* others, const Candidate& c, double none) {
     if (others == nullptr) return c.area;
     double best = 0, area = none;

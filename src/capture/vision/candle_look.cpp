@@ -9,10 +9,11 @@
 namespace wisp {
 namespace {
 
-constexpr double kReach = 2.5;                    // flame heights searched on both sides
-constexpr double kBelow = 0.2, kDeep = 0.5;       // … and below, from … to; nearer, the rim glows
-constexpr double kMinWax = 16, kMinEdge = 14;     // levels of 255
-constexpr double kNarrowest = 0.15, kWidest = 4;  // flame heights; a wider one is a table
+// Lengths are in flame heights.
+constexpr double kReach = 2.5;                    // half width of the strip
+constexpr double kBelow = 0.2, kDeep = 0.5;       // its upper and lower end below the flame; nearer, the rim glows
+constexpr double kMinWax = 16, kMinEdge = 14;     // minimum luma of wax, and its excess over the surroundings, of 255
+constexpr double kNarrowest = 0.15, kWidest = 4;  // range of a candle's width; anything wider is a table
 
 // Mean level of each column of a strip over all pictures, 0 to 255.
 std::vector<double> profile(std::span<const Picture> pictures, PixelChannel channel, const Region& strip) {

@@ -35,7 +35,7 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (low - top);
 }
 
-// Edge at a bright pixel on the picture's border: the outline runs along the border itself.
+// Edge at a bright pixel on the window's border: the outline runs along the border itself.
 EdgePoint border_edge(const ImageView& image, PixelPosition pixel) {
   EdgePoint edge{static_cast<double>(pixel.x), static_cast<double>(pixel.y), 0, 0};
   if (pixel.x == 0) edge.normal_x = -1;
@@ -50,7 +50,7 @@ bool on_border(const ImageView& image, PixelPosition pixel) {
   return pixel.x == 0 || pixel.y == 0 || pixel.x == image.width - 1 || pixel.y == image.height - 1;
 }
 
-constexpr std::size_t kMinBoundary = 12;
+constexpr std::size_t kMinBoundary = 12;  // pixels
 
 // Axes relative to the base: across (to the right for a base below) and down (towards the base).
 struct Axes {

@@ -41,8 +41,8 @@ inline constexpr int kPaceSteps = 64;
 struct EdgeCloudOptions {
   BaseSide base = BaseSide::kBottom;
   bool underside = false;  ///< whether to follow the underside
-  int max_points = 320;    ///< maximum number of edge points; longer boundaries are subsampled evenly. 40 per control
-                           ///< point (for 8) are ample, and cost is proportional
+  int max_points = 320;    ///< maximum number of edge points; longer boundaries are subsampled evenly. Cost is
+                           ///< proportional
   /// Positions of the landmarks in the cloud: left corner, tip, right corner; ascending. The corners are at 0 and 1
   /// where the underside is not followed.
   std::array<double, 3> landmarks{0, 0.5, 1};
@@ -75,7 +75,6 @@ struct EdgeCloud {
 struct BoundaryWindow {
   ImageView image;  ///< the window's pixels
   Region place;     ///< position of the window in the picture
-  Region area;      ///< searchable part of the picture: nothing is visible beyond its border
   int level = 0;    ///< brightness threshold of the region
 };
 
@@ -88,8 +87,8 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
 /// Recomputes `s` for other landmarks or another pace; the cloud must have been made with the same `underside`.
 void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options);
 
-/// Shape of a curve: its knots, and its speed along the outline. Knots are concentrated where outlines bend: placed
-/// once per model, from a few outlines, and kept only if they fit better.
+/// Shape of a curve: its knots, and its speed along the outline. Knots are concentrated where outlines bend: they are
+/// placed once per clip, from a few outlines, if they then fit better than uniform knots.
 ///
 /// Knots divide a density into equal amounts: part uniform, part the outlines' mean bending (C. de Boor, A Practical
 /// Guide to Splines, chapter XII, similarly distributes knots by a power of a derivative). Several powers of the

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxPoints = 96;              // maximum width and height of the grid, points
 constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
 constexpr int kDark = 24;                   // grey levels: above coding errors and camera noise
-constexpr double kMaxIsNew = 0.4;           // share of the light that is new: cuts 0.6 to 1, a snuffed candle 0.2
+constexpr double kMaxIsNew = 0.4;           // share of new light in one scene: cuts have 0.6 to 1, a snuffed candle 0.2
 constexpr double kMinTotalLight = 3 * 255;  // sum over all points: less is a spark
 constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 
@@ -31,7 +31,7 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr int kMaxStep = 8;
-  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // largest share left; least difference, levels, above noise
+  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // maximum share left by a shift; above noise, levels
   const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {
@@ -71,8 +71,10 @@ void FilmLook::look(const Picture& picture) {
   brightest_point_ = std::max(brightest_point_, bright(*std::max_element(now_.begin(), now_.end())));
   if (!blocks_.empty()) {
     changes_.push_back(1 - likeness(blocks, blocks_));
+    change_rows_.push_back(rows_);
     moved_ += std::hypot(step_between(across_, across), step_between(down_, down));
   }
+  ++rows_;
   blocks_ = std::move(blocks);
   across_ = std::move(across);
   down_ = std::move(down);
@@ -84,7 +86,7 @@ FilmFacts FilmLook::facts() const {
   FilmFacts out{.pictures = flat_.size()};
   const double cut = std::max(kMinCut, kBeyondOthers * median(changes_));
   for (std::size_t k = 0; k < changes_.size(); ++k) {
-    if (changes_[k] > cut) out.cuts.push_back(k + 1);
+    if (changes_[k] > cut) out.cuts.push_back(change_rows_[k]);
   }
   out.brightest = brightest_point_;
   out.flat = median(flat_);

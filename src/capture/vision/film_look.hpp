@@ -13,13 +13,14 @@
 
 namespace wisp {
 
-/// Shift from a to b as a share of the length, in whole steps; 0 where no shift removes 30 % of the difference.
+/// Shift from a to b as a share of the length, in whole steps, at most 8; 0 where none removes 30 % of the difference.
 double step_between(const std::vector<double>& a, const std::vector<double>& b);
 
 class FilmLook {
  public:
   /// Takes in the next picture of the film; all have one size.
   void look(const Picture& picture);
+  void lost() { ++rows_; }  ///< a frame was lost here
 
   FilmFacts facts() const;  ///< facts of the pictures so far
 
@@ -29,18 +30,20 @@ class FilmLook {
   /// Whether no picture with the object was taken in.
   bool empty() const { return brightest_.empty(); }
 
-  /// Whether most of the light in a part of a picture is where pictures of the object had none.
+  /// Whether over 40 % of the light in a part of a picture is where the pictures with the object had none.
   bool another(const Picture& picture, const Region& within);
 
  private:
   void sample(const Picture& picture);
 
   std::vector<std::uint8_t> now_;        // luma of a coarse grid
-  std::vector<std::uint8_t> brightest_;  // … of pictures of the object, maximum so far
+  std::vector<std::uint8_t> brightest_;  // … its maximum over the pictures with the object
   std::size_t columns_ = 0;
-  int step_ = 1;                                // pixels between its points
+  int step_ = 1;                                // pixels between the grid's points
   std::vector<double> blocks_, across_, down_;  // means of the last picture's blocks, columns and rows
   std::vector<double> changes_;                 // dissimilarity of each picture to the one before: 1 − correlation
+  std::vector<std::size_t> change_rows_;        // row of each of these
+  std::size_t rows_ = 0;                        // number of rows so far
   double brightest_point_ = 0;
   std::vector<double> flat_;  // share of saturated points in each picture
   double moved_ = 0;          // sum of shifts, as shares of the picture

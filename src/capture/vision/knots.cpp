@@ -55,11 +55,6 @@ std::vector<double> spread(const Density& bend, int points, double even, double 
   return clamped_knots(interior);
 }
 
-double way_between(const EdgeCloud& cloud, std::size_t k) {
-  const EdgePoint &a = cloud.points[k - 1], &b = cloud.points[k];
-  return length(b.x - a.x, b.y - a.y);
-}
-
 constexpr int kPaceRounds = 3;
 
 // Penalty for a curve that follows an outline by a loop at a sharp tip or at the base: in play with noise it would
@@ -69,7 +64,8 @@ constexpr double kFolded = 1;
 double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   double area = cloud.left_out;
   for (std::size_t k = 1; k < residuals.size(); ++k) {
-    area += 0.5 * (residuals[k - 1] + residuals[k]) * way_between(cloud, k);
+    const EdgePoint &a = cloud.points[k - 1], &b = cloud.points[k];
+    area += 0.5 * (residuals[k - 1] + residuals[k]) * length(b.x - a.x, b.y - a.y);
   }
   return area / cloud.area;
 }
@@ -109,7 +105,7 @@ class PaceMeasure {
 }  // namespace
 
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots) {
-  OutlineTracker tracker(knots, {.slip = 0.1});
+  OutlineTracker tracker(knots);
   CurveShape best{{knots.begin(), knots.end()}, even_pace(), 1e30, {}};
   std::vector<double> pace = best.pace;
   for (int round = 0; round < kPaceRounds; ++round) {

@@ -19,13 +19,12 @@ namespace {
 constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;  // per control point: more add no stability, as their errors correlate
-constexpr int kShownPoints = 64;
-constexpr std::size_t kSurveyed = 20;  // number of held frames in the survey
-constexpr std::size_t kSamples = 6;    // … and of those used to try outlines
+constexpr int kEdgePointsEach = 12;    // per control point: more add no stability, as their errors correlate
+constexpr std::size_t kSurveyed = 20;  // maximum number of held frames in the survey
+constexpr std::size_t kSamples = 6;    // … and of held frames from which the curve's shape is chosen
 
-// Minimum change of shape of a flame: flames reach 0.05 and more within a second, lit walls and lamps 0.015 at most.
-// With a hand-held camera, a round lamp's rim falls on different pixels: 0.05 for one that is 24 pixels wide.
+// Bounds within which the survey's object burns. Change of shape: flames reach 0.05 and more within a second, lit walls
+// and lamps 0.015 at most; filmed by hand, a round lamp 24 pixels wide reaches 0.05, as its rim shifts between pixels.
 constexpr double kMinChange = 0.02;
 constexpr double kMinRoundChange = 0.1;
 constexpr double kMinNarrowing = 0.25;
@@ -92,14 +91,12 @@ class OutlineCapture::Stage {
   Samples take_samples(std::span<const Picture> pictures) const;
   std::vector<double> decide_shape(Samples& samples);
   void look(const Picture& picture);
-  void note(FrameFinding::Kind kind);
+  void note(const FrameFinding& finding);
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
   Error no_flame(const std::string& why) const;
   void describe(CapturedOutline& out) const;
 
   OutlineCaptureOptions options_;
-  int width_ = 0;
-  int height_ = 0;
   std::size_t fed_ = 0;
   std::vector<std::optional<OwnedPicture>> held_;  // empty: a lost frame
   std::size_t held_bytes_ = 0;
@@ -113,7 +110,7 @@ class OutlineCapture::Stage {
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<CandleLook> candle_;
-  std::optional<Picture> format_;  // layout of the first picture, without its planes
+  std::optional<Picture> format_;  // size and layout of the first picture, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
   FilmLook film_;
@@ -124,15 +121,13 @@ class OutlineCapture::Stage {
 
 Result<void> OutlineCapture::Stage::accept(const Picture& picture) {
   if (fed_++ == 0) {
-    width_ = picture.width;
-    height_ = picture.height;
     format_ = picture;
     const Region& region = options_.region;
     if (!region.empty() && !(intersection(region, picture.frame()) == region)) {
       return complaint("the region " + std::to_string(region.x) + "," + std::to_string(region.y) + "," +
                        std::to_string(region.width) + "," + std::to_string(region.height) +
-                       " reaches outside the picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
-                       " pixels; give one inside it as X,Y,W,H");
+                       " reaches outside the picture of " + std::to_string(picture.width) + " x " +
+                       std::to_string(picture.height) + " pixels; give one inside it as X,Y,W,H");
     }
     if (options_.channel && !has_channel(picture, *options_.channel)) {
       return complaint("found grey pictures, expected colour for channel " +
@@ -140,10 +135,10 @@ Result<void> OutlineCapture::Stage::accept(const Picture& picture) {
     }
     return {};
   }
-  if (picture.width != width_ || picture.height != height_) {
+  if (picture.width != format_->width || picture.height != format_->height) {
     return complaint("frame " + std::to_string(fed_ - 1) + " is " + std::to_string(picture.width) + " x " +
-                     std::to_string(picture.height) + " pixels, expected " + std::to_string(width_) + " x " +
-                     std::to_string(height_) + " as the first one");
+                     std::to_string(picture.height) + " pixels, expected " + std::to_string(format_->width) + " x " +
+                     std::to_string(format_->height) + " as the first one");
   }
   return {};
 }
@@ -163,14 +158,15 @@ Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
 }
 
 void OutlineCapture::Stage::lost() {
-  if (survey_) return note(FrameFinding::Kind::kLost);
+  film_.lost();
+  if (survey_) return note({FrameFinding::Kind::kLost});
   held_.emplace_back(std::nullopt);
 }
 
-// Records a frame without an outline.
-void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
-  findings_.frames.push_back({kind, 0, 0, 0});
-  findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
+// Records a frame; its control points are 0 unless they have been appended.
+void OutlineCapture::Stage::note(const FrameFinding& finding) {
+  findings_.frames.push_back(finding);
+  findings_.controls.resize(2 * static_cast<std::size_t>(options_.points) * findings_.size());
 }
 
 // Discards half of the held frames, as they contain no flame yet. From then on glimpses, in which none was found
@@ -179,7 +175,7 @@ void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
   if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
   for (std::size_t k = 0; k < half; ++k) {
-    note(held_[k] ? FrameFinding::Kind::kNothing : FrameFinding::Kind::kLost);
+    note({held_[k] ? FrameFinding::Kind::kNothing : FrameFinding::Kind::kLost});
     if (held_[k]) held_bytes_ -= held_[k]->bytes();
   }
   held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(half));
@@ -218,7 +214,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
     if (held) {
       look(held->picture());
     } else {
-      note(FrameFinding::Kind::kLost);
+      note({FrameFinding::Kind::kLost});
     }
   }
   held_.clear();
@@ -302,9 +298,8 @@ void OutlineCapture::Stage::look(const Picture& picture) {
                                       : film_.another(picture, picture.frame()) ||
                                             (seeker_->elsewhere() && film_.another(picture, seeker_->found().box));
     tracker_->forget();
-    findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }
-  findings_.frames.push_back(finding);
+  note(finding);
 }
 
 // Converts a level of the survey to brightness.
@@ -324,7 +319,7 @@ OutlineSeen OutlineCapture::Stage::seen() const {
   out.found = seeker_->found().box;
   if (findings_.frames.back().kind != FrameFinding::Kind::kTracked) return out;
   const auto controls = std::span(findings_.controls).last(2 * static_cast<std::size_t>(options_.points));
-  for (const CurvePoint p : curve_polyline(tracker_->table(), controls, kShownPoints)) {
+  for (const CurvePoint p : curve_polyline(tracker_->table(), controls, kCurvePoints)) {
     out.polyline.insert(out.polyline.end(), {p.x, p.y});
   }
   return out;
@@ -345,8 +340,8 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;
-  report.width = width_;
-  report.height = height_;
+  report.width = format_->width;
+  report.height = format_->height;
   report.threshold = bright(survey_->level);
   for (int v = 0; v < 256; ++v) {
     report.histogram[static_cast<std::size_t>(std::lround(bright(v)))] += survey_->histogram[v];
@@ -363,8 +358,8 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
     set_numbers_attribute(recording, "candle",
                           std::array{candle_->width, candle_->rgb[0], candle_->rgb[1], candle_->rgb[2]});
   recording.attributes.push_back({"source", options_.source});
-  recording.attributes.push_back({"width", std::to_string(width_)});
-  recording.attributes.push_back({"height", std::to_string(height_)});
+  recording.attributes.push_back({"width", std::to_string(format_->width)});
+  recording.attributes.push_back({"height", std::to_string(format_->height)});
   recording.attributes.push_back({"channel", std::string(channel_name(survey_->channel))});
   recording.attributes.push_back({"threshold", number_text(report.threshold, 6)});
   recording.attributes.push_back({"underside", report.underside ? "1" : "0"});

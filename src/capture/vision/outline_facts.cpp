@@ -13,7 +13,6 @@ namespace {
 constexpr double kMoveShare = 0.35;  // heights: a base that moves farther between frames belongs to another object
 constexpr double kJumpRatio = 2.2;   // … as does a height that changes by this factor
 constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; gaps in films last 0.13 at most
-constexpr int kCurvePoints = 64;
 
 struct OutlineRow {
   std::size_t row = 0;
@@ -38,11 +37,6 @@ OutlineRow shape_of(const Recording& recording, const SplineTable& table, std::s
   return shape;
 }
 
-// Twice the signed area of the triangle a, b, c; positive for a left turn.
-double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 // Width of a shape across its axis, at a share of its height above the base.
 double width_at(const OutlineRow& shape, double share) {
   const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
@@ -64,7 +58,7 @@ double width_at(const OutlineRow& shape, double share) {
 double full_width(const OutlineRow& shape) {
   double low = 1e30, high = -1e30;
   for (const CurvePoint& p : shape.curve) {
-    const double across = turn(shape.base, shape.tip, p) / (shape.height * shape.height);
+    const double across = side_of(shape.base, shape.tip, p) / (shape.height * shape.height);
     low = std::min(low, across);
     high = std::max(high, across);
   }
@@ -99,7 +93,7 @@ Motion motion_of(const std::vector<OutlineRow>& shapes) {
       double squares = 0;
       for (std::size_t i = 1; i + 1 < values.size(); ++i) {
         const double bend = values[i - 1] - 2 * values[i] + values[i + 1];
-        squares += bend * bend / 6;  // for noise alone, its variance
+        squares += bend * bend / 6;  // of independent noise: its variance
       }
       out.noise[k] += squares / static_cast<double>(std::max<std::size_t>(shapes.size(), 3) - 2);
     }
@@ -153,7 +147,7 @@ std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width
 
 bool repeats(const DroppedFrame& one) { return one.reason == "duplicate"; }
 
-// Row after the last outline, where the absence is long enough and the film does not fade out or end in one picture.
+// Row after the last outline; empty if the absence is short, or the film fades out or ends in a repeated frame.
 std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
   const std::size_t dark = report.frames - 1 - last;
   if (!report.dropped.empty() && repeats(report.dropped.back())) return std::nullopt;
@@ -181,7 +175,6 @@ bool gather_facts(const Recording& recording, const SplineTable& table, CaptureR
   facts.width = usual(full_width);
   facts.lean = usual(lean_of);
   gather_motion(shapes, facts);
-  facts.misfit = report.residual / facts.height;
   facts.jumps = jumps_of(shapes, facts.height);
   facts.border = border_of(shapes, report.width, report.height);
   const std::size_t first = shapes.front().row, last = shapes.back().row;

@@ -63,8 +63,8 @@ struct Stands {
 };
 
 Stands find_stands(const FrameFindings& findings) {
-  constexpr double kMinGroups = 20, kOfGroups = 0.6,
-                   kErrors = 4;  // by chance one group in `times`; four standard errors more do not occur by chance
+  // By chance, the first row changes most in one group of `times`; kErrors standard errors more are no chance.
+  constexpr double kMinGroups = 20, kOfGroups = 0.6, kErrors = 4;
   for (Stands found{.times = 8}; found.times > 1; --found.times) {
     for (found.first = 0; found.first < found.times; ++found.first) {
       double groups = 0, such = 0;
@@ -144,8 +144,8 @@ void extend_fades(std::vector<Fate>& fate) {
   }
 }
 
-// Maximum number of consecutive frames to fill: a screen repeats a picture up to four times, slow motion by its factor;
-// motion during lost frames is unknown.
+// Maximum number of consecutive frames to fill: a screen shows a picture up to four times, slow motion `times` times.
+// Of lost frames only one is filled, as the motion during more is unknown.
 std::size_t max_filled(Fate fate, const Stands& stands) {
   if (fate == Fate::kDuplicate) return std::max<std::size_t>(3, stands.times - 1);
   return fate == Fate::kLost ? 1 : 0;

@@ -11,13 +11,16 @@
 
 namespace wisp {
 
+/// Number of points of the polyline by which an outline is measured and shown.
+inline constexpr int kCurvePoints = 64;
+
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;
   float change = 0;        ///< mean absolute difference from the last frame, near the object
   float brightness = 0;    ///< brightness of the object
-  float residual = 0;      ///< RMS, pixels
-  bool elsewhere = false;  ///< kNothing: whether an object of similar brightness and size is elsewhere
+  float residual = 0;      ///< RMS distance of the edge points from the curve, pixels
+  bool elsewhere = false;  ///< kNothing: whether another bright object is in the picture
 };
 
 /// Findings and control points of all frames so far.
@@ -38,8 +41,9 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
 
-/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason is film_reason(), if any;
-/// else the fact with the largest penalty that alone prevents the verdict "flame" or, of a likely flame, "usable".
+/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason why an outline is unusable
+/// is film_reason(), if any; else the fact with the largest penalty that alone prevents the verdict "flame" or, for a
+/// likely flame, "usable".
 void judge_outline(CaptureReport& report);
 
 }  // namespace wisp

@@ -9,22 +9,22 @@
 namespace wisp {
 namespace {
 
-constexpr int kMinMargin = 8;          // pixels around the object's last place
+constexpr int kMinMargin = 8;          // pixels searched around the object's last place
 constexpr double kMarginPace = 1.5;    // … plus this multiple of its recent motion
 constexpr double kPaceMemory = 0.8;    // decay of that motion per frame
-constexpr double kMinAreaShare = 0.1;  // share of its usual area: less is a spark or an ember
-constexpr int kMinArea = 24;           // pixels
+constexpr double kMinAreaShare = 0.1;  // minimum share of its usual area: less is a spark or an ember
+constexpr int kMinArea = 24;           // minimum pixels of a region
 
-constexpr double kJumpShare = 0.03;  // share of its length: a sudden extension suggests merging …
-constexpr int kMinJump = 3;          // … with its stand; minimum in pixels
+constexpr double kJumpShare = 0.03;  // an extension at the base by this share of the object's length suggests …
+constexpr int kMinJump = 3;          // … that it has merged with its stand; minimum extension in pixels
 
-constexpr double kSlack = 0.12;      // share of its length above its former end at which its stand may begin
-constexpr double kFarDeeper = 0.25;  // share of its length: an extension this far below is stand in any case
+constexpr double kSlack = 0.12;      // share of the length above the object's former base at which its stand may begin
+constexpr double kFarDeeper = 0.25;  // share of the length: an extension this far below the base is always stand
 
 constexpr double kAsBright = 0.9;  // minimum relative brightness of a rediscovered object
-constexpr double kAsLarge = 4;     // … and maximum ratio of areas
-constexpr double kAsNear = 0.35;   // … and maximum distance, as a share of its length
-constexpr double kStays = 0.2;     // minimum overlap with the last frame's box, as a share of the smaller one
+constexpr double kAsLarge = 4;     // … its maximum ratio of areas
+constexpr double kAsNear = 0.35;   // … and its maximum distance, as a share of its length
+constexpr double kStays = 0.2;     // minimum overlap with the last frame's box, as a share of the smaller box
 
 // Midpoint of a box's end towards the base.
 PixelPosition foot(const Region& box, BaseSide side) {
@@ -170,7 +170,7 @@ bool OutlineSeeker::part_from_stand() {
   return true;
 }
 
-// Mean difference from the frame before over the object's old and new place, in every second row.
+// Mean difference from the frame before, over the overlap of the object's old and new neighbourhood, in even rows.
 void OutlineSeeker::measure_change() {
   const Region place = intersection(grown(found_.box, kMinMargin), window_.place);
   const Region both = intersection(place, before_place_);
@@ -248,7 +248,7 @@ bool OutlineSeeker::seek(const Picture& picture) {
 }
 
 bool OutlineSeeker::edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const {
-  return make_edge_cloud({window_.image, window_.place, area_, level_}, boundary_, options, cloud);
+  return make_edge_cloud({window_.image, window_.place, level_}, boundary_, options, cloud);
 }
 
 }  // namespace wisp

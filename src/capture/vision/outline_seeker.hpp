@@ -56,7 +56,7 @@ class OutlineSeeker {
   bool dark_;
   Region area_;
   Region home_;
-  std::vector<Region> others_;  // other flames, at the time when this one was at usual_
+  std::vector<Region> others_;  // usual places of the other flames in the survey
   Region usual_;                // usual place of the object in the survey
   bool stands_;                 // whether it has mostly merged with its stand
   bool following_ = false;

@@ -92,9 +92,8 @@ void OutlineTracker::predict(const EdgeCloud& cloud) {
   }
   widen(cloud.height);
   factor_ = estimate_.covariance;
-  const bool definite = cholesky(factor_, n);
+  [[maybe_unused]] const bool definite = cholesky(factor_, n);
   assert(definite);
-  static_cast<void>(definite);
   cholesky_inverse(factor_, n, prior_information_);
   for (int i = 0; i < n; ++i) {
     double sum = 0;
@@ -171,7 +170,7 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
     double nx = edge.normal_x, ny = edge.normal_y;
     if (!along_own_normal) {
       const CurvePoint& slope = slopes_[k];
-      const double size = std::max(std::sqrt(slope.x * slope.x + slope.y * slope.y), 1e-9);
+      const double size = std::max(length(slope.x, slope.y), 1e-9);
       nx = slope.y / size;
       ny = -slope.x / size;
     }
@@ -202,9 +201,8 @@ void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
 void OutlineTracker::solve() {
   const int n = static_cast<int>(vector_.size());
   factor_ = information_;
-  const bool definite = cholesky(factor_, n);
+  [[maybe_unused]] const bool definite = cholesky(factor_, n);
   assert(definite);
-  static_cast<void>(definite);
   estimate_.mean = vector_;
   cholesky_solve(factor_, n, estimate_.mean);
 }
@@ -229,8 +227,7 @@ void OutlineTracker::measure_residuals(const EdgeCloud& cloud) {
   for (std::size_t k = 0; k < residuals_.size(); ++k) {
     const auto [at, slope] = pieces_.at(places_[k]);
     slopes_[k] = slope;
-    const double dx = cloud.points[k].x - at.x, dy = cloud.points[k].y - at.y;
-    residuals_[k] = std::sqrt(dx * dx + dy * dy);
+    residuals_[k] = length(cloud.points[k].x - at.x, cloud.points[k].y - at.y);
   }
 }
 

@@ -46,7 +46,6 @@ class OutlineTracker {
   /// Precondition: valid_knots(knots).
   explicit OutlineTracker(std::span<const double> knots, const TrackerOptions& options = {});
 
-  int points() const { return table_.points(); }
   const SplineTable& table() const { return table_; }
 
   /// Takes in one frame's edge points. Returns the posterior, valid until the next call.

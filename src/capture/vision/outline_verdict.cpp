@@ -64,7 +64,7 @@ constexpr std::array<FactRow, 19> kFacts{{
 static_assert(kVerdictCurves.size() == kFacts.size());
 constexpr std::size_t kLost = 11, kRepeated = 12;
 
-// Share of rows without an outline, among rows in which the flame burns and that have their own frame.
+// Share of rows that have a frame but no outline, among rows in which the flame burns.
 double missing_share(R r) {
   const double lost = r.facts.lost * static_cast<double>(r.frames);
   const double absent = static_cast<double>(r.facts.absent - r.facts.blown) - lost;
@@ -143,8 +143,8 @@ double against(const std::array<double, kVerdictKnots>& knots, const std::array<
   return penalties.back();
 }
 
-// The heaviest fact without which the verdict would be yes; if there is none, the heaviest. For an overexposed object
-// the shape is no evidence for or against a flame.
+// Sentence of the heaviest fact without which the verdict would be yes; if there is none, of the heaviest. If that is
+// the shape of an object that burns, no flame is denied: an overexposed flame has any shape.
 std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact::*weight, double odds, R r) {
   const auto heavier = [&](const WeighedFact& a, const WeighedFact& b) {
     return std::pair(odds + a.*weight > 0, a.*weight) < std::pair(odds + b.*weight > 0, b.*weight);

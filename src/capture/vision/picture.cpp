@@ -10,7 +10,7 @@ namespace wisp {
 namespace {
 
 // Conversion from luma to a colour in 9.6 fixed point, which fits 16-bit lanes: value = (scale (Y − black) + colour) /
-// 64 with colour = from_cb (Cb − 128) + from_cr (Cr − 128). Error: at most one grey level.
+// 64 with colour = from_cb (Cb − 128) + from_cr (Cr − 128). Error: at most 1.3 grey levels at full range, else 2.5.
 struct Conversion {
   std::int16_t black = 0;
   std::int16_t scale = kOne;
@@ -173,7 +173,7 @@ void extract_row(const Picture& picture, PixelChannel channel, const Conversion&
   copy_row(picture.planes[static_cast<std::size_t>(channel) - 1], region.x, y, region.width, out);
 }
 
-constexpr int kRowsAhead = 6;
+constexpr int kRowsAhead = 6;  // rows between prefetching and use
 
 // Always inlined: GCC treats a function that only prefetches as without effect, and drops its calls.
 [[gnu::always_inline]] inline void prefetch_row([[maybe_unused]] const PicturePlane& plane, [[maybe_unused]] int x,

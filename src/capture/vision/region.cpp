@@ -34,7 +34,7 @@ constexpr double kWiderBelow = 1.6;    // minimum ratio of a shoulder's width to
 constexpr int kMinStep = 3;            // … and minimum difference in pixels
 constexpr double kWithin = 0.05;       // share of the length above within which it widens
 constexpr double kSlenderness = 0.7;   // minimum length / width of the part above, since a blunt tip widens too
-constexpr std::size_t kMinLength = 4;  // rows
+constexpr std::size_t kMinLength = 4;  // minimum rows of the part above
 
 bool along_rows(BaseSide side) { return side == BaseSide::kBottom || side == BaseSide::kTop; }
 
@@ -140,8 +140,7 @@ void follow_boundary(const ImageView& image, int level, PixelPosition seed, std:
     boundary.push_back(at);
     if (step < 0) return;  // a single pixel
     at = {at.x + kDx[step], at.y + kDy[step]};
-    from = (step + 5) & 7;  // the last dark pixel examined, relative to the new position
-    if ((step & 1) == 0) from = (step + 6) & 7;
+    from = (step + ((step & 1) == 0 ? 6 : 5)) & 7;  // the last dark pixel examined, relative to the new position
   }
 }
 

@@ -15,6 +15,11 @@ struct CurvePoint {
   double y = 0;
 };
 
+/// Side of the line from a to b on which a point lies: twice the signed area of the triangle, 0 on the line.
+inline double side_of(const CurvePoint& a, const CurvePoint& b, const CurvePoint& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
 /// Number of equal cells of [0, 1]; a table stores the span in which each begins.
 inline constexpr int kSplineCells = 64;
 
@@ -91,7 +96,7 @@ class SplineTable {
 /// Precondition: count >= 2.
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count);
 
-/// Whether an open polyline intersects itself (adjacent sides do not count). No outline does.
+/// Whether an open polyline intersects itself (adjacent sides do not count); the outline of an object never does.
 bool crosses_itself(std::span<const CurvePoint> polyline);
 
 }  // namespace wisp

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -11,18 +10,18 @@
 namespace wisp {
 namespace {
 
-constexpr int kGrid = 320;               // width and height of the coarse grid, points: enough to separate regions
-constexpr int kFineGrid = 160;           // … and of the finer grid around a flame
-constexpr int kLevelStep = 18;           // step between the levels tried, of 255
-constexpr int kHighestLevel = 225;       // above it cameras clip, and a level cuts through the flame
-constexpr double kLitShare = 0.7;        // a picture counts if its maximum reaches this share of the upper quartile's
-constexpr double kOtherScene = 64;       // … and its mean difference from the usual picture is less than this
-constexpr double kOneBrightness = 16;    // of 255, above the darkest tenth: a smaller contrast is noise
-constexpr double kAsLikely = 0.35;       // minimum likelihood of another flame relative to the first
-constexpr double kAsBrightAsBest = 0.9;  // … its minimum brightness relative to the first
-constexpr double kMoves = 0.05;          // … and its minimum change of shape, or half of the first one's if less
-constexpr double kAsGood = 0.5;          // minimum relative likelihood of the same object at another level
-constexpr double kHalfWay = 0.58;
+constexpr int kGrid = 320;                // width and height of the coarse grid, points: enough to separate regions
+constexpr int kFineGrid = 160;            // … and of the finer grid around a flame
+constexpr int kLevelStep = 18;            // step between the levels tried, of 255
+constexpr int kHighestLevel = 225;        // above it cameras clip, and a level cuts through the flame
+constexpr double kLitShare = 0.7;         // a picture counts if its maximum reaches this share of the upper quartile
+constexpr double kOtherScene = 64;        // … and it differs by at most so many levels from the median picture, mean
+constexpr double kOneBrightness = 16;     // of 255, above the darkest tenth: a smaller contrast is noise
+constexpr double kAsLikely = 0.35;        // minimum score of another flame relative to the first
+constexpr double kAsBrightAsBest = 0.9;   // … its minimum brightness relative to the first
+constexpr double kMoves = 0.05;           // … and its minimum change of shape, or half of the first flame's if less
+constexpr double kAsGood = 0.5;           // minimum relative likelihood of the same object at another level
+constexpr double kHalfWay = 0.58;         // position of the level between surroundings (0) and object (1)
 constexpr double kNearlyAsLikely = 0.75;  // minimum relative likelihood of a view that shows more of the flame
 constexpr double kNearlyAsBright = 0.95;  // … its minimum relative brightness
 constexpr double kSameHome = 0.6;         // … and its minimum overlap with the flame's place
@@ -60,10 +59,10 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
   return grids;
 }
 
-// The luma that only the brightest points exceed.
+// The level that only the brightest points reach.
 double brightest_of(const ImageView& luma) {
   Histogram histogram{};
-  add_to_histogram(histogram, luma, 1);
+  add_to_histogram(histogram, luma);
   const double points = static_cast<double>(luma.width) * luma.height;
   const double enough = std::max(4.0, kBrightest * points);
   double count = 0;
@@ -72,7 +71,7 @@ double brightest_of(const ImageView& luma) {
   return level;
 }
 
-// Mean absolute difference of each picture from the usual one; large for titles and other shots.
+// Mean absolute difference of each picture from the median picture; large for titles and other shots.
 std::vector<double> distances_from_usual(const PictureGrid& luma) {
   std::vector<double> distances(luma.pictures.size());
   std::vector<std::uint8_t> values(luma.pictures.size());
@@ -238,8 +237,8 @@ std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& h
 }
 
 // The object at its level, in the channel that shows the largest area of it: another channel may show only the bright
-// core of a flame, or feet divided by the wick. A glow or wax is larger too, but as_good() excludes its softer rim.
-// The search is repeated from each larger view, as a view of the core overlaps little with the whole flame.
+// core of a flame, or a foot split by the wick. Glow or wax is larger too, but as_good() excludes its softer rim. The
+// search is repeated from each larger view, as a view of the core overlaps little with the whole flame.
 Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
                 const Region& area, bool dark) {
   Candidate best = settled(thing, candidates, pictures, area, dark);
@@ -267,8 +266,8 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
-// Share of an object that is saturated: in every channel as bright as that channel's maximum within the object. Tone
-// curves may saturate below white.
+// Share of an object that is saturated: in every channel about as bright as that channel's upper tenth within the
+// object. Tone curves may saturate below white.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
   constexpr int kCoding = 5;  // levels: coding errors in a uniform area
   const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, dark);
@@ -295,7 +294,7 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   Survey out{thing};
   out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid& grid = *grids.of(thing.channel);
-  for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
+  for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k));
   return out;
 }
 
@@ -319,7 +318,7 @@ Error nothing_found(bool dark) {
 
 // For an object that is mostly wider than high: the end that moves less, where it is held.
 BaseSide steady_end(const Survey& survey) {
-  constexpr double kLying = 1.5;
+  constexpr double kLying = 1.5;  // minimum width / height
   std::vector<double> left, right;
   double width = 0, height = 0;
   for (const Region& box : survey.seen) {
@@ -334,14 +333,12 @@ BaseSide steady_end(const Survey& survey) {
 
 }  // namespace
 
-void add_to_histogram(Histogram& histogram, const ImageView& image, int step) {
-  assert(step >= 1);
-  // Neighbouring pixels mostly increment the same count, and each would wait for the last: four histograms alternate.
+void add_to_histogram(Histogram& histogram, const ImageView& image) {
+  // Neighbouring pixels are mostly equal, and each increment would wait for the last: four histograms alternate.
   std::array<std::array<std::uint32_t, 256>, 4> counts{};
-  for (int y = step / 2; y < image.height; y += step) {
+  for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.row(y);
-    int turn = 0;
-    for (int x = step / 2; x < image.width; x += step) ++counts[turn++ & 3][row[x]];
+    for (int x = 0; x < image.width; ++x) ++counts[x & 3][row[x]];
   }
   for (const auto& count : counts) {
     for (int v = 0; v < 256; ++v) histogram[v] += count[v];

@@ -2,8 +2,8 @@
 // Survey of a clip: identifies the object, and the channel and level at which it is tracked.
 //
 // Wax, the wick's holder and reflections are bright too. So bright regions at many levels of every channel are rated
-// over a few pictures by the properties of a flame, first in the whole picture on a coarse grid, then around each flame
-// on a finer one. Region, channel and level are chosen together. Candidates are those present in most pictures.
+// over a few pictures by the properties of a flame, first in the whole picture on a coarse grid, then around the chosen
+// one on a finer grid. Region, channel and level are chosen together. Candidates are regions present in most pictures.
 //
 // Evidence for a flame: it emits light, so it is among the brightest regions. Its edges deform, whereas lit wax, glass
 // and tables keep their shape and only change in brightness, and a moving camera preserves shapes. It stands on a place
@@ -50,7 +50,7 @@ PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel,
 struct Evidence {
   bool flame = true;  ///< emits light, tapers and stands; false: only moves
   BaseSide base = BaseSide::kBottom;
-  std::span<const double> brightest;  ///< luma of the brightest region in each picture; empty: ignored
+  std::span<const double> brightest;  ///< luma of the brightest points of each picture; empty: ignored
 };
 
 /// A bright region present in most pictures.
@@ -58,15 +58,15 @@ struct Candidate {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;
   std::vector<Region> seen;  ///< box in each picture with the region, pixels, without its stand
-  Region home;               ///< union of all of them
+  Region home;               ///< union of `seen`
   bool stands = false;       ///< whether it has merged with its stand
   double presence = 0;       ///< share of the pictures with the region
   double area = 0;           ///< median, pixels
-  double light = 1;          ///< its luma divided by the brightest region's
+  double light = 1;          ///< its luma divided by that of the picture's brightest points
   double change = 0;         ///< 1 − overlap of two of its aligned shapes: 0 never deforms
   double taper = 0;          ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
   double solidity = 0;       ///< its area divided by its convex hull's
-  double steadiness = 0;     ///< reduction of motion from tip to base: 0 only the base moves, 1 only the tip
+  double steadiness = 0;     ///< tip's motion / (tip's + base's motion): 0 only the base moves, 1 only the tip
   double contrast = 255;     ///< brightness minus that of its surroundings, levels, once its level is final
   double softness = 0;       ///< share of its area that changes with the level
   double likeness = 0;       ///< combined evidence from still pictures: larger is likelier
@@ -76,8 +76,8 @@ struct Candidate {
 std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGrid& luma, int level,
                                        const Evidence& evidence);
 
-/// Sets `softness` from the candidates of the next lower level (may be null) and the next higher level, then likeness
-/// and score.
+/// Sets `softness` from the candidates of the next lower level (may be null) and of the next higher level, then
+/// `likeness` and `score`.
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence);
 
@@ -89,10 +89,8 @@ Region usual_place(std::span<const Region> seen);
 /// Intersection over union of two rectangles.
 double shared_share(const Region& a, const Region& b);
 
-/// Counts every `step`-th pixel of every `step`-th row.
-///
-/// Precondition: step >= 1.
-void add_to_histogram(Histogram& histogram, const ImageView& image, int step);
+/// Adds an image's pixels to a histogram.
+void add_to_histogram(Histogram& histogram, const ImageView& image);
 
 struct SurveyOptions {
   std::optional<PixelChannel> channel;  ///< channel to use; empty: all are tried
@@ -103,14 +101,14 @@ struct SurveyOptions {
 
 /// The object, at the level above which pixels (inverted for dark objects) belong to it, and the scene.
 struct Survey : Candidate {
-  Histogram histogram{};       ///< of the stored channel (inverted for dark objects), over the pictures that count
+  Histogram histogram{};       ///< of the stored channel (inverted for dark objects), over the pictures surveyed
   double clipped = 0;          ///< share of the object that is saturated in every channel
   int flames = 0;              ///< number of flames; 0 where any object was requested
   std::vector<Region> others;  ///< median boxes of the other flames
 };
 
 /// Surveys pictures of one size. Where there are fewer than `options.flame` flames, the largest is described. Errors:
-/// no contrast anywhere.
+/// no contrast anywhere, no region in most pictures.
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);

@@ -28,8 +28,8 @@ Plane flame(int k) {
   return plane;
 }
 
-LiveCapture live_flame(int frames = kFrames, bool pictures = false) {
-  auto live = LiveCapture::create({.name = "camera", .rate_hz = kRate, .pictures = pictures});
+LiveCapture live_flame(int frames = kFrames, bool pictures = false, const ClipCapture& options = {}) {
+  auto live = LiveCapture::create({.name = "camera", .rate_hz = kRate, .pictures = pictures}, options);
   EXPECT_TRUE(live);
   for (int k = 0; k < frames; ++k) {
     const Plane plane = flame(k);
@@ -84,6 +84,17 @@ TEST(LiveCapture, CountsSoundFromTheFirstFrame) {
     ASSERT_TRUE(captured) << captured.error().message;
     EXPECT_EQ(missing_wind(captured->recording), kFrames - covered) << begin;
   }
+}
+
+TEST(LiveCapture, CountsMissingWindInTheRangeOfFramesOnly) {
+  ClipCapture options;
+  options.frames = FrameRange{31, 30 + kFrames};
+  LiveCapture live = live_flame(kFrames, false, options);
+  ASSERT_TRUE(live.hear(kSound, 1, rushing(3)));  // begins with frame 31
+  const auto captured = live.finish();
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_EQ(missing_wind(captured->recording), 0U);
+  EXPECT_THAT(captured->report.warnings, testing::Not(testing::Contains(HasSubstr("missing"))));
 }
 
 TEST(LiveCapture, LeavesTheWindMissingInAHoleOfTheSound) {

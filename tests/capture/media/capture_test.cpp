@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 #include "capture/support/clip_files.hpp"
 
@@ -52,6 +54,20 @@ TEST_F(Capture, AnotherClipsCurveOverridesTheNumberOfPoints) {
   EXPECT_EQ(curve->knots.size(), 16u);
   const Captured other = captured({.rate_hz = 50, .curve = curve});
   EXPECT_EQ(curve_of(other.recording)->knots, curve->knots);
+}
+
+TEST_F(Capture, ARangeMayBeginWithALostFrame) {
+  std::filesystem::remove(folder_ / "110.pgm");
+  const Captured clip = captured({.frames = FrameRange{11, 40}, .rate_hz = 50});
+  ASSERT_EQ(clip.recording.rows(), 30u);
+  EXPECT_TRUE(std::isnan(clip.recording.channels.front().samples.front()));
+}
+
+TEST_F(Capture, BrightnessOfARangeHasTheRowsOfTheRange) {
+  const auto light = capture_brightness(folder_.path(), {.frames = FrameRange{11, 40}, .rate_hz = 50});
+  ASSERT_TRUE(light) << light.error().message;
+  ASSERT_EQ(light->rows(), 30u);
+  EXPECT_FALSE(std::isnan(light->channels.front().samples.front()));
 }
 
 TEST_F(Capture, OptionsOutOfRangeAreRefused) {

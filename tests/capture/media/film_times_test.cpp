@@ -105,6 +105,16 @@ TEST_F(FilmTimes, AHoleInTheSoundKeepsItsTime) {
   EXPECT_THAT(clip.report.warnings, Contains(HasSubstr("in holes; the wind there is missing")));
 }
 
+TEST_F(FilmTimes, ARangeMayEndWithALostFrame) {
+  film("flame.y4m");
+  made("-i flame.y4m -vf \"select='not(eq(n,59))'\" -vsync passthrough -pix_fmt yuv420p gap.mp4");
+  FlameCapture options;
+  options.frames = FrameRange{1, 60};
+  const auto clip = capture(folder_ / "gap.mp4", options);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->recording.rows(), 59u);
+}
+
 TEST_F(FilmTimes, AFilmMostlyWithoutItsSoundIsNotUsable) {
   film("flame.y4m");
   sound("puff.wav", 0.3, 0.6, 1);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string_view>
 
 #include "capture/support/clip_files.hpp"
 #include "capture/support/made_clip.hpp"
@@ -47,6 +48,17 @@ TEST(SecondLook, ATurnedFilmSaysHowToTurnIt) {
   EXPECT_THAT(reason_of(60, support::noisy_flame), HasSubstr("usable: "));
   EXPECT_THAT(reason_of(60, upside_down), HasSubstr("is upside down; rotate it by 180"));
   EXPECT_THAT(reason_of(60, turned), HasSubstr("lies on its side; rotate it by 90 degrees counter-clockwise"));
+}
+
+TEST(SecondLook, CanBeStopped) {
+  const ScratchFolder folder("second_look");
+  for (int k = 0; k < 60; ++k) support::write_pgm(folder / (std::to_string(1000 + k) + ".pgm"), upside_down(k));
+  FlameCapture options;
+  options.rate_hz = 30;
+  int frames = 0;
+  const auto captured = capture(folder.path(), options, [&](std::string_view, double) { return ++frames <= 60; });
+  ASSERT_FALSE(captured);
+  EXPECT_EQ(captured.error().message, kStopped);
 }
 
 TEST(SecondLook, AFilmInWhichNothingCanBeToldSaysWhy) {

@@ -154,6 +154,18 @@ TEST(ImageFolder, OfAnotherSizeIsNamed) {
   EXPECT_THAT(message, HasSubstr("16 x 12"));
 }
 
+TEST(ImageFolder, StatesTheSizeOfTurnedPictures) {
+  ScratchFolder folder("sideways");
+  write_pgm(folder / "1.pgm", Plane(16, 12));
+  auto reader = VideoReader::open(folder.path(), {.rate_hz = 30, .frames = std::nullopt, .turn = 1});
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto frame = reader->next();
+  ASSERT_TRUE(frame && frame->has_value());
+  EXPECT_EQ(reader->info().width, 12);
+  EXPECT_EQ(reader->info().height, 16);
+  EXPECT_EQ((*frame)->picture.width, 12);
+}
+
 TEST(ImageFolder, NeedsARateAndImages) {
   ScratchFolder folder("empty");
   EXPECT_THAT(error_of(folder.path()), HasSubstr("--rate"));

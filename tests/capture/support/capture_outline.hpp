@@ -23,7 +23,7 @@ inline Result<CapturedOutline> capture_outline(const std::filesystem::path& path
   outline.rate_hz = reader->info().rate_hz;
   outline.source = path.string();
   OutlineCapture capture(std::move(outline));
-  if (auto read = read_into(*reader, capture, progress); !read) return read.error();
+  if (auto read = read_into(*reader, capture, options.video.frames, progress); !read) return read.error();
   auto captured = capture.finish();
   if (!captured) return captured;
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));

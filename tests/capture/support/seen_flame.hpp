@@ -18,7 +18,7 @@ inline EdgeCloud cloud_of(const Plane& plane, int level, const EdgeCloudOptions&
   if (regions.empty()) return cloud;
   follow_boundary(plane.view(), level, {regions[0].seed_x, regions[0].seed_y}, boundary);
   const Region whole{0, 0, plane.width, plane.height};
-  if (!make_edge_cloud({plane.view(), whole, whole, level}, boundary, options, cloud)) cloud.points.clear();
+  if (!make_edge_cloud({plane.view(), whole, level}, boundary, options, cloud)) cloud.points.clear();
   return cloud;
 }
 

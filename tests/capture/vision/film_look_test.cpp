@@ -68,6 +68,15 @@ TEST(FilmLook, AtACutPicturesAreUnlikeAndWhereAFlameIsLitTheyAreNot) {
   EXPECT_TRUE(lit.facts().cuts.empty());
 }
 
+TEST(FilmLook, LostFramesCountInTheRowsOfCuts) {
+  FilmLook film;
+  for (int k = 0; k < 50; ++k) {
+    film.look(grey_picture(scene(k < 25 ? 60 : 220).view()));
+    if (k == 10) film.lost();
+  }
+  EXPECT_EQ(film.facts().cuts, std::vector<std::size_t>{26});
+}
+
 TEST(FilmLook, AMovingCameraIsToldFromAMovingThing) {
   FilmLook moved, still;
   for (int k = 0; k < 60; ++k) {

@@ -1,7 +1,7 @@
 #pragma once
 // Converts frames and sound from any source (file, camera, browser) to a recording: of an outline and wind, or of a
-// light object that is dropped before a plain wall. Falls are detected against the wall, which is the median of the
-// whole film, so small pictures of all frames are kept until its end.
+// light object that is dropped before a plain wall. Falls are detected against the wall, which is a median over the
+// whole film, so small pictures of all frames are kept until the film's end.
 
 #include <cstddef>
 #include <cstdint>
@@ -59,7 +59,7 @@ struct ClipWind {
   std::string note;               ///< one clause for people: what was heard, or why nothing was
 };
 
-/// Parametrisation of a clip's outlines, so that another clip's can use the same.
+/// Parametrisation of a clip's outlines, which another clip's outlines can share.
 struct SharedCurve {
   std::vector<double> knots{};      ///< the full knot vector
   std::optional<bool> underside{};  ///< whether the outline includes the underside; none: unknown
@@ -79,7 +79,7 @@ struct ClipCapture {
   bool dark = false;                       ///< the object is dark on a light background
   int flame = 0;                           ///< size rank of the flame to capture, 1 the largest; 0: any moving object
   Region region{};                         ///< search region, pixels; empty: the whole picture
-  std::optional<FrameRange> frames{};      ///< 1-based and inclusive; none: all. Sound is used from its beginning
+  std::optional<FrameRange> frames{};      ///< frames to capture; none: all. The sound before them is heard too
   double rate_hz = 0;                      ///< frames per second: needed for a folder of images, overrides a video's
   WindMeasure wind = WindMeasure::kSpeed;  ///< wind measure that is derived from the sound
   std::optional<SharedCurve> curve{};      ///< curve of another clip; overrides `points`
@@ -90,13 +90,14 @@ struct FlameCapture : ClipCapture {
   FlameCapture() { flame = 1; }
 };
 
-/// A recording and a report on its capture.
+/// A recording and a report on its capture; of falls with the channels of FallCapture::finish().
 struct Captured {
-  Recording recording;  ///< outputs p0.x, p0.y, …, motion base.x, base.y, and, where the clip has sound, an input named
-                        ///< by the wind's measure; one row per frame, missing rows empty
-  Report
-      report;  ///< whether the outline can be learned from; flames, out_at, frames, tracked, duplicates, filled,
-               ///< dropped, rate_hz, points, threshold, channel, wind {…}, and the series `brightness`: the histogram
+  /// Outputs p0.x, p0.y, …, motion base.x, base.y, and, where the clip has sound, an input named by the wind's measure;
+  /// one row per frame, missing rows empty.
+  Recording recording;
+  /// Verdict whether the outline can be learned from; sections Frames, Outline (with the series `brightness`, the
+  /// histogram), Facts and Wind.
+  Report report;
 };
 
 /// Name, rate and kind of a clip's source.
@@ -112,7 +113,7 @@ struct ClipTimes {
   int shortened = 0;                 ///< number of gaps that were shortened
 };
 
-/// Captures a clip whose frames and sound are fed incrementally, in bounded memory.
+/// Captures a clip whose frames and sound are fed incrementally; only outlines and wind are kept.
 class LiveCapture {
  public:
   /// Errors: points out of range, an invalid rate.
@@ -148,7 +149,7 @@ class LiveCapture {
 struct FallOptions {
   double height_metres = 0;            ///< height of wall that the picture shows, 0.01 to 100; 0: unknown, taken as 1
   Region region{};                     ///< search region, pixels; empty: the whole picture
-  std::optional<FrameRange> frames{};  ///< frames of a file: 1-based and inclusive; none: all
+  std::optional<FrameRange> frames{};  ///< frames of a file; none: all
   double rate_hz = 0;                  ///< frame rate of a file: needed for a folder of images, overrides a video's
                                        ///< own: slow motion needs the rate of filming
   std::size_t max_bytes = 384u << 20;  ///< bound of the stored small pictures, one byte per pixel: about 7000 frames of

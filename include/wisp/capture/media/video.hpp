@@ -34,7 +34,7 @@ struct VideoInfo {
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< the clip has a sound track (it may be silent)
   double begin = 0;         ///< time of the first frame read, seconds after the track's first
-  double speed = 1;         ///< rate_hz over the file's own rate, by which its sound is faster too
+  double speed = 1;         ///< rate_hz divided by the file's own rate; its sound is played faster by this factor
 };
 
 /// One decoded frame; its picture is valid until the reader's next call.
@@ -68,8 +68,9 @@ class VideoReader {
   const VideoInfo& info() const;
 
   /// Returns the next frame, or nothing at the end.
-  /// Errors: an image that cannot be decoded or whose size differs from the first one's (both named). A broken frame
-  /// inside a video is skipped and reported by warnings().
+  /// Errors: an image that cannot be decoded or whose size differs from the first one's (both named), a pixel format
+  /// that FFmpeg cannot convert, a range that begins after a video's end. A broken frame inside a video is skipped and
+  /// reported by warnings().
   Result<std::optional<VideoFrame>> next();
 
   /// Returns up to `count` pictures spread over the clip's whole length that are cheap to decode (a video's key

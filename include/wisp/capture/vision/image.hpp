@@ -61,7 +61,7 @@ std::string_view channel_name(PixelChannel channel);
 /// Returns the channel of that name, or nothing.
 std::optional<PixelChannel> channel_from_name(std::string_view name);
 
-/// The side of a picture on which an outline is open and clamped.
+/// Side of an object on which it is held, so that its outline is open there.
 enum class BaseSide { kBottom, kLeft, kTop, kRight };
 
 /// Number of pixels at each brightness level.

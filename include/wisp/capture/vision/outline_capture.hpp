@@ -1,5 +1,5 @@
 #pragma once
-// Captures an outline as a recording, one frame at a time and in bounded memory.
+// Captures an outline as a recording, one frame at a time.
 //
 // The first frames are buffered until channel, level, position and knots are chosen; from then on each frame is
 // processed at once, in the neighbourhood of the object, and released.
@@ -24,11 +24,11 @@ struct OutlineCaptureOptions {
   int flame = 1;                        ///< size rank of the flame to capture, 1 the largest; 0: any moving object
   Region region;                        ///< search region, pixels; empty: the whole picture
   std::vector<double> knots;            ///< full knot vector to use, of a model or an earlier capture; empty: estimated
-  std::optional<bool> underside;        ///< include the underside, as with those knots; none: where it fits better
+  std::optional<bool> underside;        ///< whether the curve includes the underside; none: where it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
   std::string source;                   ///< name of the frames' source, for messages and the recording
-  std::size_t held_bytes = 48u << 20;   ///< bytes of frames buffered for the first decisions; at least 8 frames are
-  int held_frames = 40;                 ///< number of frames buffered for them, 8 to 200
+  std::size_t held_bytes = 48u << 20;   ///< bytes of buffered frames (8 or more) at which the first decisions are made
+  int held_frames = 40;                 ///< … and number of buffered frames at which they are made, 8 to 200
 };
 
 /// A frame without an outline, and the reason.
@@ -43,7 +43,7 @@ struct FilmFacts {
   double brightest = 255;         ///< brightness of the brightest point of all pictures, of 255 levels
   double flat = 0;                ///< share of a picture that is saturated, median
   double camera = 0;              ///< displacement of the whole picture per frame, share of its size, mean
-  std::vector<std::size_t> cuts;  ///< indices of the pictures that begin another scene, 0-based, ascending
+  std::vector<std::size_t> cuts;  ///< rows that begin another scene, 0-based, ascending; lost frames are counted
 };
 
 /// Features that distinguish the outline of a flame from that of another object. Shares are of rows with an outline.
@@ -52,26 +52,25 @@ struct OutlineFacts {
   std::size_t absent = 0;          ///< number of these rows without an outline, repeated frames not counted
   std::size_t blown = 0;           ///< number of absent rows in which the flame was blown out: see excuse_absence()
   std::size_t seen_from = 0;       ///< index of the first row with an outline
-  std::size_t still = 0;           ///< number of rows before it that show the object motionless
-  std::size_t other_before = 0;    ///< number of rows before it, if most show another bright object elsewhere; else 0
+  std::size_t still = 0;           ///< number of rows before `seen_from` in which the object stands motionless
+  std::size_t other_before = 0;    ///< number of rows before `seen_from`, if most show another bright object; else 0
   std::size_t other_after = 0;     ///< number of rows after the last outline, if most show such an object; else 0
-  bool fades_out = false;          ///< the object dims before the last outline, as in a fade to black
+  bool fades_out = false;          ///< the object dims before it disappears, as in a fade to black
   double lost = 0;                 ///< share of the clip's rows without a frame, filled or not
   double repeated = 0;             ///< share of the clip's rows whose frame repeats the previous one
-  std::size_t frozen = 0;          ///< number of these rows in stretches in which the film stands still
+  std::size_t frozen = 0;          ///< number of repeated rows in stretches in which the film stands still
   double jumps = 0;                ///< share of steps in which base or height change more than a flame's can
   std::array<double, 4> border{};  ///< share of rows that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< root-mean-square motion of the shape relative to its base, over median height
-  double edge_noise = 0;           ///< random displacement of the film's stillest edges, pixels
+  double edge_noise = 0;           ///< random displacement of the outline's stillest points, standard deviation, pixels
   double wander = 0;               ///< motion of the base over motion of the shape relative to it
-  double steadiness = 0;           ///< how much less its base moves than its tip, in the survey: 1: only the tip moves
-  int stands = 1;                  ///< number of times that every frame occurs in the clip
-  double misfit = 0;               ///< mean distance of edge points from the curve, over median height
+  double steadiness = 0;           ///< tip's motion / (tip's + base's motion), in the survey; 1: only the tip moves
+  int stands = 1;                  ///< number of consecutive rows that show each frame of the film
   double taper = 0;                ///< median reduction of the width from the middle to near the tip
   double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
-  double width = 0;                ///< median width across the axis, over height
+  double width = 0;                ///< median of the maximum width across the axis, over height
   bool burns = true;               ///< the survey found a lit object that moves; false: none was found until the end
-  double light = 0;                ///< luma over the largest possible one
+  double light = 0;                ///< luma of the object divided by that of the picture's brightest points
   double contrast = 255;           ///< brightness of the object minus that of its surroundings, levels of 255
   double clipped = 0;              ///< share of the object that is saturated in every channel
   double height = 0;               ///< median height, pixels
@@ -96,10 +95,10 @@ struct CaptureReport {
   bool knots_placed = false;          ///< the knots are not uniform
   std::vector<double> knots;          ///< the full knot vector
   bool underside = false;             ///< the outline includes the underside (attribute `underside`)
-  int flames = 0;                     ///< number of flames; 0 if the object is no flame
+  int flames = 0;                     ///< number of flames; 0 where any moving or a dark object was requested
   std::optional<std::size_t> out_at;  ///< row from which on the flame stays extinguished
   OutlineFacts facts;                 ///< features from which the verdict is derived
-  double likely_flame = 1;            ///< probability that a person would call the object a flame
+  double likely_flame = 1;            ///< probability that a person would call the object a flame; 1 where flames is 0
   double likely_right = 0;            ///< probability that its outline is correct and fit for learning
   bool usable = false;                ///< whether the outline can be learned from
   std::string reason;                 ///< reason of the verdict, and if unusable what to film instead: one sentence
@@ -132,11 +131,11 @@ struct OutlineSeen {
   std::size_t frames = 0;        ///< number of rows so far, lost frames included
   bool decided = false;          ///< channel, level and position are chosen; until then all fields below are empty
   std::vector<double> polyline;  ///< x and y of 64 outline points in the last frame, pixels; empty: no outline
-  Region found;                  ///< bounding box in the last frame with an outline, pixels
+  Region found;                  ///< bounding box of the region found last, pixels; that of an outline if there is one
   PixelChannel channel = PixelChannel::kLuma;
   double threshold = 0;  ///< segmentation threshold, brightness from 0 black to 255 white
   double clipped = 0;    ///< share of the object that is saturated in every channel
-  int flames = 0;        ///< number of flames; 0 if the object is no flame
+  int flames = 0;        ///< number of flames; 0 where any moving or a dark object was requested
 };
 
 /// Captures an outline from frames that are fed in their order.
@@ -148,15 +147,15 @@ class OutlineCapture {
   OutlineCapture& operator=(OutlineCapture&&) noexcept;
   ~OutlineCapture();
 
-  /// Adds a picture from anywhere in the clip, before the first frames are over: a larger sample of the clip improves
-  /// decisions that hold for all of it. It is copied.
+  /// Adds a picture from anywhere in the clip to the sample on which the first decisions are based, as they hold for
+  /// the whole clip; ignored after them. It is copied.
   ///
   /// Precondition: the picture has the size and layout of the frames.
   void glimpse(const Picture& picture);
 
   /// Takes the next frame; it is borrowed for the call.
   /// Errors: a frame whose size differs from the first one's, a region outside the picture, a channel that the picture
-  /// lacks, no object that stands out in the first frames.
+  /// lacks, fewer flames than `flame`; where no flame is searched for, no object that stands out in the first frames.
   Result<void> feed(const Picture& picture);
 
   /// Records that the clip lost `count` frames here.

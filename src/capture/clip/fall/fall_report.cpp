@@ -9,17 +9,16 @@
 namespace wisp::fall {
 namespace {
 
-constexpr double kMaxUnsteady = 0.2;  // share of the picture
+constexpr double kMaxUnsteady = 0.2;  // maximum share of the picture that changes all the time
 constexpr double kMaxShake = 0.01;    // share of the picture's height: twice the position error of a fixed camera
 constexpr std::size_t kMinFalls = 3;  // minimum number of falls; learning checks whether segments suffice
 constexpr std::size_t kGoodFalls = 20;
 constexpr double kMinWhole = 0.8;   // share of falls seen whole; below it, falls that stray are under-represented
-constexpr double kMaxFilled = 0.2;  // share of the rows
-constexpr double kLong = 1.8;       // aspect above which attitude is measurable …
-constexpr double kShort = 1.3;      // … and below which it is not
-constexpr double kMaxShort = 0.25;  // maximum share of rows below kShort
-constexpr double kJerk = 0.52;      // rad per frame: no light object changes its turning rate so fast …
-constexpr double kMaxJerks = 0.05;  // … but the measured axis jumps where a leaf is seen edge-on or from its tip
+constexpr double kMaxFilled = 0.2;  // share of interpolated rows above which a warning is given
+constexpr double kLong = 1.8;       // minimum aspect with which attitude is measurable …
+constexpr double kMaxShort = 0.25;  // … and maximum share of rows with an aspect below kRound
+constexpr double kJerk = 0.52;      // rad per frame: a larger change of the turning rate is a jump of the measured axis
+constexpr double kMaxJerks = 0.05;  // maximum share of rows with a jump, as of a leaf that is seen edge-on
 
 std::size_t jerks_of(const Fall& fall) {
   std::size_t jerks = 0;
@@ -99,7 +98,7 @@ Facts facts_of(const std::vector<Fall>& falls) {
   facts.jerks /= static_cast<double>(facts.rows);
   std::sort(aspects.begin(), aspects.end());
   facts.aspect = aspects[aspects.size() / 2];
-  const auto shorter = std::lower_bound(aspects.begin(), aspects.end(), kShort) - aspects.begin();
+  const auto shorter = std::lower_bound(aspects.begin(), aspects.end(), kRound) - aspects.begin();
   facts.short_share = static_cast<double>(shorter) / static_cast<double>(aspects.size());
   return facts;
 }

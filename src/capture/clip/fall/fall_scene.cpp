@@ -11,20 +11,20 @@
 namespace wisp::fall {
 namespace {
 
-constexpr std::size_t kSamples = 61;     // frames from which the wall is estimated
+constexpr std::size_t kSamples = 61;     // maximum number of frames from which the wall is estimated
 constexpr std::size_t kGainSpots = 997;  // approximate number of pixels used to measure exposure
 constexpr float kMinGround = 16;         // grey levels: minimum brightness of pixels used to measure exposure
 constexpr float kMinDifference = 8;      // grey levels: above coding noise
-constexpr float kSigmas = 5;
-constexpr double kUnsteady = 5;   // grey levels: an unsteady pixel deviates by more …
-constexpr double kMoments = 0.7;  // … at this quantile of the frames, so in 30 % of them or more
+constexpr float kSigmas = 5;             // tolerance in standard deviations
+constexpr double kUnsteady = 5;          // grey levels: an unsteady pixel deviates by more …
+constexpr double kMoments = 0.7;         // … at this quantile of the frames, so in 30 % of them or more
 constexpr float kMadToSigma = 1.4826F;
 constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond the tolerance
 constexpr double kTypical = 0.9;  // quantile of an object's differences that represents it; its edge differs less
 constexpr double kShadow = 0.35;  // share of that below which a pixel is shadow or blur
 constexpr double kPixelVariance = 1.0 / 12;
 
-// Brightness of the wall in a frame relative to the film: cameras adapt their exposure.
+// Brightness of the wall in a frame relative to its median over the film: cameras adapt their exposure.
 float gain_of(const Frame& frame, const std::vector<float>& brightness) {
   std::vector<float> ratios;
   const std::size_t step = std::max<std::size_t>(1, frame.size() / kGainSpots);
@@ -96,12 +96,11 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
     xy += weight * px * py;
     yy += weight * py * py;
   }
-  Thing thing{.x = x / sum, .y = y / sum, .area = sum, .contrast = contrast};
+  Thing thing{.x = x / sum, .y = y / sum, .contrast = contrast};
   const auto [left, right] =
       std::minmax_element(pixels.begin(), pixels.end(), [&](int a, int b) { return a % width < b % width; });
   thing.left = *left % width, thing.right = *right % width;
-  const int lowest_row = *std::max_element(pixels.begin(), pixels.end()) / width;
-  thing.bottom = lowest_row;
+  thing.bottom = *std::max_element(pixels.begin(), pixels.end()) / width;
   xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);

@@ -12,28 +12,26 @@
 namespace wisp::fall {
 namespace {
 
-constexpr double kGapSeconds = 0.05;     // longest invisibility, edge-on or as bright as the wall
-constexpr std::size_t kMinGap = 2;       // frames
-constexpr double kFirstSpeed = 6;        // maximum initial speed, picture heights a second
-constexpr double kChange = 2.5;          // maximum change of speed between frames, heights a second …
-constexpr double kShare = 0.6;           // … and as a share of the speed
-constexpr double kMinReach = 3;          // minimum search radius, reduced pixels
-constexpr double kJoinSeconds = 0.2;     // longest gap that a cubic interpolates well in a swing of half a second
-constexpr double kJoinReach = 0.1;       // heights: largest deviation by gravity from a straight path in that time
-constexpr double kOverlapSeconds = 0.2;  // time in which the end of one part and the beginning of another coexist
-constexpr std::size_t kSteady = 3;       // frames over which speed is averaged, as the last view may be partial
-constexpr std::size_t kMinRows = 3;      // minimum length of a track; shorter ones are noise
+constexpr double kGapSeconds = 0.05;  // longest invisibility, edge-on or as bright as the wall
+constexpr std::size_t kMinGap = 2;    // frames
+constexpr double kFirstSpeed = 6;     // maximum initial speed, picture heights a second
+constexpr double kChange = 2.5;       // maximum change of speed between frames, heights a second …
+constexpr double kShare = 0.6;        // … and as a share of the speed
+constexpr double kMinReach = 3;       // minimum search radius, reduced pixels
+constexpr double kJoinSeconds = 0.2;  // longest gap, which a cubic fills well in a swing of half a second, or overlap
+constexpr double kJoinReach = 0.1;    // heights: largest deviation by gravity from a straight path in that time
+constexpr std::size_t kSteady = 3;    // frames over which speed is averaged, as the last view may be partial
+constexpr std::size_t kMinRows = 3;   // minimum length of a track; shorter ones are noise
 
-constexpr double kMinSeconds = 0.3;
+constexpr double kMinSeconds = 0.3;         // minimum duration of a fall
 constexpr std::size_t kMinStretchRows = 8;  // minimum rows of a stretch that a chain can be learned from
 constexpr double kMinDescent = 0.25;        // minimum descent of a fall, picture heights
 constexpr double kPieceDescent = 0.1;       // heights: minimum descent of a fragment of a fall
 constexpr double kAtRest = 0.01;            // heights: distance from start or end within which it hangs or lies
-constexpr std::size_t kRests = 3;           // frames at rest
-constexpr double kApart = 0.03;             // heights: a track whose distance varies less is a part or a shadow
-constexpr double kRound = 1.3;              // aspect below which the long axis is undefined
+constexpr std::size_t kRests = 3;           // minimum frames for which an object that lies is seen
+constexpr double kApart = 0.03;             // heights: variation of the distance of a part or shadow from its object
 constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
-constexpr double kNearSide = 2;             // reduced pixels
+constexpr double kNearSide = 2;             // distance from the picture's side at which it is cut, reduced pixels
 constexpr std::size_t kAhead = 3;           // frames ahead in which crossing the picture's side counts as leaving
 constexpr double kSameSeconds = 0.5;        // longest gap between fragments of one fall
 
@@ -103,7 +101,7 @@ std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
 // continue `before`.
 double seam(const Track& before, const Track& after, const Scale& scale) {
   const double gap = static_cast<double>(after.frames.front()) - static_cast<double>(before.frames.back());
-  if (gap > kJoinSeconds * scale.rate_hz || gap < -kOverlapSeconds * scale.rate_hz) return -1;
+  if (std::abs(gap) > kJoinSeconds * scale.rate_hz) return -1;
   if (after.frames.front() <= before.frames.front() || after.frames.back() <= before.frames.back()) return -1;
   const Thing &a = before.things.back(), &b = after.things.front();
   const auto apart = [&](double Thing::*axis) {

@@ -17,6 +17,9 @@ namespace wisp::fall {
 /// A reduced luma picture, row by row; empty: the frame is lost.
 using Frame = std::vector<std::uint8_t>;
 
+/// Aspect below which an object has no measurable long axis.
+inline constexpr double kRound = 1.3;
+
 /// The static background, and its variation.
 struct Wall {
   int width = 0;
@@ -33,15 +36,13 @@ Wall wall_of(std::span<const Frame> frames, int width, int height);
 
 /// An object before the wall. Units: pixels of the reduced picture, y down.
 struct Thing {
-  double x = 0;         ///< centroid
-  double y = 0;         ///<
-  double area = 0;      ///< covered area in pixels
+  double x = 0, y = 0;  ///< centroid
   double contrast = 0;  ///< difference from the wall, grey levels
-  double angle = 0;     ///< of its long axis to the horizontal, anticlockwise, −π/2 to π/2
+  double angle = 0;     ///< from the horizontal to the long axis, anticlockwise, −π/2 to π/2
   double aspect = 1;    ///< length / width
-  double left = 0;      ///< bounding box
-  double right = 0;     ///<
-  double bottom = 0;    ///<
+  double left = 0;      ///< first column
+  double right = 0;     ///< last column
+  double bottom = 0;    ///< lowest row
 };
 
 struct Seen {
@@ -55,11 +56,10 @@ Seen seen_in(const Frame& frame, const Wall& wall);
 /// Picture size and frame rate of the tracking.
 struct Scale {
   double rate_hz = 0;
-  double width = 0;   ///< picture width, reduced pixels
-  double height = 0;  ///<
+  double width = 0, height = 0;  ///< of the picture, reduced pixels
 };
 
-/// Reason why a fall was not followed from its release to its end.
+/// Whether a fall was followed from its release to its end (kNo), or why not.
 enum class Cut {
   kNo,
   kSide,    ///< it leaves or enters the picture at a side
@@ -78,7 +78,7 @@ struct Fall {
 
 struct Falls {
   std::vector<Fall> falls;  ///< in order of their first frames
-  std::vector<Cut> missed;  ///< of sinking tracks that are no falls, and of falls that pass another object
+  std::vector<Cut> missed;  ///< cuts of sinking tracks that are no falls, and of falls that pass another object
 };
 
 /// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of

@@ -14,14 +14,14 @@
 namespace wisp {
 namespace {
 
-constexpr double kCalm = 0.05;                              // in wind units: threshold of a blow
+constexpr double kCalm = 0.05;                              // wind up to which it is calm; more is a blow
 constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // longest pause in a blow; lag of flame behind wind
 
 struct Blow {
   std::size_t begin = 0, end = 0;  // rows [begin, end)
   double x = 1, z = 0;             // direction, unit vector
   double alike = 0, answer = 0;    // share of the lean in that direction; pixels of lean per unit of wind
-  double strength = 0;             // mean wind, weighted by itself
+  double strength = 0;             // mean wind, weighted by its square
   double azimuth() const { return std::atan2(-z, x); }
 };
 
@@ -48,7 +48,7 @@ std::vector<double> displaced(std::vector<double> place, const std::vector<doubl
   return place;
 }
 
-// Sets the direction of a blow: the mean displacement, weighted by the wind.
+// Sets a blow's direction, that of the mean displacement weighted by the wind, and what depends on it.
 void direct(const std::vector<double>& wind, const std::vector<double>& x, const std::vector<double>& z,
             std::size_t lag, Blow& blow) {
   double sum_x = 0, sum_z = 0, all = 0, square = 0, cube = 0;
@@ -97,8 +97,8 @@ ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
 }
 
 constexpr int kShuffles = 1000;
-// Maximum power of the first two harmonics of the directions: 4 for a single direction, at least 1 for two directions,
-// 0 for evenly distributed ones.
+// Maximum power of the first two harmonics of the directions: 4 for a single direction, at least 0.87 for two
+// directions, 0 for evenly distributed ones.
 constexpr double kMaxDirectionPower = 0.95;
 
 // Mean square over all directions of two harmonics fitted to these numbers, one per blow.

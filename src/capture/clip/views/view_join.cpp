@@ -40,7 +40,7 @@ double correlation(std::span<const double> first, std::span<const double> second
 }
 
 // Offset of two series of equal rate; NaN marks missing values. Empty where no offset leaves an overlap of two
-// seconds, or a series is constant.
+// seconds, or a series is constant wherever they overlap.
 std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz) {
   // Minimum overlap, as a share of the shorter series: short overlaps correlate by chance.
   const auto shorter = static_cast<double>(std::min(first.size(), second.size()));
@@ -67,7 +67,7 @@ struct ViewRows {
   double right_x = 1, right_z = 0;  // the camera's direction to the right
   double begins = 0, scale = 1;     // start in rows of the first view; pixels of the first view per pixel
   std::vector<Row> rows;
-  Row height;  // height of the innermost points over the base; NaN where missing
+  Row height;  // height of the tip's control points over the base; NaN where missing
 
   // Interpolates between two rows, at a row of the first view and in its scale.
   Row at(double row) const {

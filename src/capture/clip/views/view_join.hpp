@@ -29,7 +29,7 @@ struct FilmedView {
 /// a report on the blows.
 ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings);
 
-/// Response to a blow: its direction (radians), mean wind weighted by itself, and lean per unit of wind.
+/// Response to a blow: its direction (radians), mean wind weighted by its square, and lean per unit of wind.
 struct BlowAnswer {
   double azimuth = 0, strength = 0, lean = 0;
 };
@@ -38,7 +38,7 @@ inline constexpr std::size_t kMinSymmetryBlows = 9;
 
 /// Dependence of the lean per unit of wind on direction, in percent of its mean, after a linear dependence on strength:
 /// the RMS over directions of two harmonics, minus its expectation by chance; and its 95 % interval from permuted
-/// leans. Empty for fewer blows than kMinSymmetryBlows, or blows from one side.
+/// leans. Empty for fewer blows than kMinSymmetryBlows, or unevenly distributed directions.
 std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> blows);
 
 /// Joins films, in pixels of the first: x to the right of a camera at 0°, y up from the base at rest, z towards that
