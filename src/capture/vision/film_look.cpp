@@ -16,7 +16,6 @@ constexpr std::size_t kBlock = 4;           // width and height of the blocks co
 constexpr int kDark = 24;                   // grey levels: above coding errors and camera noise
 constexpr double kMaxIsNew = 0.4;           // share of new light in one scene: cuts have 0.6 to 1, a snuffed candle 0.2
 constexpr double kMinTotalLight = 3 * 255;  // sum over all points: less is a spark
-constexpr int kFlat = 250;                  // level of 255 from which a point counts as saturated
 
 // Correlation of two pictures' blocks; 1 where either is nearly uniform, as a dark room before a candle is lit.
 double likeness(const std::vector<double>& a, const std::vector<double>& b) {
@@ -66,7 +65,7 @@ void FilmLook::look(const Picture& picture) {
     down[y] += value / static_cast<double>(columns_);
   }
   const auto bright = [&](std::uint8_t value) { return brightness(picture, PixelChannel::kLuma, value); };
-  const auto flat = std::count_if(now_.begin(), now_.end(), [&](auto value) { return bright(value) >= kFlat; });
+  const auto flat = std::count_if(now_.begin(), now_.end(), [&](auto value) { return bright(value) >= kSaturated; });
   flat_.push_back(static_cast<double>(flat) / static_cast<double>(now_.size()));
   brightest_point_ = std::max(brightest_point_, bright(*std::max_element(now_.begin(), now_.end())));
   if (!blocks_.empty()) {

@@ -13,6 +13,9 @@
 
 namespace wisp {
 
+/// Level of 255 from which a point counts as saturated.
+inline constexpr int kSaturated = 250;
+
 /// Shift from a to b as a share of the length, in whole steps, at most 8; 0 where none removes 30 % of the difference.
 double step_between(const std::vector<double>& a, const std::vector<double>& b);
 
