@@ -12,7 +12,6 @@ namespace {
 constexpr double kPersistence = 0.6;     // minimum share of the pictures that contain a candidate
 constexpr std::size_t kMaxRegions = 24;  // maximum per picture and level, largest first
 constexpr std::size_t kMinRows = 3;      // minimum rows of a region with a shape
-constexpr double kSurelyMoves = 0.06;    // change of shape that proves motion
 constexpr double kStillWorth = 0.15;     // … and the weight of a candidate without change
 constexpr double kAloneIsBetter = 0.5;   // weight of a candidate cut from its stand, against one seen alone
 constexpr double kLightPower = 8;        // exponent of light: 10 % less luma about halves the likelihood

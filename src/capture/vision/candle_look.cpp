@@ -12,7 +12,7 @@ namespace {
 // Lengths are in flame heights.
 constexpr double kReach = 2.5;                    // half width of the strip
 constexpr double kBelow = 0.2, kDeep = 0.5;       // its upper and lower end below the flame; nearer, the rim glows
-constexpr double kMinWax = 16, kMinEdge = 14;     // minimum luma of wax, and its excess over the surroundings, of 255
+constexpr double kMinEdge = 14;                   // minimum excess of wax over its surroundings, levels of 255
 constexpr double kNarrowest = 0.15, kWidest = 4;  // range of a candle's width; anything wider is a table
 
 // Mean level of each column of a strip over all pictures, 0 to 255.
@@ -44,7 +44,7 @@ std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, cons
   const std::vector<double> levels = profile(pictures, PixelChannel::kLuma, strip);
   const auto at = static_cast<std::size_t>(middle - strip.x);
   const double seen = levels[at], ground = quantile(levels, 0.1);
-  if (seen < kMinWax || seen - ground < kMinEdge) return std::nullopt;
+  if (seen - ground < kMinEdge) return std::nullopt;
   std::size_t begin = at, end = at + 1;
   while (begin > 0 && levels[begin - 1] > (seen + ground) / 2) --begin;
   while (end < levels.size() && levels[end] > (seen + ground) / 2) ++end;

@@ -11,8 +11,7 @@ namespace wisp {
 namespace {
 
 constexpr int kBins = 128;
-constexpr double kWorthwhile = 0.98;  // placed knots must have less than this share of the uniform knots' misfit,
-constexpr double kMinGain = 0.002;    // … and a misfit lower by this share of the area, as less is invisible
+constexpr double kMinGain = 0.002;  // share of the area by which placed knots must fit better, as less is invisible
 using Density = std::array<double, kBins>;
 
 // Mean change of the outlines' direction in each bin of s, normalised to a sum of 1.
@@ -135,7 +134,7 @@ CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> k
 
 CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points) {
   CurveShape best = fit_pace(clouds, uniform_knots(points));
-  const double enough = std::min(kWorthwhile * best.misfit, best.misfit - kMinGain);
+  const double enough = best.misfit - kMinGain;
   const Density bend = bending(clouds);
   for (const double power : {0.5, 1.0}) {
     for (const double even : {0.6, 0.35, 0.15}) {

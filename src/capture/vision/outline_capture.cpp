@@ -31,7 +31,6 @@ constexpr double kMinNarrowing = 0.25;
 constexpr double kMinLight = 0.85;
 constexpr double kMinContrast = 20;
 constexpr double kMaxWidth = 0.8;
-constexpr double kSamePlace = 0.5;  // intersection over union of the places of one object
 
 // Following the underside takes control points from the sides and makes them move more. It must pay in all samples, as
 // the clip's first second may be calm where later the flame leaves one foot and then the other.

@@ -6,12 +6,12 @@
 
 #include "base/statistics.hpp"
 #include "capture/vision/region.hpp"
+#include "capture/vision/survey.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr double kMoveShare = 0.35;  // heights: a base that moves farther between frames belongs to another object
-constexpr double kJumpRatio = 2.2;   // … as does a height that changes by this factor
+constexpr double kJumpRatio = 2.2;   // a height that changes by this factor between frames belongs to another object
 constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; gaps in films last 0.13 at most
 
 struct OutlineRow {
@@ -121,7 +121,7 @@ double jumps_of(const std::vector<OutlineRow>& shapes, double height) {
     if (b.row != a.row + 1) continue;
     ++steps;
     const double ratio = std::max(a.height, b.height) / std::min(a.height, b.height);
-    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kMoveShare * height || ratio > kJumpRatio;
+    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kAsNear * height || ratio > kJumpRatio;
   }
   return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
 }

@@ -15,16 +15,12 @@ constexpr double kPaceMemory = 0.8;    // decay of that motion per frame
 constexpr double kMinAreaShare = 0.1;  // minimum share of its usual area: less is a spark or an ember
 constexpr int kMinArea = 24;           // minimum pixels of a region
 
-constexpr double kJumpShare = 0.03;  // an extension at the base by this share of the object's length suggests …
-constexpr int kMinJump = 3;          // … that it has merged with its stand; minimum extension in pixels
-
+constexpr double kJumpShare = 0.03;  // an extension at the base by this share of the length suggests a stand
 constexpr double kSlack = 0.12;      // share of the length above the object's former base at which its stand may begin
 constexpr double kFarDeeper = 0.25;  // share of the length: an extension this far below the base is always stand
 
-constexpr double kAsBright = 0.9;  // minimum relative brightness of a rediscovered object
-constexpr double kAsLarge = 4;     // … its maximum ratio of areas
-constexpr double kAsNear = 0.35;   // … and its maximum distance, as a share of its length
-constexpr double kStays = 0.2;     // minimum overlap with the last frame's box, as a share of the smaller box
+constexpr double kAsLarge = 4;  // maximum ratio of areas of a rediscovered object
+constexpr double kStays = 0.2;  // minimum overlap with the last frame's box, as a share of the smaller box
 
 // Midpoint of a box's end towards the base.
 PixelPosition foot(const Region& box, BaseSide side) {
@@ -92,6 +88,7 @@ bool OutlineSeeker::plausible(const Region& before) const {
 // Chooses the region that best matches the last one, by overlap of boxes times area.
 bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& place) {
   const Region expected = following_ ? found_.box : home_;
+  BrightRegion chosen = found_;  // ours() compares with the last one, which is kept until the end
   double best = 0;
   for (const BrightRegion& region : regions) {
     if (static_cast<double>(region.area) < kMinAreaShare * usual_area_) continue;
@@ -106,8 +103,9 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
     best = score;
     moved.seed_x += place.x;
     moved.seed_y += place.y;
-    found_ = moved;
+    chosen = moved;
   }
+  found_ = chosen;
   return best > 0;
 }
 
@@ -144,7 +142,7 @@ bool OutlineSeeker::part_from_stand() {
   const int length = rows ? box.height : box.width;
   const int jump = deeper(end, base_edge_, base_);
   const bool inside = jump < length;
-  const bool suspicious = jump > std::max(kMinJump, static_cast<int>(kJumpShare * length));
+  const bool suspicious = jump > std::max(kMinStep, static_cast<int>(kJumpShare * length));
   follow();
   if (!inside || (!stands_ && !suspicious)) {
     base_edge_ = end;

@@ -30,11 +30,9 @@ int end_of_stretch(const std::uint8_t* bright, int x, int width, std::uint8_t sa
   return x;
 }
 
-constexpr double kWiderBelow = 1.6;    // minimum ratio of a shoulder's width to the width above it
-constexpr int kMinStep = 3;            // … and minimum difference in pixels
-constexpr double kWithin = 0.05;       // share of the length above within which it widens
-constexpr double kSlenderness = 0.7;   // minimum length / width of the part above, since a blunt tip widens too
-constexpr std::size_t kMinLength = 4;  // minimum rows of the part above
+constexpr double kWiderBelow = 1.6;   // minimum ratio of a shoulder's width to the width above it
+constexpr double kWithin = 0.05;      // share of the length above within which it widens
+constexpr double kSlenderness = 0.7;  // minimum length / width of the part above, since a blunt tip widens too
 
 bool along_rows(BaseSide side) { return side == BaseSide::kBottom || side == BaseSide::kTop; }
 
@@ -197,7 +195,7 @@ std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t fro
   int widest = 0;
   for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
     widest = std::max(widest, rows[k].width());
-    if (k < from || k + 1 < kMinLength || static_cast<double>(k + 1) < kSlenderness * widest) continue;
+    if (k < from || k < kMinStep || static_cast<double>(k + 1) < kSlenderness * widest) continue;
     if (step(k) <= sharpest) continue;
     sharpest = step(k);
     best = k;

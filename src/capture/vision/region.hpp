@@ -60,6 +60,8 @@ class RegionFinder {
   std::vector<BrightRegion> found_;
 };
 
+inline constexpr int kMinStep = 3;  ///< minimum step of a boundary that is no noise, pixels
+
 /// Follows the outer boundary of the region at `seed`, clockwise on the screen, starting there: each pixel touches the
 /// next by side or corner and lies in the region. Appends to `boundary`, which is cleared first.
 ///

@@ -19,13 +19,9 @@ constexpr double kLitShare = 0.7;         // a picture counts if its maximum rea
 constexpr double kOtherScene = 64;        // … and it differs by at most so many levels from the median picture, mean
 constexpr double kOneBrightness = 16;     // of 255, above the darkest tenth: a smaller contrast is noise
 constexpr double kAsLikely = 0.35;        // minimum score of another flame relative to the first
-constexpr double kAsBrightAsBest = 0.9;   // … its minimum brightness relative to the first
-constexpr double kMoves = 0.05;           // … and its minimum change of shape, or half of the first flame's if less
 constexpr double kAsGood = 0.5;           // minimum relative likelihood of the same object at another level
 constexpr double kHalfWay = 0.58;         // position of the level between surroundings (0) and object (1)
 constexpr double kNearlyAsLikely = 0.75;  // minimum relative likelihood of a view that shows more of the flame
-constexpr double kNearlyAsBright = 0.95;  // … its minimum relative brightness
-constexpr double kSameHome = 0.6;         // … and its minimum overlap with the flame's place
 constexpr double kBrightest = 3e-4;       // share of the picture's points that count as brightest
 
 // Pictures over one area, one grid per channel, sampled once for repeated use.
@@ -161,8 +157,8 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   const Candidate& best = candidates.front();
   for (const Candidate& c : candidates) {
     if (c.channel != best.channel || c.level != best.level) continue;
-    if (c.score < kAsLikely * best.score || c.light < kAsBrightAsBest * best.light) continue;
-    if (c.change < std::min(kMoves, 0.5 * best.change)) continue;  // a lamp seen by a hand-held camera
+    if (c.score < kAsLikely * best.score || c.light < kAsBright * best.light) continue;
+    if (c.change < std::min(kSurelyMoves, 0.5 * best.change)) continue;  // a lamp seen by a hand-held camera
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& other) { return same_place(c, other); })) {
       out.push_back(c);
     }
@@ -208,7 +204,7 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
   Candidate best = thing;
   for (const Candidate& c : candidates) {
     if (c.channel != thing.channel || c.stands != thing.stands || c.likeness < kAsGood * thing.likeness) continue;
-    if (c.seen.size() < thing.seen.size() || shared_share(c.home, thing.home) < kSameHome) continue;
+    if (c.seen.size() < thing.seen.size() || shared_share(c.home, thing.home) < kSamePlace) continue;
     if (std::abs(c.level - wanted) < std::abs(best.level - wanted)) best = c;
   }
   best.level = std::clamp(wanted, best.level - kLevelStep / 2, best.level + kLevelStep / 2);
@@ -218,8 +214,8 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
 // Whether a candidate shows the object as well as `thing` does. Motion is not compared: a part of an object moves more
 // than the whole, and the measured motion of a nearly still flame is random.
 bool as_good(const Candidate& c, const Candidate& thing) {
-  return c.stands == thing.stands && c.likeness >= kNearlyAsLikely * thing.likeness &&
-         c.light >= kNearlyAsBright * thing.light && c.softness <= thing.softness && c.seen.size() >= thing.seen.size();
+  return c.stands == thing.stands && c.likeness >= kNearlyAsLikely * thing.likeness && c.softness <= thing.softness &&
+         c.seen.size() >= thing.seen.size();
 }
 
 Candidate settled(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
@@ -235,7 +231,7 @@ std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& h
                                          const std::vector<Candidate>& candidates) {
   std::array<const Candidate*, 4> views{};
   for (const Candidate& c : candidates) {
-    if (!as_good(c, thing) || shared_share(c.home, home) < kSameHome) continue;
+    if (!as_good(c, thing) || shared_share(c.home, home) < kSamePlace) continue;
     const Candidate*& view = views[static_cast<std::size_t>(c.channel)];
     if (view == nullptr || c.likeness > view->likeness) view = &c;
   }

@@ -23,6 +23,11 @@
 
 namespace wisp {
 
+inline constexpr double kSurelyMoves = 0.06;  ///< change of shape that proves motion
+inline constexpr double kSamePlace = 0.5;     ///< minimum intersection over union of one object's places
+inline constexpr double kAsBright = 0.9;      ///< minimum brightness of a like object, relative to the first
+inline constexpr double kAsNear = 0.35;       ///< maximum displacement of one object's base, in its lengths
+
 /// One channel of several pictures over one region, sampled at every `step`-th pixel.
 struct PictureGrid {
   Region area;  ///< region in pixels of the picture

@@ -20,8 +20,9 @@ constexpr double kShare = 0.6;        // … and as a share of the speed
 constexpr double kMinReach = 3;       // minimum search radius, reduced pixels
 constexpr double kJoinSeconds = 0.2;  // longest gap, which a cubic fills well in a swing of half a second, or overlap
 constexpr double kJoinReach = 0.1;    // heights: largest deviation by gravity from a straight path in that time
-constexpr std::size_t kSteady = 3;    // frames over which speed is averaged, as the last view may be partial
-constexpr std::size_t kMinRows = 3;   // minimum length of a track; shorter ones are noise
+constexpr std::size_t kSteady =
+    3;  // frames over which speed is averaged, as the last view may be partial, and extrapolated
+constexpr std::size_t kMinRows = 3;  // minimum length of a track; shorter ones are noise
 
 constexpr double kMinSeconds = 0.3;         // minimum duration of a fall
 constexpr std::size_t kMinStretchRows = 8;  // minimum rows of a stretch that a chain can be learned from
@@ -32,7 +33,6 @@ constexpr std::size_t kRests = 3;           // minimum frames for which an objec
 constexpr double kApart = 0.03;             // heights: variation of the distance of a part or shadow from its object
 constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
 constexpr double kNearSide = 2;             // distance from the picture's side at which it is cut, reduced pixels
-constexpr std::size_t kAhead = 3;           // frames ahead in which crossing the picture's side counts as leaving
 constexpr double kSameSeconds = 0.5;        // longest gap between fragments of one fall
 
 struct Track {
@@ -193,18 +193,18 @@ bool is_fall(const Candidate& fall, const Scale& scale) {
   return is_long(fall, scale) && fall.descent() >= kMinDescent * scale.height;
 }
 
-// Whether an object, extrapolated by kAhead frames, crosses one of the picture's sides.
+// Whether an object, extrapolated by kSteady frames, crosses one of the picture's sides.
 bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
-  const double way = speed * kAhead;
+  const double way = speed * kSteady;
   return thing.left + way < kNearSide || thing.right + way > scale.width - 1 - kNearSide;
 }
 
 // Classifies how a fall was cut. `ground`: height (y) at which falls end.
 Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale& scale) {
   const Track& track = fall.track;
-  if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kAhead), scale)) return Cut::kSide;
+  if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kSteady), scale)) return Cut::kSide;
   if (fall.rests || fall.end() + kRests >= frames || fall.bottom() >= ground - kNearEnd * scale.height) return Cut::kNo;
-  return crosses_side(track.things.back(), track.speed(&Thing::x, kAhead), scale) ? Cut::kSide : Cut::kLost;
+  return crosses_side(track.things.back(), track.speed(&Thing::x, kSteady), scale) ? Cut::kSide : Cut::kLost;
 }
 
 // Half extent of an object plus its motion until the next frame.
@@ -231,7 +231,7 @@ double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   std::vector<double> ends;
   for (const Candidate& fall : falls) {
     const Track& track = fall.track;
-    if (!crosses_side(track.things.back(), track.speed(&Thing::x, kAhead), scale)) ends.push_back(fall.bottom());
+    if (!crosses_side(track.things.back(), track.speed(&Thing::x, kSteady), scale)) ends.push_back(fall.bottom());
   }
   return ends.empty() ? scale.height : median(std::move(ends));
 }
