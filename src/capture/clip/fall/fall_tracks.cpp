@@ -20,16 +20,13 @@ constexpr double kShare = 0.6;        // … and as a share of the speed
 constexpr double kMinReach = 3;       // minimum search radius, reduced pixels
 constexpr double kJoinSeconds = 0.2;  // longest gap, which a cubic fills well in a swing of half a second, or overlap
 constexpr double kJoinReach = 0.1;    // heights: largest deviation by gravity from a straight path in that time
-constexpr std::size_t kSteady =
-    3;  // frames over which speed is averaged, as the last view may be partial, and extrapolated
-constexpr std::size_t kMinRows = 3;  // minimum length of a track; shorter ones are noise
+constexpr std::size_t kSteady = 3;  // frames: shorter tracks are noise; speed, rest and leaving are judged over as many
 
 constexpr double kMinSeconds = 0.3;         // minimum duration of a fall
 constexpr std::size_t kMinStretchRows = 8;  // minimum rows of a stretch that a chain can be learned from
 constexpr double kMinDescent = 0.25;        // minimum descent of a fall, picture heights
 constexpr double kPieceDescent = 0.1;       // heights: minimum descent of a fragment of a fall
 constexpr double kAtRest = 0.01;            // heights: distance from start or end within which it hangs or lies
-constexpr std::size_t kRests = 3;           // minimum frames for which an object that lies is seen
 constexpr double kApart = 0.03;             // heights: variation of the distance of a part or shadow from its object
 constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
 constexpr double kNearSide = 2;             // distance from the picture's side at which it is cut, reduced pixels
@@ -125,7 +122,7 @@ void append(Track& before, const Track& after) {
 // stays one track.
 std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale) {
   std::vector<Track> tracks = linked(frames, scale);
-  std::erase_if(tracks, [](const Track& track) { return track.things.size() < kMinRows; });
+  std::erase_if(tracks, [](const Track& track) { return track.things.size() < kSteady; });
   std::stable_sort(tracks.begin(), tracks.end(),
                    [](const Track& a, const Track& b) { return a.frames.front() < b.frames.front(); });
   std::vector<std::tuple<double, std::size_t, std::size_t>> seams;
@@ -174,7 +171,7 @@ Candidate trimmed(Track track, double height) {
   while (last + 1 < track.things.size() && track.things[last].y < lowest - kAtRest * height) ++last;
   first = std::max<std::size_t>(first, 1) - 1;
   if (first > last) first = last;
-  const bool rests = last + kRests < track.things.size();
+  const bool rests = last + kSteady < track.things.size();
   const auto cut = [&](auto& values) {
     values.erase(values.begin() + static_cast<std::ptrdiff_t>(last) + 1, values.end());
     values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
@@ -203,7 +200,8 @@ bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
 Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale& scale) {
   const Track& track = fall.track;
   if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kSteady), scale)) return Cut::kSide;
-  if (fall.rests || fall.end() + kRests >= frames || fall.bottom() >= ground - kNearEnd * scale.height) return Cut::kNo;
+  if (fall.rests || fall.end() + kSteady >= frames || fall.bottom() >= ground - kNearEnd * scale.height)
+    return Cut::kNo;
   return crosses_side(track.things.back(), track.speed(&Thing::x, kSteady), scale) ? Cut::kSide : Cut::kLost;
 }
 
