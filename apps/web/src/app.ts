@@ -97,7 +97,6 @@ export class App {
     this.listen();
   }
 
-  /** Plays the first scene. */
   async start(): Promise<void> {
     this.stage.start();
     await this.playChosen();
@@ -245,7 +244,6 @@ export class App {
     if (!open) this.drawerButton.focus();
   }
 
-  /** Opens or closes the card for composing a link to send. */
   showCard(open: boolean): void {
     const card = this.parts?.card;
     if (card === undefined || card.open === open) return;

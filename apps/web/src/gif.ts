@@ -48,7 +48,6 @@ function dither({ data, width }: ImageData): void {
   }
 }
 
-/** Records the next seconds of a canvas. */
 export async function gifOf(canvas: HTMLCanvasElement, seconds: number): Promise<Blob> {
   const all = await pictures(canvas, seconds);
   const palette = await paletteOf(all);

@@ -16,7 +16,6 @@ import { Ear } from './wind/ear.js';
 
 export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
-/** Parts of the page that furnish() creates. */
 export type Parts = ReturnType<typeof furnish>;
 
 export function furnish(app: App) {

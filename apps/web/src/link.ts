@@ -13,7 +13,7 @@ export interface Settings {
   noise: number;
   candles: number;
   leaves: number;
-  /** drawn pixels per screen pixel, 0.25 to 2; 0: as many as stay smooth */
+  /** drawn pixels per screen pixel, up to 2; 0: as many as stay smooth */
   detail: number;
   /** model in place of the shipped one: an address of this origin, or the packed model (model_link.ts); '': shipped */
   model: string;

@@ -9,7 +9,6 @@ import { fetchShipped, FLAME, LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
-/** The current scene, and facts about its model. */
 export interface Playing {
   model: Model;
   bytes: Uint8Array;

@@ -24,7 +24,6 @@ export function saveFile(blob: Blob, name: string): string {
   return 'Saved';
 }
 
-/** Saves the next picture. */
 export const savePicture = async ({ stage }: App): Promise<string> => saveFile(await stage.snapshot(), 'wisp.png');
 
 /** Seconds of a film. */
@@ -48,14 +47,12 @@ async function happen(app: App): Promise<void> {
   }
 }
 
-/** Records these seconds as a GIF. */
 export async function saveGif(app: App): Promise<string> {
   const { gifOf } = await fetchPart(() => import('./gif.js'));
   void happen(app);
   return saveFile(await gifOf(app.stage.canvas, lasts(app)), 'wisp.gif');
 }
 
-/** Records these seconds as a film. */
 export async function saveLoop(app: App): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';

@@ -6,12 +6,12 @@ import { after, before, describe, it } from 'node:test';
 import { hears, openBrowser, skip, temporaryFolder, until } from './browser.js';
 import { breath, rate, room, speech, writeSound } from './sound.js';
 
-// When what is heard, seconds of sound.
+// Times of the sounds, seconds.
 const soft = { from: 5, to: 7 };
 const talk = { from: 9, to: 13 };
 const strong = { from: 15, to: 16.5 };
 const end = 19;
-// The sound begins a little before or after the page knows that it does.
+// Uncertainty of the sound's start as the page sees it, seconds.
 const unsure = 0.5;
 
 describe('a candle that hears', { skip }, () => {
@@ -89,8 +89,8 @@ describe('a candle that hears', { skip }, () => {
   });
 
   it('shows each block of sound in the first frame after it came', () => {
-    // Counted, not timed: the frame that used a block is the one that was next when it came. The estimator's own frame
-    // and one step of the model come on top.
+    // Frames are counted, as times depend on the machine. The estimator's own frame and one step of the model are added
+    // to this latency.
     const heard = course.filter(({ heardAtFrame }) => heardAtFrame > 0);
     assert.ok(heard.length > 50);
     for (const { heardAtFrame, usedAtFrame, frames } of heard) {

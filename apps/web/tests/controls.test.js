@@ -41,7 +41,6 @@ describe('the candle', { skip }, () => {
     await until(page, 'it burns again', allLit);
   });
 
-  /** Waits for so many pictures. */
   const pictures = (count) =>
     page.evaluate(async (left) => {
       while (left-- > 0) await new Promise(requestAnimationFrame);

@@ -1,4 +1,4 @@
-// What the page says of models, and what it makes of one that has never felt wind.
+// What the page says about models, and how it plays one that was learned without wind.
 // tests/models/calm.wisp: 15 s of the simulated candle without any wind (WindKind::kCalm, seed 2), without its sound, through `wisp learn flame`.
 
 import assert from 'node:assert/strict';

@@ -1,5 +1,5 @@
-// Days on which the studio has it hard: films out of the ordinary, devices that are taken away, a worker that stops. Each
-// ends in a model or in a sentence, and what was gathered before stays.
+// The studio under difficulties: unusual films, devices that disappear, a worker that stops. Each ends in a model or in a
+// sentence, and what was gathered before is kept.
 
 import assert from 'node:assert/strict';
 import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
@@ -18,7 +18,7 @@ const looked = (page) => until(page, 'it has looked', () => document.querySelect
 const inStudio = (ready, options = {}) =>
   onPage('#scene=candle&detail=0.1', (page) => enterStudio(page).then(() => ready(page)), { viewport: { width: 1000, height: 700 }, ...options });
 
-/** Chooses a file by its place on the disk: its bytes do not pass through the test. */
+/** Chooses a file by its path: its bytes do not pass through the test. */
 const choose = (page, kind, path) => page.setInputFiles(`[data-choose=${kind}]`, path);
 
 describe('a film out of the ordinary', { skip }, () => {
@@ -45,7 +45,7 @@ describe('a film out of the ordinary', { skip }, () => {
     for (const [name, [bytes, words]] of Object.entries(strangers)) {
       await drop(page, name, bytes);
       await says(page, `${panel} .verdict.bad`, words);
-      // Where no picture was seen, there is none to look at in another way.
+      // Without a picture there is none to analyse in another way.
       assert.doesNotMatch(await page.textContent(panel), /The picture stays|something that falls/);
       await anew();
     }
@@ -72,7 +72,7 @@ describe('a film out of the ordinary', { skip }, () => {
     }
     const words = (await page.textContent(panel)) + (await page.textContent('#notices'));
     assert.match(words, /short|frames|not enough|rows|seconds/i);
-    // A notice of an earlier film may stand while this one is still being learned from.
+    // A notice about an earlier film may be shown while this one is still being learned from.
     await page.locator('[data-act=choose], [data-act=leave-out], [data-act=anew]').first().click();
     await chooses(page);
   });
@@ -143,7 +143,7 @@ describe('a worker that stops', { skip }, () => {
     await looked(page);
   });
 
-  /** Something happens in the worker while it looks at a film. */
+  /** Runs a function in the worker while it analyses a film. */
   const meanwhile = async (happens) => {
     await page.click('[data-act=more]');
     await drop(page, 'second.mp4', readFileSync(film()));
@@ -188,7 +188,7 @@ describe('a worker that stops', { skip }, () => {
 
 describe('devices that are taken away', { skip }, () => {
   let page;
-  // In the page: the film stands for the camera, a tone for the microphone.
+  // Runs in the page: a drawn flame in place of the camera, and a silent microphone.
   function stubDevices() {
     window.deaf = false;
     navigator.mediaDevices.getUserMedia = async (wanted) => {

@@ -11,7 +11,7 @@ describe('trouble', { skip }, () => {
   let opened;
   let page;
 
-  // In the page: microphones that are not as they should be.
+  // Runs in the page: a microphone that is real, absent, or made here.
   function stubMicrophone() {
     const real = navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices);
     window.microphone = 'real';

@@ -17,7 +17,6 @@ export interface BankOptions {
 /** Value that names an instance; ids of ended instances are never reused. */
 export type Instance = bigint;
 
-/** Id of no instance. */
 export const noInstance: Instance = 0n;
 
 /** State of a flame. Times are nanoseconds of shown time; Infinity for events that never happened. */
@@ -180,12 +179,10 @@ export class Bank {
     this.give('wisp_bank_set_inputs', values);
   }
 
-  /** Sets the same inputs for all instances. */
   setCommonInputs(values: ArrayLike<number>): void {
     this.give('wisp_bank_set_common_inputs', values);
   }
 
-  /** Sets the inputs of one instance. */
   setInstanceInputs(instance: Instance, values: ArrayLike<number>): void {
     this.give('wisp_bank_set_instance_inputs', values, instance);
   }
@@ -267,7 +264,6 @@ export class Bank {
     });
   }
 
-  /** State of a flame. */
   flameState(instance: Instance): FlameState {
     const { events, ...state } = this.struct(at.flameState, 'wisp_bank_get_flame_state', instance);
     return { ...state, wentOut: (events & 1) !== 0, relit: (events & 2) !== 0 };

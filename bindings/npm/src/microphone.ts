@@ -116,7 +116,6 @@ const STUCK = 4;
 /** Events that may resume an interrupted sound. */
 const WAKES = ['pointerdown', 'keydown', 'visibilitychange'] as const;
 
-/** An open microphone. */
 export type Microphone = Readonly<Pick<OpenMicrophone, 'settings' | 'raw' | 'asleep' | 'latest' | 'calibrate' | 'calibration' | 'reset' | 'stop'>>;
 
 class OpenMicrophone {
@@ -232,7 +231,6 @@ class OpenMicrophone {
     });
   }
 
-  /** Resets the estimator. */
   reset(): void {
     this.tell({ type: 'reset' });
   }

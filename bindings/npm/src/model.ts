@@ -71,7 +71,6 @@ export interface ArxFacts {
   noise: number[];
 }
 
-/** Composition of a chain. */
 export interface ChainFacts {
   modes: number;
   segments: { mode: number; steps: number }[];

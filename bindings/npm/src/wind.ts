@@ -123,7 +123,6 @@ export class WindLevel {
     if (typeof ask === 'string') this.native.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
-  /** Whether a calibration is running. */
   get calibrating(): boolean {
     return this.native.functions.wisp_wind_calibrating!(this.pointer) === 1;
   }

@@ -12,7 +12,7 @@ export const models = fileURLToPath(new URL('../../../tests/c/models/', import.m
 export const executablePath = process.env.WISP_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync) ?? '/usr/bin/chromium';
 export const quiet = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--disable-quic', '--no-first-run'];
-/** Where there is no graphics card the processor draws. */
+/** Flags for drawing on the processor, where there is no graphics card. */
 export const drawing = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
 const types = { '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm',

@@ -27,7 +27,6 @@ export class Chance {
   }
 }
 
-/** Hash of the outputs of that many frames. */
 export function hashOfLife(wisp, bytes, frames) {
   const model = wisp.model(bytes);
   const isChain = model.kind === 'chain';
@@ -72,7 +71,6 @@ export function* gusts(seconds) {
   }
 }
 
-/** Hash of the wind in that many seconds of sound. */
 export function hashOfWind(wisp, seconds) {
   const wind = wisp.windLevel({ sampleRate: 48000 });
   const hash = new Hash();

@@ -441,7 +441,7 @@ test('memory stays flat over many lives', () => {
   assert.equal(wisp.memoryBytes, before);
 });
 
-// A breath: noise that falls by 12 dB an octave, as wind does at a capsule. `level` is its loudness.
+// A breath: noise that falls by 12 dB an octave, as wind does at a microphone's capsule. `level`: factor of its amplitude.
 function breath(seconds, rate, level, chance) {
   const sound = new Float32Array(Math.round(seconds * rate));
   let slow = 0;

@@ -58,7 +58,6 @@ export class Engine extends Module {
   private width = 0;
   private height = 0;
 
-  /** Starts a module. */
   static async start(module: WebAssembly.Module | BufferSource): Promise<Engine> {
     return new Engine(await compiled(module));
   }
@@ -117,7 +116,6 @@ export class Engine extends Module {
     };
   }
 
-  /** Ends the capture. */
   finish(): Captured {
     this.call('studio_finish');
     return this.recording();
@@ -137,7 +135,6 @@ export class Engine extends Module {
     return { model, ...(JSON.parse(this.text()) as Omit<Learned, 'model'>) };
   }
 
-  /** Judges a model on recordings. */
   validate(model: Uint8Array, recordings: readonly Uint8Array[]): ReportText {
     this.gather(recordings);
     this.withBytes(model, (at, size) => this.call('studio_validate', at, size));
@@ -149,7 +146,6 @@ export class Engine extends Module {
     for (const [k, bytes] of recordings.entries()) this.read('studio_add', bytes, { name: names[k] ?? 'recording.csv' });
   }
 
-  /** Passes a table to a function that reads it. */
   private read(by: string, bytes: Uint8Array, settings: TableSettings & { name: string }): void {
     this.withBytes(bytes, (at, size) => this.withText(JSON.stringify(settings), (words, length) => this.call(by, at, size, words, length)));
   }

@@ -77,7 +77,6 @@ export interface Series {
   samples: Float64Array;
 }
 
-/** A recording. */
 export interface Captured {
   /** as the program writes it, for learning, saving and sending */
   csv: Uint8Array;
@@ -154,7 +153,6 @@ export interface ExportSettings {
   height?: number;
 }
 
-/** A file. */
 export interface Exported {
   name: string;
   bytes: Uint8Array;

@@ -82,7 +82,6 @@ function showing(of: number, wisp: Engine): (picture: RawPicture | null, share: 
   };
 }
 
-/** A live capture. */
 class Live {
   private first: number | null = null;
   private early: { sound: Float32Array; rate: number; seconds: number }[] = [];

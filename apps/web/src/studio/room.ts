@@ -112,7 +112,6 @@ export class Room {
     if (this.filming !== null) this.gather();
   }
 
-  /** Accepts dropped files. */
   take({ files, entries }: Dropped): void {
     unfold(files, entries).then(
       (found) => this.files(found),
@@ -138,12 +137,10 @@ export class Room {
     this.left.replaceChildren(...parts);
   }
 
-  /** Shows the placeholder for a film. */
   private invite(): void {
     this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
   }
 
-  /** Shows a message of the page. */
   say(words: string): void {
     this.app.notices.say(words);
   }

@@ -8,7 +8,6 @@ const ROWS = 400;
 
 export interface TableHead {
   names: string[];
-  /** whether each column is numeric */
   numeric: boolean[];
   /** whether it is a Wisp recording, whose roles are known */
   recording: boolean;
@@ -33,7 +32,6 @@ const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.te
 /** Whether a name suggests a column of times. */
 const isTime = (name: string): boolean => /^(t|time|seconds?|sec|zeit|millis|ms)(?![a-z])/i.test(name);
 
-/** Examines the first lines of a table. */
 export function headOf(bytes: Uint8Array): TableHead {
   const text = new TextDecoder().decode(bytes.subarray(0, LOOKED_AT)).replace(/^\uFEFF/, '');
   const all = text.split(/\r?\n/).filter((line) => line.trim() !== '' && !/^sep=/i.test(line));

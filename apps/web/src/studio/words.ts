@@ -91,7 +91,6 @@ function praiseOf(report: Report): string {
   return `${follows} ${borrowed}`.trim();
 }
 
-/** Verdict on a model. */
 export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
   const lost = thing === 'table' && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
@@ -209,7 +208,6 @@ const STAGES: Readonly<Record<string, string>> = {
   'testing residuals': 'Looking whether anything is left that could be learned.',
 };
 
-/** Explanation of a stage of work. */
 export function stageInWords(stage: string, thing: Thing | 'either' = 'flame'): string {
   return stage === 'capturing' ? CAPTURING[thing] : (STAGES[stage] ?? sentence(stage));
 }

@@ -52,7 +52,6 @@ function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: num
 
 const pairOf = (model: Model, stretch: Stretch, seed: number): Pair => ({ name: stretch.name, filmed: stretch.filmed, played: played(model, stretch, seed) });
 
-/** Returns the list in random order. */
 export function shuffled<T>(list: readonly T[], chance: () => number = Math.random): T[] {
   return list.map((one) => [chance(), one] as const).sort(([a], [b]) => a - b).map(([, one]) => one);
 }

@@ -15,7 +15,6 @@ export const ANSWERS = 20;
 const SIDES = ['left', 'right'] as const;
 type Side = (typeof SIDES)[number];
 
-/** One answer of the test. */
 interface Answer {
   pair: string;
   filmed: Side;

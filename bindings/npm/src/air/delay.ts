@@ -39,7 +39,6 @@ export class WindDelay {
   private newest = 0;
   private clock = 0;
 
-  /** Takes the breath of this frame. */
   push(seconds: number, wind: number): void {
     this.clock += seconds;
     this.newest = (this.newest + 1) % KEPT;

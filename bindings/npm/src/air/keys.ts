@@ -15,7 +15,6 @@ export class KeyBreath {
   private strength = 0;
   private clock = 0;
 
-  /** Whether a key (KeyboardEvent.code) blows. */
   static blows(code: string): boolean {
     return code in BREATHS;
   }

@@ -3,11 +3,10 @@
 import { FlameShape } from './flame_shape.js';
 import { smokeAfter } from './candle.js';
 
-/** Seconds to reach a wick by itself and of the strike before; distance of the strike, room units; flare's decay, s. */
-const ERRAND = 0.75;
-const STRIKE = 0.22;
-const STRUCK = 0.34;
-const FLARES = 0.32;
+const ERRAND = 0.75; // seconds in which it reaches a wick by itself
+const STRIKE = 0.22; // seconds of the strike before
+const STRUCK = 0.34; // distance of the strike, room units
+const FLARES = 0.32; // decay time of the flare, seconds
 
 export class Match {
   readonly shape = new FlameShape();
@@ -96,7 +95,6 @@ export class Match {
     this.flare = 1;
   }
 
-  /** Advances its motion. */
   update(seconds: number): void {
     if (seconds <= 0) return;
     this.flare *= Math.exp(-seconds / FLARES);

@@ -32,7 +32,6 @@ const MIN_PLUME = 0.02;
 /** Exposure in lit and dark rooms, and adaptation times in seconds to more and to less light. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
-/** Contents of one picture. */
 export interface CandlePicture {
   setting: Setting;
   candles: Candle[];
@@ -337,7 +336,6 @@ export class CandleRenderer {
     this.quad.draw();
   }
 
-  /** Draws a candle shaped as a digit. */
   private drawFigure(view: RoomView, { stand, shape, ember }: Candle): void {
     const { lettering } = this;
     if (lettering === null) return;

@@ -183,7 +183,6 @@ export class CandleScene implements Scene {
     return { lit: this.candles.filter((candle) => candle.lit).length, of: this.candles.length };
   }
 
-  /** x of the first candle. */
   get firstX(): number {
     return this.candles[0]?.stand.x ?? 0;
   }
@@ -198,7 +197,6 @@ export class CandleScene implements Scene {
     };
   }
 
-  /** Whether there is smoke in the air. */
   get smoking(): boolean {
     return this.candles.some((candle) => candle.smoking > 0);
   }

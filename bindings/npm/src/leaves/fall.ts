@@ -269,7 +269,6 @@ export class LeafFall {
     return wind > LIFTING && wind > LIFTING * (1 + 2 * this.chance());
   }
 
-  /** Throws a lying leaf upwards. */
   private kick(slot: number, gust: Gust): void {
     const outputs = this.bank.instanceOutputs(this.ids[slot] as Instance);
     const spread = (): number => this.chance() - 0.5;
@@ -300,7 +299,6 @@ function nearness(far2: number): number {
   return share * share * share;
 }
 
-/** Wraps a value into a range. */
 function wrapped(value: number, low: number, high: number): number {
   const range = high - low;
   return value - range * Math.floor((value - low) / range);

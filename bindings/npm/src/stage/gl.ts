@@ -233,7 +233,6 @@ export function hasRange(gl: WebGL2RenderingContext): boolean {
   return (gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float')) !== null;
 }
 
-/** Directs drawing to the canvas. */
 export function drawToCanvas(gl: WebGL2RenderingContext): void {
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);

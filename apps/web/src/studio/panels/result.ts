@@ -35,7 +35,6 @@ function titleOfMeters(thing: Thing, learned: Learned): string {
   return isHeldOut(learned.report) ? 'On seconds that it had not seen' : 'How well it fits what it was learned from';
 }
 
-/** The panel of a session with its learned model. */
 export function resultPanel(session: Session, learned: Learned, events: ResultEvents): HTMLElement {
   const { takes, recipe } = session;
   const thing = thingOf(session);

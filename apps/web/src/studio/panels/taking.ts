@@ -13,7 +13,6 @@ async function copy(text: string): Promise<string> {
   return 'Copied';
 }
 
-/** Formats of moving pictures. */
 export type Moving = 'film' | 'gif';
 
 /** Files for other tools. */
@@ -31,7 +30,6 @@ export interface TakingEvents {
 /** An identifier valid in C. */
 export const nameInC = (name: string): string => name.normalize('NFKD').replace(/\W+/g, '_').replace(/^(?=\d)|^_+/, 'wisp_');
 
-/** The export buttons. */
 export function takingOf(session: Session, { model }: Learned, events: TakingEvents): HTMLElement {
   const { takes } = session;
   const name = sessionName(session);

@@ -35,7 +35,6 @@ function plotKey({ id }: Curve): string | null {
   return `${family} ${own}`;
 }
 
-/** Plots of all curves. */
 export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   const groups = new Map<string, Curve[]>();
   for (const curve of curves) {
@@ -53,7 +52,6 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
 /** Name of a curve in the legend. */
 const nameOf = ({ id, label }: Pick<Curve, 'id' | 'label'>): string => (id.startsWith('zeros') ? `zeros, ${label}` : label);
 
-/** Whether a curve is poles or zeros in the z plane. */
 const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
 
 /** Whether a curve is one of many similar ones, which need no names. */
