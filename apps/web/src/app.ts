@@ -11,7 +11,7 @@ import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
 import { Player, type Playing } from './player.js';
 import { Probe } from './probe.js';
-import type { Air, Scene } from '@wisp/player/parts/stage/scene';
+import type { Air } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from '@wisp/player/parts/air/breath';
 import type { Parts } from './late.js';
@@ -79,7 +79,8 @@ export class App {
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
       framed: (cost, seconds) => this.onFrame(cost, seconds),
-    }, { covered: overlay ? 0 : COVERED, clear: overlay });
+    }, overlay);
+    this.stage.covered = overlay ? 0 : COVERED;
     this.stage.detail = settings.detail;
     if (document.body.classList.contains('calm')) this.stage.pace = SLOW;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
@@ -98,7 +99,7 @@ export class App {
   }
 
   async start(): Promise<void> {
-    this.stage.start();
+    this.stage.loop.start();
     await this.playChosen();
     this.hint.show(START_HINT, 12);
     // An overlay has no buttons to press.
@@ -343,15 +344,17 @@ export class App {
     this.probe.wind = reading.wind;
     this.probe.answer = reading.answer;
     this.offerWind(playing, reading.wind);
-    if (playing.scene instanceof CandleScene) this.watchCandles(playing.scene);
-    else this.watchOthers(playing.scene);
+    if (playing.scene instanceof CandleScene) return this.watchCandles(playing.scene);
+    this.probe.burning = null;
+    this.probe.leaves = playing.scene.leaves?.() ?? null;
+    this.controls.setActive(true);
   }
 
   private duck(seconds: number): void {
     const before = this.duckFrom;
     this.duckFrom += seconds;
-    if (before < 0 && this.duckFrom >= 0) this.breath.keys.press('arrival');
-    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.release('arrival');
+    if (before < 0 && this.duckFrom >= 0) this.breath.keys.held.add('arrival');
+    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.held.delete('arrival');
   }
 
   /** Says once per model that it was learned without wind, and offers a remedy. */
@@ -363,12 +366,6 @@ export class App {
       words: 'Borrow the shipped answer to wind',
       accept: () => void this.player.borrowWind(),
     });
-  }
-
-  private watchOthers(scene: Scene): void {
-    this.probe.burning = null;
-    this.probe.leaves = scene.leaves?.() ?? null;
-    this.controls.setActive(true);
   }
 
   private watchCandles(scene: CandleScene): void {

@@ -37,10 +37,7 @@ export class Player {
   /** Plays the settings' model: that of the link, or the scene's shipped one. Throws on failure. */
   async playChosen(): Promise<void> {
     const { model } = this.settings;
-    if (model === '') {
-      await this.playShipped();
-      return;
-    }
+    if (model === '') return this.playShipped();
     const turn = ++this.opening;
     const { fetchModel } = await fetchPart(() => import('./model_link.js'));
     const { bytes, file } = await fetchModel(model);
@@ -108,9 +105,7 @@ export class Player {
   }
 
   private async sceneOf(model: Model): Promise<{ scene: Scene; tab: SceneName | null }> {
-    if (model.view === 'outline') {
-      return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
-    }
+    if (model.view === 'outline') return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
     if (model.view === 'pose' || model.view === 'position') {
       const { LeavesScene } = await fetchPart(() => import('@wisp/player/parts/leaves/scene'));
       return { scene: new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };

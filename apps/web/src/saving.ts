@@ -31,11 +31,11 @@ const lasts = ({ settings }: App): number => (settings.wish !== '' ? 9 : 6.5);
 
 /** What happens in a film: the flame burns, is blown out, smokes, and is lit again. */
 async function happen(app: App): Promise<void> {
-  const { keys } = app.breath;
+  const { held } = app.breath.keys;
   const scene = app.player.playing?.scene;
-  const acts: readonly (readonly [at: number, act: () => void])[] = [
-    [0.9, () => keys.press('Space')],
-    [2.1, () => keys.release('Space')],
+  const acts: readonly (readonly [at: number, act: () => unknown])[] = [
+    [0.9, () => held.add('Space')],
+    [2.1, () => held.delete('Space')],
     [app.settings.wish !== '' ? 7 : 4.6, () => scene?.act()],
     [lasts(app), () => undefined],
   ];

@@ -17,12 +17,7 @@ export interface TableHead {
   preview: Curve[];
 }
 
-function separatorOf(line: string): RegExp {
-  if (line.includes('\t')) return /\t/;
-  if (line.includes(';')) return /;/;
-  if (line.includes(',')) return /,/;
-  return /\s+/;
-}
+const separatorOf = (line: string): RegExp => [/\t/, /;/, /,/].find((one) => one.test(line)) ?? /\s+/;
 
 const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
 /** Value of a cell with decimal comma or point, and Fortran's exponents; NaN where it is no number. */

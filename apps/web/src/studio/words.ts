@@ -204,7 +204,6 @@ const STAGES: Readonly<Record<string, string>> = {
   fitting: 'Fitting what each point of the outline does next.',
   simulating: 'Playing it freely, beside the film.',
   predicting: 'Predicting seconds that it has never seen.',
-  judging: 'Judging it on seconds that it has never seen.',
   'testing residuals': 'Looking whether anything is left that could be learned.',
 };
 

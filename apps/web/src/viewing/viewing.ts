@@ -15,14 +15,6 @@ export const ANSWERS = 20;
 const SIDES = ['left', 'right'] as const;
 type Side = (typeof SIDES)[number];
 
-interface Answer {
-  pair: string;
-  filmed: Side;
-  answered: Side;
-  right: boolean;
-  seconds: number;
-}
-
 /** Share of right answers with its 95 % interval (Wilson, 1927). */
 export function shareOf(right: number, of: number): { share: number; low: number; high: number } {
   const z = 1.96;
@@ -43,12 +35,12 @@ export function meaningOf(right: number, of: number): string {
 
 /** A clip repeated on a canvas. */
 class Screen {
-  readonly canvas: HTMLCanvasElement;
+  readonly canvas = element('canvas', { role: 'img' });
   clip: Clip | null = null;
   private readonly shape = new FlameShape();
 
   constructor(side: Side) {
-    this.canvas = element('canvas', { role: 'img', 'aria-label': `A flame, ${side}` });
+    this.canvas.setAttribute('aria-label', `A flame, ${side}`);
   }
 
   draw(seconds: number): void {
@@ -76,7 +68,7 @@ export class Viewing {
   private readonly screens = { left: new Screen('left'), right: new Screen('right') };
   private readonly stage = element('div', { class: 'both' }, this.screens.left.canvas, this.screens.right.canvas);
   private readonly actions = element('div', { class: 'actions' });
-  private readonly answers: Answer[] = [];
+  private readonly answers: { pair: string; filmed: Side; answered: Side; right: boolean; seconds: number }[] = [];
   private since = 0;
   private filmed: Side = 'left';
 

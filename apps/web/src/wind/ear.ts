@@ -124,15 +124,10 @@ export class Ear {
         },
         onLost: (error) => this.fail(error),
       });
-      if (turn !== this.turn) {
-        microphone.stop();
-        return;
-      }
+      if (turn !== this.turn) return microphone.stop();
       this.microphone = microphone;
       this.state = 'listening';
-      if (!microphone.raw) {
-        this.app.notices.say('This browser or system smooths the sound of the microphone: blow a little harder.');
-      }
+      if (!microphone.raw) this.app.notices.say('This browser or system smooths the sound of the microphone: blow a little harder.');
     } catch (error) {
       if (turn === this.turn) this.fail(error);
     }

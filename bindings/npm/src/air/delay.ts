@@ -17,10 +17,7 @@ const WAKE = { share: 0.45, wide: 0.16, long: 1.1 };
 /** Minimum share of the wind behind any number of candles. */
 const SHELTERED = 0.5;
 
-interface Place {
-  x: number;
-  z: number;
-}
+type Place = Readonly<Record<'x' | 'z', number>>;
 
 /** Share of a wind with unit direction (x, z) that the other candles leave at a place. */
 export function shelter(at: Place, others: readonly Place[], x: number, z: number): number {

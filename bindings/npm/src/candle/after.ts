@@ -21,8 +21,6 @@ export class After {
   }
 
   dispose(): void {
-    this.glare.dispose();
-    this.air.dispose();
-    this.match.dispose();
+    for (const one of [this.glare, this.air, this.match]) one.dispose();
   }
 }

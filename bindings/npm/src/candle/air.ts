@@ -129,9 +129,7 @@ export class Air {
   }
 
   dispose(): void {
-    for (const pair of [this.flow, this.pressure, this.smoke]) pair.dispose();
-    this.words.dispose();
-    for (const program of Object.values(this.programs)) program.dispose();
+    for (const one of [this.flow, this.pressure, this.smoke, this.words, ...Object.values(this.programs)]) one.dispose();
   }
 
   /** Sets up square cells, about as many for every aspect ratio. */

@@ -69,8 +69,7 @@ export class Match {
   send(x: number, y: number): void {
     this.errand = { left: ERRAND + 0.5 };
     this.strike();
-    this.goalX = x;
-    this.goalY = y;
+    this.moveTo(x, y);
   }
 
   moveTo(x: number, y: number): void {
@@ -81,18 +80,12 @@ export class Match {
   drop(): void {
     this.held = false;
     this.errand = null;
-    this.goalX = this.homeX;
-    this.goalY = this.homeY;
+    this.moveTo(this.homeX, this.homeY);
   }
 
   /** Whether it should burn: held or moving by itself, and struck. */
   get wanted(): boolean {
     return (this.held || this.errand !== null) && this.striking === 0;
-  }
-
-  /** Ignites its head. */
-  catchFire(): void {
-    this.flare = 1;
   }
 
   update(seconds: number): void {

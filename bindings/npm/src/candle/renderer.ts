@@ -14,12 +14,12 @@ import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
 import flameFragment from './shaders/flame.frag.js';
-import fullVertex from './shaders/full.vert.js';
 import lightFragment from './shaders/light.frag.js';
 import noise from './shaders/noise.glsl.js';
 import room from './shaders/room.glsl.js';
 import surfaceFragment from './shaders/surface.frag.js';
 import table from './shaders/table.glsl.js';
+import wholeVertex from './shaders/whole.vert.js';
 
 /** Maximum number of lights: candles, match, one to spare. */
 const MAX_LIGHTS = MAX_LAMPS + 2;
@@ -56,12 +56,7 @@ interface Room {
   warm: () => boolean;
 }
 
-interface Lamp {
-  x: number;
-  y: number;
-  z: number;
-  light: number;
-}
+type Lamp = Record<'x' | 'y' | 'z' | 'light', number>;
 
 export class CandleRenderer {
   private readonly quad: Quad;
@@ -95,7 +90,7 @@ export class CandleRenderer {
     this.programs = {
       candle: new Program(gl, boardVertex, noise + candleFragment),
       flame: new Program(gl, boardVertex, noise + flameFragment),
-      develop: new Program(gl, fullVertex, noise + developFragment),
+      develop: new Program(gl, wholeVertex, noise + developFragment),
     };
     this.warm = warming(Object.values(this.programs));
   }
@@ -110,7 +105,7 @@ export class CandleRenderer {
     gl.disable(gl.BLEND);
     this.gatherLamps(view, shown);
     this.adapt(shown);
-    const after = this.ready(look);
+    const after = this.after !== null && !look.plain && this.after.warm() ? this.after : null;
     if (after !== null) after.air.update(view.width / view.height, this.stirring(view, shown));
     if (!look.clear) this.drawSurface(room.surface, view, shown);
     const lies = after !== null && shown.match.lying;
@@ -135,16 +130,8 @@ export class CandleRenderer {
 
   dispose(): void {
     this.gone = true;
-    this.quad.dispose();
-    this.surface.dispose();
-    this.picture.dispose();
-    this.after?.dispose();
-    this.lettering?.dispose();
-    for (const program of Object.values(this.programs)) program.dispose();
-    for (const { surface, light } of Object.values(this.rooms)) {
-      surface.dispose();
-      light.dispose();
-    }
+    const rooms = Object.values(this.rooms).flatMap(({ surface, light }) => [surface, light]);
+    for (const one of [this.quad, this.surface, this.picture, this.after, this.lettering, ...Object.values(this.programs), ...rooms]) one?.dispose();
   }
 
   /** Programs for a setting; null while those of a cake are loading. */
@@ -153,25 +140,23 @@ export class CandleRenderer {
     const name = setting.cake === null ? 'table' : 'cake';
     const there = this.rooms[name];
     if (there !== undefined) return there.warm() ? there : null;
-    if (name === 'table') {
-      this.furnish(name, table);
-      return null;
+    if (name === 'table') this.furnish(name, table);
+    else if (!this.bringing) {
+      this.bringing = true;
+      void import('./cake.js').then(({ cake, Lettering }) => {
+        this.bringing = false;
+        if (this.gone) return;
+        this.lettering = new Lettering(this.gl);
+        this.furnish('cake', cake);
+      });
     }
-    if (this.bringing) return null;
-    this.bringing = true;
-    void import('./cake.js').then(({ cake, Lettering }) => {
-      this.bringing = false;
-      if (this.gone) return;
-      this.lettering = new Lettering(this.gl);
-      this.furnish('cake', cake);
-    });
     return null;
   }
 
   private furnish(name: 'table' | 'cake', onIt: string): void {
     const source = noise + room + onIt;
-    const surface = new Program(this.gl, fullVertex, source + surfaceFragment);
-    const light = new Program(this.gl, fullVertex, source + lightFragment);
+    const surface = new Program(this.gl, wholeVertex, source + surfaceFragment);
+    const light = new Program(this.gl, wholeVertex, source + lightFragment);
     this.rooms[name] = { surface, light, warm: warming([surface, light]) };
   }
 
@@ -183,10 +168,6 @@ export class CandleRenderer {
       this.bringing = false;
       if (!this.gone && !this.gl.isContextLost()) this.after = new After(this.gl, this.quad);
     });
-  }
-
-  private ready(look: SceneLook): After | null {
-    return this.after !== null && !look.plain && this.after.warm() ? this.after : null;
   }
 
   /** Adapts the exposure to the amount of light. */

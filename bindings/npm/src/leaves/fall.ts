@@ -27,6 +27,8 @@ const LIFTING = 0.9;
 const LIFT_SECONDS = 0.45;
 /** Squared reach of the pointer's gust, metres². */
 const REACH2 = 1.4;
+/** Orientation where a model has none. */
+const LEVEL = [1, 0, 0, 0] as const;
 /** Numbers per instance on the graphics card: x, y, z, opacity; quaternion w, x, y, z. */
 export const LEAF_NUMBERS = 8;
 
@@ -106,7 +108,9 @@ export class LeafFall {
     let placings = PLACINGS;
     const began = performance.now();
     while (this.ids.length < this.wanted && (placings > 0 || performance.now() - began < FILLING)) {
-      this.begin();
+      const slot = this.ids.push(this.bank.spawn(this.ids.length)) - 1;
+      this.start(slot, TOP * (0.12 + 0.95 * this.chance()));
+      this.count = this.ids.length;
       placings = Math.max(0, placings - 1);
     }
     this.blow(gust);
@@ -122,13 +126,6 @@ export class LeafFall {
     word ^= word << 5;
     this.random = word >>> 0;
     return this.random / 4294967296;
-  }
-
-  private begin(): void {
-    const slot = this.ids.length;
-    this.ids.push(this.bank.spawn(slot));
-    this.start(slot, TOP * (0.12 + 0.95 * this.chance()));
-    this.count = this.ids.length;
   }
 
   /** Starts a leaf at a height, at a random place. */
@@ -205,22 +202,13 @@ export class LeafFall {
       shown[to] = x;
       shown[to + 1] = y;
       shown[to + 2] = z;
-      if (this.wide) {
-        shown[to + 4] = outputs[from + 3] as number;
-        shown[to + 5] = outputs[from + 4] as number;
-        shown[to + 6] = outputs[from + 5] as number;
-        shown[to + 7] = outputs[from + 6] as number;
-      } else {
-        shown[to + 4] = 1;
-      }
+      for (let k = 0; k < 4; ++k) shown[to + 4 + k] = this.wide ? (outputs[from + 3 + k] as number) : LEVEL[k]!;
       this.lift[slot] = Math.max(0, (this.lift[slot] as number) - seconds);
       const tired = this.rest(slot, x, y, z, seconds);
       shown[to + 2] = z + LAYER * (this.layers[slot] as number);
       if (tired && placings > again.length && seen[slot] === 0) again.push(slot);
       if (z < LYING && again.length + kicked.length < placings && this.lifts(x, y, gust)) kicked.push(slot);
-      const goal = tired ? 0 : 1;
-      const step = seconds / FADES;
-      seen[slot] = Math.max(0, Math.min(1, (seen[slot] as number) + (goal > 0 ? step : -step)));
+      seen[slot] = Math.max(0, Math.min(1, (seen[slot] as number) + (tired ? -seconds : seconds) / FADES));
       shown[to + 3] = seen[slot] as number;
     }
     for (const slot of again) this.start(slot, TOP * (0.8 + 0.3 * this.chance()));
@@ -274,9 +262,7 @@ export class LeafFall {
     const spread = (): number => this.chance() - 0.5;
     this.bank.place(this.ids[slot] as Instance, {
       position: [outputs[0] as number, outputs[1] as number, LYING + 0.02],
-      orientation: this.wide
-        ? [outputs[3] as number, outputs[4] as number, outputs[5] as number, outputs[6] as number]
-        : [1, 0, 0, 0],
+      orientation: this.wide ? ([...outputs.subarray(3, 7)] as [number, number, number, number]) : LEVEL,
       velocity: [0.5 * gust.everywhere + 0.3 * gust.speedX + spread(), spread(), 1.6 + 1.4 * this.chance()],
       spin: [8 * spread(), 8 * spread(), 6 * spread()],
     });

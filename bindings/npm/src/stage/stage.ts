@@ -22,10 +22,7 @@ const FAR_TOO_SLOW = 1 / 16;
 const FADE_SECONDS = 0.45;
 
 /** Cost of a frame: milliseconds of this thread. */
-export interface FrameCost {
-  update: number;
-  draw: number;
-}
+export type FrameCost = Record<'update' | 'draw', number>;
 
 export interface StageEvents {
   /** signed breath of this frame, from microphone and keys */
@@ -38,18 +35,10 @@ export interface StageEvents {
   framed(cost: FrameCost, seconds: number): unknown;
 }
 
-export interface StageOptions {
-  /** only the burning things, on a transparent canvas */
-  clear?: boolean;
-  /** CSS pixels at the lower edge covered by controls */
-  covered?: number;
-}
-
 export class Stage {
   readonly pointer: PointerReader;
-  readonly clear: boolean;
   /** CSS pixels at the lower edge covered by controls */
-  covered: number;
+  covered = 0;
   frames = 0;
   /** whether the last frame drew a picture */
   shown = false;
@@ -63,10 +52,10 @@ export class Stage {
   private given = false;
   private loser: WEBGL_lose_context | null = null;
   private scene: Scene | null = null;
-  /** whether the moving pointer makes no wind */
+  /** whether the pointer makes no wind */
   still = false;
   private wanted: BlobCallback | null = null;
-  private readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
+  readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
   private fade = 0;
   private adapted = 1;
   private lookedAt = 0;
@@ -76,16 +65,10 @@ export class Stage {
   constructor(
     readonly canvas: HTMLCanvasElement,
     private readonly events: StageEvents,
-    options: StageOptions = {},
+    /** whether only the burning things are drawn, on a transparent canvas */
+    private readonly clear: boolean,
   ) {
-    this.clear = options.clear ?? false;
-    this.covered = options.covered ?? 0;
-    this.pointer = new PointerReader(canvas, {
-      press: (x, y) => this.scene?.press?.(x, y),
-      release: (x, y, tap) => this.scene?.release?.(x, y, tap),
-      hover: (x, y) => this.scene?.hover?.(x, y) ?? 'none',
-      touched: () => events.touched(),
-    });
+    this.pointer = new PointerReader(canvas, () => this.scene, () => events.touched());
     canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
     canvas.addEventListener('webglcontextrestored', () => this.regain());
     this.open();
@@ -98,16 +81,6 @@ export class Stage {
     this.fade = 0;
     if (this.gl !== null && !this.gl.isContextLost()) scene.attach(this.gl);
     this.canvas.setAttribute('aria-label', scene.describe());
-  }
-
-  /** Starts; may be called twice. */
-  start(): void {
-    this.loop.start();
-  }
-
-  /** Stops until start(). */
-  stop(): void {
-    this.loop.stop();
   }
 
   /** Releases the context, as a browser has few of them; take() gets it back. */
