@@ -1,12 +1,7 @@
 // Inputs and results of learning.
 
 /** A rectangle of pixels. */
-export interface Region {
-  x: number;
-  y: number;
-  width: number;
-  height: number;
-}
+export type Region = Record<'x' | 'y' | 'width' | 'height', number>;
 
 /** Settings of a film's capture. Omitted ones have the program's defaults. */
 export interface PictureSettings {
