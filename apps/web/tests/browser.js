@@ -43,11 +43,14 @@ export async function openBrowser(flags = []) {
   };
 }
 
-/** For the tests of a `describe`: a page, of which `ready` is told before them. After them it must have made no error and asked no other host. */
-export function onPage(hash, ready, { flags, ...options } = {}) {
+/**
+ * Opens a page before the tests of a `describe` and passes it to `ready`. After them it asserts that the page had no
+ * error and requested nothing from other hosts. `flags`: of the browser, made when it starts.
+ */
+export function onPage(hash, ready, { flags = () => [], ...options } = {}) {
   let opened, page;
   before(async () => {
-    opened = await openBrowser(flags);
+    opened = await openBrowser(flags());
     page = await opened.page(hash, options);
     await ready(page, opened);
   });
@@ -58,8 +61,13 @@ export function onPage(hash, ready, { flags, ...options } = {}) {
   });
 }
 
+const fakes = ['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream'];
 /** A browser whose microphone is a sound file, played once. */
-export const hears = (file) => ['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}%noloop`];
+export const hears = (file) => [...fakes, `--use-file-for-fake-audio-capture=${file}%noloop`];
+/** A browser whose camera and microphone are files, played again and again. */
+export const filmsWith = ({ picture, sound }) => [...fakes, `--use-file-for-fake-video-capture=${picture}`, `--use-file-for-fake-audio-capture=${sound}`, loud];
+/** Lets pages sound before somebody presses anything. */
+export const loud = '--autoplay-policy=no-user-gesture-required';
 
 /** Waits until something holds in the page. Polls from here, since the page's policy forbids Playwright's own wait. */
 export const until = (page, what, holds, argument = null) => seen(what, () => page.evaluate(holds, argument));
@@ -98,13 +106,14 @@ export async function openCard(page) {
   await until(page, 'the card is open', () => !document.getElementById('card').hidden);
 }
 
-/** Blows by the space bar until nothing burns. */
-export async function blowOut(page) {
+export async function hold(page, code, what, holds) {
   await page.focus('#stage');
-  await page.keyboard.down('Space');
-  await until(page, 'it is out', () => window.wisp.burning?.lit === 0);
-  await page.keyboard.up('Space');
+  await page.keyboard.down(code);
+  await until(page, what, holds);
+  await page.keyboard.up(code);
 }
+/** Blows by the space bar until nothing burns. */
+export const blowOut = (page) => hold(page, 'Space', 'it is out', noneLit);
 
 /** For tests of the studio: its panel, its step, and the words in a place. */
 export const panel = '#studio .panel';

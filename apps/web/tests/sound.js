@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { wavOf } from '../../../bindings/npm/tests/chromium.mjs';
+import { hears, openBrowser, until } from './browser.js';
 
 export const rate = 44_100;
 
@@ -125,4 +126,28 @@ export function writeSound(path, pieces) {
     at += piece.length;
   }
   writeFileSync(path, wavOf(samples, rate));
+}
+
+/**
+ * A page that hears these pieces of sound, one after another, from the moment in which its microphone opens. What it
+ * shows is kept thirty times a second, timed by the sound.
+ */
+export async function hearing(folder, pieces, { detail = 0.2, ...options } = {}) {
+  const file = join(folder, `${Math.random()}.wav`);
+  writeSound(file, pieces);
+  const opened = await openBrowser(hears(file));
+  const page = await opened.page(`#scene=candle&seed=1&noise=0.5&detail=${detail}`, options);
+  await page.evaluate(() => {
+    let began = 0;
+    window.course = [];
+    setInterval(() => {
+      const { hearing, wind, answer, burning, smoking, sound, frames } = window.wisp;
+      if (began === 0 && hearing === 'listening') began = performance.now();
+      window.soundTime = began === 0 ? 0 : (performance.now() - began) / 1000;
+      window.course.push({ time: window.soundTime, hearing, wind, answer, lit: burning.lit, smoking, frames, ...sound });
+    }, 33);
+  });
+  const at = (seconds) => until(page, `${seconds} s of sound`, (time) => window.soundTime > time, seconds);
+  const between = (from, to) => page.evaluate(([low, high]) => window.course.filter(({ time }) => time > low && time < high), [from, to]);
+  return { opened, page, at, between };
 }
