@@ -57,17 +57,12 @@ export const turnedFilm = another('turned.mp4', '-t', '5', '-c', 'copy', '-metad
 /** Five seconds of a film in a file that states no colour space. */
 export const untaggedFilm = another('untagged.mp4', '-t', '5', '-vf', 'setparams=colorspace=unknown:color_primaries=unknown:color_trc=unknown', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy');
 
-export function capturedByProgram(film, folder) {
-  const recording = join(folder, 'recording.csv');
-  execFileSync(program, ['capture', 'flame', film, '-o', recording, '--quiet'], { stdio: 'ignore' });
+const byProgram = (recording, ...what) => {
+  execFileSync(program, ['capture', ...what, '-o', recording, '--quiet'], { stdio: 'ignore' });
   return recording;
-}
-
-export function fallsByProgram(film, metres, folder) {
-  const recording = join(folder, 'program_falls.csv');
-  execFileSync(program, ['capture', 'fall', film, '--height', String(metres), '-o', recording, '--quiet'], { stdio: 'ignore' });
-  return recording;
-}
+};
+export const capturedByProgram = (film, folder) => byProgram(join(folder, 'recording.csv'), 'flame', film);
+export const fallsByProgram = (film, metres, folder) => byProgram(join(folder, 'program_falls.csv'), 'fall', film, '--height', String(metres));
 
 /** A film as files for Chromium's fake camera and microphone. */
 export function asDevices(film, folder, { silent = false, seconds = 8 } = {}) {

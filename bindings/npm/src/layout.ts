@@ -57,7 +57,7 @@ export const modelFacts = struct(128, {
   outputs: [8, 'count'],
   /** Number of control points of an outline; otherwise 0. */
   controlPoints: [12, 'count'],
-  /** Steps per second, and duration of one. */
+  /** Steps per second; `stepNanoseconds`: duration of one. */
   rateHz: [24, 'double'],
   /** Metres per unit of an outline; 0 if unknown. */
   metresPerUnit: [32, 'double'],
@@ -66,16 +66,24 @@ export const modelFacts = struct(128, {
   multiplyAddsPerFrame: [48, 'long'],
   /** All arithmetic operations of a frame, as stored; 0 if missing. */
   operationsPerFrame: [56, 'long'],
-  blowOutLevel: [64, 'double'],
-  blowOutSeconds: [72, 'double'],
   dynamics: [80, 'count'],
   view: [84, 'count'],
   /** Half sizes in metres of a body with pose or position; 0 if unknown. */
   halfWidth: [88, 'double'],
   halfLength: [96, 'double'],
-  blowOutHaste: [104, 'double'],
-  blowOutRecoverySeconds: [112, 'double'],
-  blowOutInput: [120, 'count'],
+});
+
+/** The fields `blow_out_…` of the same struct. */
+export const blowOut = struct(modelFacts.size, {
+  /** Index of the wind input. */
+  input: [120, 'count'],
+  /** Minimum wind that extinguishes when it lasts `seconds`, in the input's unit. */
+  level: [64, 'double'],
+  seconds: [72, 'double'],
+  /** At twice the level it takes seconds / (1 + haste). */
+  haste: [104, 'double'],
+  /** Seconds below the level until full recovery. */
+  recoverySeconds: [112, 'double'],
 });
 
 export const channel = struct(40, {
@@ -119,7 +127,7 @@ export const flameState = struct(56, {
   events: [12, 'count'],
   sinceLit: [16, 'time'],
   sinceOut: [24, 'time'],
-  /** Light source: middle of the outline (z in the round), area relative to rest, colour temperature. */
+  /** Light source at the outline's centroid; `intensity`: area relative to rest; `kelvin`: colour temperature. */
   light: [32, 'vector'],
   intensity: [44, 'float'],
   kelvin: [48, 'float'],

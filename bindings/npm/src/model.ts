@@ -14,19 +14,9 @@ export type Dynamics = 'arx' | 'chain' | 'switched';
 export type View = 'plain' | 'outline' | 'pose' | 'position';
 
 /** The rule of extinction by wind. */
-export interface BlowOut {
-  /** Index of the wind input. */
-  input: number;
-  /** Minimum wind that extinguishes when it lasts `seconds`, in the input's unit. */
-  level: number;
-  seconds: number;
-  /** At twice the level it takes seconds / (1 + haste). */
-  haste: number;
-  /** Seconds below the level until full recovery. */
-  recoverySeconds: number;
-}
+export type BlowOut = at.Values<typeof at.blowOut.fields>;
 
-export interface ModelFacts extends Omit<at.Values<typeof at.modelFacts.fields>, 'inputs' | 'outputs' | 'dynamics' | 'view' | `blowOut${string}`> {
+export interface ModelFacts extends Omit<at.Values<typeof at.modelFacts.fields>, 'inputs' | 'outputs' | 'dynamics' | 'view'> {
   /** null: wind does not extinguish it. */
   blowOut: BlowOut | null;
 }
@@ -97,10 +87,9 @@ export class Model {
   ) {
     this.pointer = typeof bytes === 'number' ? bytes : native.allocating(() => Model.read(native, bytes));
     this.name = native.text(native.functions.wisp_model_name!(this.pointer));
-    const { inputs, outputs, dynamics, view, blowOutInput, blowOutLevel, blowOutSeconds, blowOutHaste, blowOutRecoverySeconds, ...facts } =
-      this.read(at.modelFacts, 'wisp_model_get_facts');
-    const blowOut = { input: blowOutInput, level: blowOutLevel, seconds: blowOutSeconds, haste: blowOutHaste, recoverySeconds: blowOutRecoverySeconds };
-    this.facts = { ...facts, blowOut: blowOutLevel > 0 ? blowOut : null };
+    const { inputs, outputs, dynamics, view, ...facts } = this.read(at.modelFacts, 'wisp_model_get_facts');
+    const blowOut = this.read(at.blowOut, 'wisp_model_get_facts');
+    this.facts = { ...facts, blowOut: blowOut.level > 0 ? blowOut : null };
     this.kind = dynamicsNames[dynamics]!;
     this.view = viewNames[view]!;
     this.inputs = Array.from({ length: inputs }, (_, k) => this.read(at.channel, 'wisp_model_get_input', k));

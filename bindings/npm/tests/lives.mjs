@@ -76,9 +76,7 @@ export function hashOfWind(wisp, seconds) {
   const hash = new Hash();
   for (const block of gusts(seconds)) {
     for (const f of wind.feed(block)) {
-      hash.fold(
-        new Float32Array([f.rms, f.rmsClean, f.level, f.speed, f.wind, f.confidence, f.background, f.clipped]),
-      );
+      hash.fold(new Float32Array([f.rms, f.rmsClean, f.level, f.speed, f.wind, f.confidence, f.background, f.clipped]));
     }
   }
   wind.free();

@@ -110,10 +110,7 @@ export class Room {
   }
 
   take({ files, entries }: Dropped): void {
-    unfold(files, entries).then(
-      (found) => this.files(found),
-      () => this.say('What was dropped cannot be read.'),
-    );
+    unfold(files, entries).then((found) => this.files(found), () => this.say('What was dropped cannot be read.'));
   }
 
   private stepTo(step: Step, thing: Thing = 'flame'): void {

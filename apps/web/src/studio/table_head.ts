@@ -79,7 +79,7 @@ export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSe
   return { kind: 'arx', ...(inputs === undefined ? {} : { inputs }), ...(outputs === undefined ? {} : { outputs }) };
 }
 
-export type Role = 'input' | 'output' | 'ignored';
+type Role = 'input' | 'output' | 'ignored';
 
 /** Role of a column suggested by its name; null: none. */
 function suggested(name: string, numeric: boolean): Role | null {

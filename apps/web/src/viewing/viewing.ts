@@ -16,7 +16,7 @@ const SIDES = ['left', 'right'] as const;
 type Side = (typeof SIDES)[number];
 
 /** Share of right answers with its 95 % interval (Wilson, 1927). */
-export function shareOf(right: number, of: number): { share: number; low: number; high: number } {
+function shareOf(right: number, of: number): { share: number; low: number; high: number } {
   const z = 1.96;
   const share = right / of;
   const middle = (share + z ** 2 / (2 * of)) / (1 + z ** 2 / of);
@@ -25,7 +25,7 @@ export function shareOf(right: number, of: number): { share: number; low: number
 }
 
 /** Meaning of the result for the model. */
-export function meaningOf(right: number, of: number): string {
+function meaningOf(right: number, of: number): string {
   const { low, high } = shareOf(right, of);
   const spread = `${Math.round(100 * low)} to ${Math.round(100 * high)} %`;
   if (low > 0.5) return `You see a difference: with chance alone so many are right less than once in twenty tests. What lies between is ${spread}.`;

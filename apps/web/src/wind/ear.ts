@@ -119,8 +119,9 @@ export class Ear {
         },
         onAsleep: (asleep) => {
           if (this.state !== 'off') this.state = asleep ? 'asleep' : 'listening';
-          if (asleep) this.wind = this.heard = 0;
-          if (asleep) this.app.breath.deafen();
+          if (!asleep) return;
+          this.wind = this.heard = 0;
+          this.app.breath.deafen();
         },
         onLost: (error) => this.fail(error),
       });
@@ -155,8 +156,7 @@ export class Ear {
     this.microphone?.stop();
     this.microphone = null;
     this.state = 'off';
-    this.wind = 0;
-    this.heard = 0;
+    this.wind = this.heard = 0;
     this.answered(false);
     this.app.breath.deafen();
   }

@@ -32,7 +32,7 @@ const MIN_PLUME = 0.02;
 /** Exposure in lit and dark rooms, and adaptation times in seconds to more and to less light. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
-export interface CandlePicture {
+interface CandlePicture {
   setting: Setting;
   candles: Candle[];
   match: Match;
@@ -164,9 +164,9 @@ export class CandleRenderer {
   private bring(): void {
     if (this.bringing || this.after !== null || !hasRange(this.gl)) return;
     this.bringing = true;
-    void import('./after.js').then(({ After }) => {
+    void import('./after.js').then(({ afterOf }) => {
       this.bringing = false;
-      if (!this.gone && !this.gl.isContextLost()) this.after = new After(this.gl, this.quad);
+      if (!this.gone && !this.gl.isContextLost()) this.after = afterOf(this.gl, this.quad);
     });
   }
 
@@ -289,48 +289,47 @@ export class CandleRenderer {
     return sum;
   }
 
+  /** Sets up a candle or digit in a box, relative to its upper end. `nearer`: that of the flame, whose own light is left out. */
+  private setWax(program: Program, view: RoomView, { stand, shape, ember }: Candle, nearer: number, box: number[]): Program {
+    return this.setBoard(program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, box)
+      .set('uRadius', stand.radius / stand.unit)
+      .set('uHeight', stand.height / stand.unit)
+      .set('uLight', shape.empty ? 0 : shape.light)
+      .set('uEmber', ember)
+      .set('uWax', ...stand.wax)
+      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer }));
+  }
+
   private drawCandle(view: RoomView, candle: Candle, { clock, turn }: CandlePicture): void {
     const { stand, shape } = candle;
-    const top = stand.ground + stand.height;
     const radius = stand.radius / stand.unit;
     const height = stand.height / stand.unit;
-    const upper = view.flatness(top, stand.z);
+    const upper = view.flatness(stand.ground + stand.height, stand.z);
     const lower = view.flatness(stand.ground, stand.z);
     // Without a table each candle has its own dish.
     const saucer = (view.clear && stand.saucer === 0 ? 2.7 * stand.radius : stand.saucer) / stand.unit;
     const wide = Math.max(radius, saucer) + 0.12;
     const box = [-wide, -height - Math.max(radius, saucer) * lower - 0.05, wide, 0.34];
-    this.setBoard(this.programs.candle, view, stand.x, top, stand.z, stand.unit, box)
-      .set('uRadius', radius)
-      .set('uHeight', height)
+    this.setWax(this.programs.candle, view, candle, candle.nearer, box)
       .set('uSaucer', saucer)
       .set('uFlat', upper, lower)
-      .set('uLight', shape.empty ? 0 : shape.light)
       .set('uLean', shape.middleX, shape.middleY)
-      .set('uEmber', candle.ember)
       .set('uSeed', stand.seed)
       .set('uStripe', stand.striped ? 1 : 0)
       .set('uClock', clock)
-      .set('uTurn', turn)
-      .set('uWax', ...stand.wax)
-      .set('uOthers', ...this.lightFromOthers(candle));
+      .set('uTurn', turn);
     this.quad.draw();
   }
 
-  private drawFigure(view: RoomView, { stand, shape, ember }: Candle): void {
+  private drawFigure(view: RoomView, candle: Candle): void {
     const { lettering } = this;
     if (lettering === null) return;
+    const { stand } = candle;
     const height = stand.height / stand.unit;
     const points = lettering.figure(stand.figure ?? '', height);
-    this.setBoard(lettering.program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, [-height, -height - 0.1, height, 0.3])
+    this.setWax(lettering.program, view, candle, 0, [-height, -height - 0.1, height, 0.3])
       .setVectors('uOutline', 3, points)
-      .setInteger('uPoints', points.length / 3)
-      .set('uRadius', stand.radius / stand.unit)
-      .set('uHeight', height)
-      .set('uLight', shape.empty ? 0 : shape.light)
-      .set('uEmber', ember)
-      .set('uWax', ...stand.wax)
-      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer: 0 }));
+      .setInteger('uPoints', points.length / 3);
     this.quad.draw();
   }
 

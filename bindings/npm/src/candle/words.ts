@@ -4,7 +4,7 @@
 const LINE = 128;
 
 /** Breaks text between words into lines of about equal length, near `about` characters. */
-export function brokenLines(text: string, about: number): string[] {
+function brokenLines(text: string, about: number): string[] {
   const lines: string[] = [''];
   const most = text.length / Math.ceil(text.length / about) + 3;
   for (const word of text.trim().split(/\s+/)) {

@@ -3,6 +3,7 @@
 
 import type { Bank, Instance } from '../index.js';
 import type { LeafCamera } from './camera.js';
+import { MAX_LEAVES } from './limits.js';
 
 /** Range of depths and maximum height of leaves, metres. */
 const NEAREST = -1.35;
@@ -50,21 +51,21 @@ export interface Gust {
 }
 
 export class LeafFall {
-  readonly shown: Float32Array;
+  readonly shown = new Float32Array(LEAF_NUMBERS * MAX_LEAVES);
   count = 0;
   /** number of leaves on the ground */
   lying = 0;
   private readonly ids: Instance[] = [];
-  private readonly offsetX: Float32Array;
-  private readonly offsetY: Float32Array;
-  private readonly rested: Float32Array;
-  private readonly rests: Float32Array;
-  private readonly lift: Float32Array;
-  private readonly seen: Float32Array;
+  private readonly offsetX = new Float32Array(MAX_LEAVES);
+  private readonly offsetY = new Float32Array(MAX_LEAVES);
+  private readonly rested = new Float32Array(MAX_LEAVES);
+  private readonly rests = new Float32Array(MAX_LEAVES);
+  private readonly lift = new Float32Array(MAX_LEAVES);
+  private readonly seen = new Float32Array(MAX_LEAVES);
   /** number of leaves in each ground cell; cell and layer of each lying leaf, −1 and 0 for others */
   private readonly heights = new Uint8Array(2 * HALF_COLUMNS * Math.ceil((FARTHEST - NEAREST) / CELL));
-  private readonly cells: Int32Array;
-  private readonly layers: Float32Array;
+  private readonly cells = new Int32Array(MAX_LEAVES).fill(-1);
+  private readonly layers = new Float32Array(MAX_LEAVES);
   private readonly wide: boolean;
   private random: number;
   private clock = 0;
@@ -72,21 +73,12 @@ export class LeafFall {
   /** speed of the gust's own air */
   private stroke = 0;
 
+  /** `bank`: empty, with room for MAX_LEAVES. */
   constructor(
     private readonly bank: Bank,
     private readonly camera: LeafCamera,
     seed: number,
   ) {
-    const most = bank.capacity;
-    this.shown = new Float32Array(LEAF_NUMBERS * most);
-    this.offsetX = new Float32Array(most);
-    this.offsetY = new Float32Array(most);
-    this.rested = new Float32Array(most);
-    this.rests = new Float32Array(most);
-    this.lift = new Float32Array(most);
-    this.seen = new Float32Array(most);
-    this.cells = new Int32Array(most).fill(-1);
-    this.layers = new Float32Array(most);
     this.wide = bank.outputs >= 7;
     this.random = (seed * 2654435761) >>> 0 || 1;
     bank.setGround(0);
@@ -94,7 +86,7 @@ export class LeafFall {
 
   /** Sets the wanted number of leaves; they appear or disappear over the next frames. */
   want(count: number): void {
-    this.wanted = Math.min(count, this.bank.capacity);
+    this.wanted = Math.min(count, MAX_LEAVES);
     while (this.ids.length > this.wanted) {
       this.bank.end(this.ids.pop() as Instance);
       if ((this.cells[this.ids.length] as number) >= 0) this.leaveHeap(this.ids.length);

@@ -48,7 +48,7 @@ export class Stage {
   /** fixed drawn pixels per screen pixel; 0: as many as stay smooth */
   detail = 0;
   private footer = 0;
-  private gl: WebGL2RenderingContext | null = null;
+  private readonly gl: WebGL2RenderingContext | null;
   private given = false;
   private loser: WEBGL_lose_context | null = null;
   private scene: Scene | null = null;
@@ -71,7 +71,8 @@ export class Stage {
     this.pointer = new PointerReader(canvas, () => this.scene, () => events.touched());
     canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
     canvas.addEventListener('webglcontextrestored', () => this.regain());
-    this.open();
+    this.gl = canvas.getContext('webgl2', { alpha: clear, antialias: false, depth: false, powerPreference: 'high-performance' });
+    if (this.gl === null) events.context('absent');
   }
 
   /** Shows a scene; the one before is disposed of. */
@@ -101,16 +102,6 @@ export class Stage {
     return new Promise((resolve, reject) => {
       this.wanted = (blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob));
     });
-  }
-
-  private open(): void {
-    this.gl = this.canvas.getContext('webgl2', {
-      alpha: this.clear,
-      antialias: false,
-      depth: false,
-      powerPreference: 'high-performance',
-    });
-    if (this.gl === null) this.events.context('absent');
   }
 
   private lose(event: Event): void {

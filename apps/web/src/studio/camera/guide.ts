@@ -3,10 +3,10 @@
 import type { Seen } from '@wisp/studio';
 
 /** Actions, in order. */
-export type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
+type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
 
 /** Subject: a flame with or without sound, or falling objects. */
-export type Filmed = 'flame' | 'mute flame' | 'falls';
+type Filmed = 'flame' | 'mute flame' | 'falls';
 
 /** Actions of each subject, with their words and maximum seconds. Without sound, blowing is left out. */
 const PLANS: Readonly<Record<Filmed, readonly (readonly [act: Act, words: string, seconds: number])[]>> = {

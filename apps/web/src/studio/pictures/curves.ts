@@ -184,19 +184,18 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readon
   const x = (value: number): number => MARGIN.left + ((value - left) / (right - left)) * (width - MARGIN.left - MARGIN.right);
   const y = (value: number): number => height - MARGIN.bottom - ((value - low) / (high - low)) * (height - MARGIN.top - MARGIN.bottom);
   context.font = '11px ui-sans-serif, system-ui, sans-serif';
+  const write = (align: CanvasTextAlign, words: string, across: number, down: number): void => {
+    Object.assign(context, { textAlign: align, fillStyle: '#b9b3ac' });
+    context.fillText(words, across, down);
+  };
   for (const value of [low, (low + high) / 2, high]) {
     context.fillStyle = 'rgb(255 240 220 / 12%)';
     context.fillRect(MARGIN.left, Math.round(y(value)), width - MARGIN.left - MARGIN.right, 1);
-    context.fillStyle = '#b9b3ac';
-    context.textAlign = 'right';
-    context.fillText(short(value), MARGIN.left - 6, y(value) + 4);
+    write('right', short(value), MARGIN.left - 6, y(value) + 4);
   }
-  context.textAlign = 'left';
-  context.fillText(short(left), MARGIN.left, height - 15);
-  context.textAlign = 'right';
-  context.fillText(short(right), width - MARGIN.right, height - 15);
-  context.textAlign = 'center';
-  context.fillText(curves[0]?.x_label ?? '', (MARGIN.left + width) / 2, height - 3);
+  write('left', short(left), MARGIN.left, height - 15);
+  write('right', short(right), width - MARGIN.right, height - 15);
+  write('center', curves[0]?.x_label ?? '', (MARGIN.left + width) / 2, height - 3);
   context.lineWidth = 1.5;
   context.lineJoin = 'round';
   if (places) {
