@@ -35,6 +35,7 @@ const DUCKS = { after: 0.7, lasts: 0.26, frame: 0.1 };
 const TURN = Math.PI / 12;
 
 const START_HINT = 'Move past it, or press Blow and blow';
+const NO_WEBGL = 'This browser shows no WebGL 2, which the picture is drawn with. A current Firefox, Chrome, Edge or Safari does; it may be switched off in the settings.';
 
 export class App {
   readonly stage: Stage;
@@ -310,10 +311,7 @@ export class App {
   private onContext(state: 'absent' | 'lost' | 'back'): void {
     const absent = byId('absent', HTMLElement);
     absent.hidden = state === 'back';
-    absent.textContent =
-      state === 'absent'
-        ? 'This browser shows no WebGL 2, which the picture is drawn with. A current Firefox, Chrome, Edge or Safari does; it may be switched off in the settings.'
-        : 'The graphics card took the picture away for a moment. It comes back by itself.';
+    absent.textContent = state === 'absent' ? NO_WEBGL : 'The graphics card took the picture away for a moment. It comes back by itself.';
   }
 
   private onFrame(cost: Readonly<FrameCost>, seconds: number): void {

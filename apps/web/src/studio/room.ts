@@ -143,15 +143,10 @@ export class Room {
   /** Ends all running work. */
   private clear(): void {
     this.turn += 1;
-    this.working?.abort();
-    this.working = null;
-    this.judging?.abort();
-    this.judging = null;
+    for (const work of [this.working, this.judging]) work?.abort();
     this.filming?.close();
-    this.filming = null;
     this.duet?.dispose();
-    this.duet = null;
-    this.looked = null;
+    this.working = this.judging = this.filming = this.duet = this.looked = null;
     this.below.replaceChildren();
   }
 

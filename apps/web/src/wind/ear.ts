@@ -144,8 +144,7 @@ export class Ear {
   /** Switches to another microphone and discards the calibration of the first. */
   async choose(id: string): Promise<void> {
     this.device = id;
-    this.known = null;
-    this.plain = null;
+    this.known = this.plain = null;
     this.close();
     await this.open();
   }
