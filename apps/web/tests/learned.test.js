@@ -9,8 +9,8 @@ import { drop, hold, loud, onPage, openDrawer, says, skip, until } from './brows
 const calm = readFileSync(new URL('models/calm.wisp', import.meta.url));
 
 describe('what was learned', { skip }, () => {
-  let opened, page;
-  onPage('#scene=candle&seed=3&detail=0.1', (...made) => ([page, opened] = made) && openDrawer(page), { flags: () => [loud] });
+  let page;
+  onPage('#scene=candle&seed=3&detail=0.1', (made) => openDrawer((page = made)), { flags: () => [loud] });
 
   it('says that the simulator taught the shipped flame, and claims no film', async () => {
     const said = await page.textContent('.introduction');

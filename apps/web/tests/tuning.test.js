@@ -156,7 +156,7 @@ describe('blow after blow that puts nothing out', { skip }, () => {
 
 describe('a microphone that takes the rumble of breath away', { skip }, () => {
   it('hears a hard blow all the same', async () => {
-    const { opened, page, at, between } = await hearing(folder, [room(4), hiss(1, 0.2), room(20)]);
+    const { opened, page, between } = await hearing(folder, [room(4), hiss(1, 0.2), room(20)]);
     await page.click('#blow');
     await until(page, 'it is out', () => window.wisp.burning.lit === 0);
     assert.ok((await between(0, 3.5)).every(({ lit }) => lit === 1), 'not before it was blown at');
