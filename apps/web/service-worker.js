@@ -15,14 +15,13 @@ const simd = WebAssembly.validate(
 );
 const wanted = (name) => !onDemand.test(`/${name}`) && (!name.endsWith('.wasm') || name.includes('-simd-') === simd);
 
-self.addEventListener('install', (event) => {
-  event.waitUntil(
-    caches
-      .open(cacheName)
-      .then((cache) => cache.addAll(files.filter(wanted)))
-      .then(() => self.skipWaiting()),
-  );
-});
+async function keep() {
+  const cache = await caches.open(cacheName);
+  await cache.addAll(files.filter(wanted));
+  await self.skipWaiting();
+}
+
+self.addEventListener('install', (event) => event.waitUntil(keep()));
 
 async function dropOthers() {
   const open = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });

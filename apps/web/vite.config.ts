@@ -48,8 +48,12 @@ const STUDIO = 'assets/studio/';
 const ofStudio = (path: string | null | undefined): boolean => path != null && /(src|bindings|@wisp)\/studio\/|mediabunny/.test(path);
 const named = (studio: boolean, rest: string): string => (studio ? STUDIO : 'assets/') + rest;
 
-/** Lists the files to cache for the service worker, under a name that changes with any of them. */
+/**
+ * Lists the files to cache for the service worker, under a name that changes with any of them; and adds the licences of
+ * included work, in a file that normal visits do not fetch.
+ */
 function serviceWorker(): Plugin {
+  const thirdParty = join(here, '../../third_party');
   return {
     name: 'wisp-service-worker',
     apply: 'build',
@@ -67,29 +71,19 @@ function serviceWorker(): Plugin {
         .replace("'VERSION'", JSON.stringify(hash.digest('hex').slice(0, 12)))
         .replace("['FILES']", JSON.stringify(['./', ...files.filter((name) => !/\.html$|^preview|^icon-/.test(name) && !name.startsWith(STUDIO)).sort()]));
       this.emitFile({ type: 'asset', fileName: 'sw.js', source });
+      const licences = ['NOTICES.txt', 'flatbuffers/LICENSE'].map((name) => readFileSync(join(thirdParty, name), 'utf8')).join('\n\n');
+      this.emitFile({ type: 'asset', fileName: 'licences.txt', source: licences });
     },
   };
 }
 
-/** The licences of included work, in a file that normal visits do not fetch. */
-function licences(): Plugin {
-  const thirdParty = join(here, '../../third_party');
+/** Removes comments, blanks and redundant zeros from shaders, and has FETCH_WITH in place of Vite's own. */
+function shorter(): Plugin {
   return {
-    name: 'wisp-licences',
-    apply: 'build',
-    generateBundle() {
-      const source = ['NOTICES.txt', 'flatbuffers/LICENSE'].map((name) => readFileSync(join(thirdParty, name), 'utf8')).join('\n\n');
-      this.emitFile({ type: 'asset', fileName: 'licences.txt', source });
-    },
-  };
-}
-
-/** Removes comments, blanks and redundant zeros from shaders. */
-function shorterShaders(): Plugin {
-  return {
-    name: 'wisp-shorter-shaders',
+    name: 'wisp-shorter',
     apply: 'build',
     enforce: 'pre',
+    load: (id) => (id === '\0vite/preload-helper.js' ? FETCH_WITH : null),
     transform(code, id) {
       if (!/\.(?:glsl|vert|frag)\.js$/.test(id)) return null;
       return code
@@ -103,7 +97,7 @@ function shorterShaders(): Plugin {
   };
 }
 
-/** What a part needs that comes later is fetched with it: its style sheets before it runs. Vite's own does the same for more browsers in 450 bytes more. */
+/** Fetches a part's scripts with it, and its style sheets before it runs. Vite's own helper supports more browsers and is 450 bytes larger. */
 const FETCH_WITH = `
 const asked = {};
 export const __vitePreload = (load, files = [], from) =>
@@ -124,18 +118,9 @@ export const __vitePreload = (load, files = [], from) =>
   })).then(load);
 `;
 
-function shorterPreload(): Plugin {
-  return {
-    name: 'wisp-shorter-preload',
-    apply: 'build',
-    enforce: 'pre',
-    load: (id) => (id === '\0vite/preload-helper.js' ? FETCH_WITH : null),
-  };
-}
-
 export default defineConfig({
   base: './',
-  plugins: [page(), serviceWorker(), licences(), shorterShaders(), shorterPreload()],
+  plugins: [page(), serviceWorker(), shorter()],
   worker: {
     format: 'es',
     // The studio's worker is the only one.

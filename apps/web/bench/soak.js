@@ -9,11 +9,10 @@ const looks = 12;
 
 if (skip) throw new Error(skip);
 
-async function heap(page, session) {
+async function heap(session) {
   await session.send('HeapProfiler.collectGarbage');
   const { metrics } = await session.send('Performance.getMetrics');
-  const used = metrics.find(({ name }) => name === 'JSHeapUsedSize').value;
-  return { used };
+  return metrics.find(({ name }) => name === 'JSHeapUsedSize').value;
 }
 
 const opened = await openBrowser();
@@ -30,15 +29,13 @@ for (let look = 0; look <= looks; ++look) {
   await page.keyboard.up('Space');
   await page.keyboard.press('2');
   await page.waitForTimeout((60_000 * minutes) / (looks + 1) - 1000);
-  const now = await heap(page, session);
+  const now = await heap(session);
   seen.push(now);
-  console.log(`${((look + 1) * minutes / (looks + 1)).toFixed(1).padStart(5)} min   heap ${(now.used / 1e6).toFixed(2)} MB`);
+  console.log(`${((look + 1) * minutes / (looks + 1)).toFixed(1).padStart(5)} min   heap ${(now / 1e6).toFixed(2)} MB`);
 }
 await opened.close();
 
-const mean = (list) => list.reduce((sum, { used }) => sum + used, 0) / list.length;
-const early = mean(seen.slice(2, 6));
-const late = mean(seen.slice(-4));
-const grown = late / early - 1;
+const mean = (list) => list.reduce((sum, used) => sum + used, 0) / list.length;
+const grown = mean(seen.slice(-4)) / mean(seen.slice(2, 6)) - 1;
 console.log(`heap ${grown > 0 ? 'grew' : 'shrank'} by ${Math.abs(100 * grown).toFixed(1)} %`);
 process.exitCode = grown > 0.1 ? 1 : 0;

@@ -11,7 +11,7 @@ import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
 import { Player, type Playing } from './player.js';
 import { Probe } from './probe.js';
-import type { Air, Scene } from '@wisp/player/parts/stage/scene';
+import type { Air } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from '@wisp/player/parts/air/breath';
 import type { Parts } from './late.js';
@@ -35,6 +35,7 @@ const DUCKS = { after: 0.7, lasts: 0.26, frame: 0.1 };
 const TURN = Math.PI / 12;
 
 const START_HINT = 'Move past it, or press Blow and blow';
+const NO_WEBGL = 'This browser shows no WebGL 2, which the picture is drawn with. A current Firefox, Chrome, Edge or Safari does; it may be switched off in the settings.';
 
 export class App {
   readonly stage: Stage;
@@ -79,7 +80,8 @@ export class App {
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
       framed: (cost, seconds) => this.onFrame(cost, seconds),
-    }, { covered: overlay ? 0 : COVERED, clear: overlay });
+    }, overlay);
+    this.stage.covered = overlay ? 0 : COVERED;
     this.stage.detail = settings.detail;
     if (document.body.classList.contains('calm')) this.stage.pace = SLOW;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
@@ -97,9 +99,8 @@ export class App {
     this.listen();
   }
 
-  /** Plays the first scene. */
   async start(): Promise<void> {
-    this.stage.start();
+    this.stage.loop.start();
     await this.playChosen();
     this.hint.show(START_HINT, 12);
     // An overlay has no buttons to press.
@@ -245,7 +246,6 @@ export class App {
     if (!open) this.drawerButton.focus();
   }
 
-  /** Opens or closes the card for composing a link to send. */
   showCard(open: boolean): void {
     const card = this.parts?.card;
     if (card === undefined || card.open === open) return;
@@ -311,10 +311,7 @@ export class App {
   private onContext(state: 'absent' | 'lost' | 'back'): void {
     const absent = byId('absent', HTMLElement);
     absent.hidden = state === 'back';
-    absent.textContent =
-      state === 'absent'
-        ? 'This browser shows no WebGL 2, which the picture is drawn with. A current Firefox, Chrome, Edge or Safari does; it may be switched off in the settings.'
-        : 'The graphics card took the picture away for a moment. It comes back by itself.';
+    absent.textContent = state === 'absent' ? NO_WEBGL : 'The graphics card took the picture away for a moment. It comes back by itself.';
   }
 
   private onFrame(cost: Readonly<FrameCost>, seconds: number): void {
@@ -345,15 +342,17 @@ export class App {
     this.probe.wind = reading.wind;
     this.probe.answer = reading.answer;
     this.offerWind(playing, reading.wind);
-    if (playing.scene instanceof CandleScene) this.watchCandles(playing.scene);
-    else this.watchOthers(playing.scene);
+    if (playing.scene instanceof CandleScene) return this.watchCandles(playing.scene);
+    this.probe.burning = null;
+    this.probe.leaves = playing.scene.leaves?.() ?? null;
+    this.controls.setActive(true);
   }
 
   private duck(seconds: number): void {
     const before = this.duckFrom;
     this.duckFrom += seconds;
-    if (before < 0 && this.duckFrom >= 0) this.breath.keys.press('arrival');
-    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.release('arrival');
+    if (before < 0 && this.duckFrom >= 0) this.breath.keys.held.add('arrival');
+    if (this.duckFrom >= DUCKS.lasts) this.breath.keys.held.delete('arrival');
   }
 
   /** Says once per model that it was learned without wind, and offers a remedy. */
@@ -365,12 +364,6 @@ export class App {
       words: 'Borrow the shipped answer to wind',
       accept: () => void this.player.borrowWind(),
     });
-  }
-
-  private watchOthers(scene: Scene): void {
-    this.probe.burning = null;
-    this.probe.leaves = scene.leaves?.() ?? null;
-    this.controls.setActive(true);
   }
 
   private watchCandles(scene: CandleScene): void {

@@ -6,7 +6,6 @@ export interface Dropped {
   entries: (FileSystemEntry | null)[];
 }
 
-/** Accepts files dropped anywhere. */
 export function watchDrops(curtain: HTMLElement, dropped: (what: Dropped) => void): void {
   let depth = 0;
   const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;

@@ -1,6 +1,6 @@
 // Records a few seconds of a canvas as a GIF: 256 colours, but shown by every chat and forum.
 
-import { applyPalette, GIFEncoder, quantize, type Palette } from 'gifenc';
+import { applyPalette, GIFEncoder, quantize } from 'gifenc';
 
 /** Milliseconds between pictures. Viewers count in hundredths of a second. */
 const STEP_MS = 50;
@@ -34,12 +34,6 @@ function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData
   });
 }
 
-/** One palette for all pictures, so that still parts do not shimmer. */
-async function paletteOf(all: readonly ImageData[]): Promise<Palette> {
-  const some = [0.1, 0.5, 0.9].map((share) => all[Math.floor(share * all.length)]?.data ?? new Uint8ClampedArray());
-  return quantize(new Uint8ClampedArray(await new Blob(some).arrayBuffer()), 256);
-}
-
 function dither({ data, width }: ImageData): void {
   for (let at = 0; at < data.length; at += 4) {
     const [x, y] = [(at >> 2) % width, Math.floor((at >> 2) / width)];
@@ -48,10 +42,11 @@ function dither({ data, width }: ImageData): void {
   }
 }
 
-/** Records the next seconds of a canvas. */
 export async function gifOf(canvas: HTMLCanvasElement, seconds: number): Promise<Blob> {
   const all = await pictures(canvas, seconds);
-  const palette = await paletteOf(all);
+  // One palette for all pictures, so that still parts do not shimmer.
+  const some = [0.1, 0.5, 0.9].map((share) => all[Math.floor(share * all.length)]?.data ?? new Uint8ClampedArray());
+  const palette = quantize(new Uint8ClampedArray(await new Blob(some).arrayBuffer()), 256);
   const encoder = GIFEncoder();
   for (const [k, picture] of all.entries()) {
     // Yields to the page between pictures.

@@ -16,7 +16,6 @@ import { Ear } from './wind/ear.js';
 
 export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
-/** Parts of the page that furnish() creates. */
 export type Parts = ReturnType<typeof furnish>;
 
 export function furnish(app: App) {
@@ -49,10 +48,7 @@ export function openDropped(app: App, { files, entries }: Dropped): void {
   const [file] = files;
   if (file === undefined) return;
   const door = app.parts?.door;
-  if (isLesson(files, entries) || (door?.inside === true && !/\.wisp$/i.test(file.name))) {
-    door?.open({ files, entries });
-    return;
-  }
+  if (isLesson(files, entries) || (door?.inside === true && !/\.wisp$/i.test(file.name))) return door?.open({ files, entries });
   readDropped(file)
     .then((bytes) => app.player.playFile(file.name, bytes))
     .then(() => {

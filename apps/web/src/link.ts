@@ -5,46 +5,33 @@ import { MAX_LEAVES } from '@wisp/player/parts/leaves/limits';
 
 export type SceneName = 'candle' | 'leaves';
 
-export interface Settings {
-  scene: SceneName;
+export const DEFAULTS = {
+  scene: 'candle' as SceneName,
   /** seed of all random streams */
-  seed: number;
+  seed: 1,
   /** scale of the learned noise, 0 to 2 */
-  noise: number;
-  candles: number;
-  leaves: number;
-  /** drawn pixels per screen pixel, 0.25 to 2; 0: as many as stay smooth */
-  detail: number;
+  noise: 1,
+  candles: 1,
+  leaves: 400,
+  /** drawn pixels per screen pixel, up to 2; 0: as many as stay smooth */
+  detail: 0,
   /** model in place of the shipped one: an address of this origin, or the packed model (model_link.ts); '': shipped */
-  model: string;
+  model: '',
   /** age shown on the cake as digit candles; 0: ordinary candles */
-  age: number;
+  age: 0,
   /** recipient and sender of the cake, and text written by smoke when all candles are out */
-  name: string;
-  from: string;
-  wish: string;
+  name: '',
+  from: '',
+  wish: '',
   /** 1: offers a tune */
-  tune: number;
-}
+  tune: 0,
+};
+
+export type Settings = typeof DEFAULTS;
 
 export { MAX_CANDLES, MAX_LEAVES };
 /** Maximum number of letters of each text. */
 export const LETTERS = { name: 24, from: 24, wish: 80 } as const;
-
-export const DEFAULTS: Readonly<Settings> = {
-  scene: 'candle',
-  seed: 1,
-  noise: 1,
-  candles: 1,
-  leaves: 400,
-  detail: 0,
-  model: '',
-  age: 0,
-  name: '',
-  from: '',
-  wish: '',
-  tune: 0,
-};
 
 const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model' | keyof typeof LETTERS>, readonly [number, number, boolean]>> = {
   seed: [0, 2 ** 32 - 1, true],

@@ -4,18 +4,13 @@
 const WAITS = [300, 1200];
 
 /** Loads a part, with retries. Throws a sentence for people. */
-export async function fetchPart<T>(bring: () => Promise<T>): Promise<T> {
-  for (const wait of WAITS) {
-    try {
-      return await bring();
-    } catch {
-      await new Promise((resolve) => setTimeout(resolve, wait));
-    }
-  }
+export async function fetchPart<T>(bring: () => Promise<T>, [wait, ...later]: readonly number[] = WAITS): Promise<T> {
   try {
     return await bring();
   } catch (error) {
-    throw new Error('A piece of this page could not be fetched. Is there a network? Press again, or load the page anew.', { cause: error });
+    if (wait === undefined) throw new Error('A piece of this page could not be fetched. Is there a network? Press again, or load the page anew.', { cause: error });
+    await new Promise((resolve) => setTimeout(resolve, wait));
+    return fetchPart(bring, later);
   }
 }
 

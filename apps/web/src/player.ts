@@ -9,7 +9,6 @@ import { fetchShipped, FLAME, LEAF } from './shipped.js';
 import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
-/** The current scene, and facts about its model. */
 export interface Playing {
   model: Model;
   bytes: Uint8Array;
@@ -38,10 +37,7 @@ export class Player {
   /** Plays the settings' model: that of the link, or the scene's shipped one. Throws on failure. */
   async playChosen(): Promise<void> {
     const { model } = this.settings;
-    if (model === '') {
-      await this.playShipped();
-      return;
-    }
+    if (model === '') return this.playShipped();
     const turn = ++this.opening;
     const { fetchModel } = await fetchPart(() => import('./model_link.js'));
     const { bytes, file } = await fetchModel(model);
@@ -109,9 +105,7 @@ export class Player {
   }
 
   private async sceneOf(model: Model): Promise<{ scene: Scene; tab: SceneName | null }> {
-    if (model.view === 'outline') {
-      return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
-    }
+    if (model.view === 'outline') return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
     if (model.view === 'pose' || model.view === 'position') {
       const { LeavesScene } = await fetchPart(() => import('@wisp/player/parts/leaves/scene'));
       return { scene: new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };

@@ -16,7 +16,6 @@ export class Probe {
   answer = 0;
   /** number of burning candles, and of all; null in other scenes */
   burning: { lit: number; of: number } | null = null;
-  /** whether smoke is in the air */
   smoking = false;
   /** number of all leaves, and of those on the ground; null in other scenes */
   leaves: { count: number; lying: number } | null = null;

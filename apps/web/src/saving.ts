@@ -24,7 +24,6 @@ export function saveFile(blob: Blob, name: string): string {
   return 'Saved';
 }
 
-/** Saves the next picture. */
 export const savePicture = async ({ stage }: App): Promise<string> => saveFile(await stage.snapshot(), 'wisp.png');
 
 /** Seconds of a film. */
@@ -32,11 +31,11 @@ const lasts = ({ settings }: App): number => (settings.wish !== '' ? 9 : 6.5);
 
 /** What happens in a film: the flame burns, is blown out, smokes, and is lit again. */
 async function happen(app: App): Promise<void> {
-  const { keys } = app.breath;
+  const { held } = app.breath.keys;
   const scene = app.player.playing?.scene;
-  const acts: readonly (readonly [at: number, act: () => void])[] = [
-    [0.9, () => keys.press('Space')],
-    [2.1, () => keys.release('Space')],
+  const acts: readonly (readonly [at: number, act: () => unknown])[] = [
+    [0.9, () => held.add('Space')],
+    [2.1, () => held.delete('Space')],
     [app.settings.wish !== '' ? 7 : 4.6, () => scene?.act()],
     [lasts(app), () => undefined],
   ];
@@ -48,14 +47,12 @@ async function happen(app: App): Promise<void> {
   }
 }
 
-/** Records these seconds as a GIF. */
 export async function saveGif(app: App): Promise<string> {
   const { gifOf } = await fetchPart(() => import('./gif.js'));
   void happen(app);
   return saveFile(await gifOf(app.stage.canvas, lasts(app)), 'wisp.gif');
 }
 
-/** Records these seconds as a film. */
 export async function saveLoop(app: App): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';

@@ -10,5 +10,4 @@ export async function fetchBytes(url: string | URL, file: string): Promise<Uint8
   return new Uint8Array(await answer.arrayBuffer());
 }
 
-/** Fetches a shipped model's bytes. */
 export const fetchShipped = (file: string): Promise<Uint8Array> => fetchBytes(`./models/${file}`, file);

@@ -52,7 +52,7 @@ export class StudioDoor {
     app.showDrawer(false);
     app.parts?.tuning.close();
     if (app.parts !== null && app.parts.ear.state !== 'off') app.parts.ear.close();
-    app.stage.stop();
+    app.stage.loop.stop();
     document.body.classList.add('studying');
     this.markTab();
     room.show(true);
@@ -71,7 +71,7 @@ export class StudioDoor {
     this.tab.setAttribute('aria-current', 'false');
     // Selects the scene's own tab again.
     this.app.change({});
-    this.app.stage.start();
+    this.app.stage.loop.start();
   }
 
   /** Plays a flame in the page's own scene, with the microphone. */
@@ -91,12 +91,12 @@ export class StudioDoor {
     const { app } = this;
     await app.player.playFile(file, model);
     this.markTab();
-    app.stage.start();
+    app.stage.loop.start();
     await after(LIT);
     try {
       return await (kind === 'gif' ? saveGif : saveLoop)(app);
     } finally {
-      if (this.inside) app.stage.stop();
+      if (this.inside) app.stage.loop.stop();
     }
   }
 }

@@ -20,7 +20,7 @@ export function temporaryFolder() {
   return folder;
 }
 
-/** A server, a browser, and pages in it. `close()` ends all of it. */
+/** A server, and a browser with pages of it. `close()` ends both. */
 export async function openBrowser(flags = []) {
   const server = await serve(dist, false);
   const address = `http://localhost:${server.address().port}/`;
@@ -28,7 +28,7 @@ export async function openBrowser(flags = []) {
   return {
     browser,
     address,
-    /** The page, playing; its errors are in `page.errors`, what it asked of other hosts in `page.strangers`. */
+    /** The page, once it plays; its errors are in `page.errors`, its requests to other hosts in `page.strangers`. */
     async page(hash = '', options = {}) {
       const page = await watched(browser, address, { viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
       if (options.before) await page.addInitScript(options.before);
@@ -43,11 +43,14 @@ export async function openBrowser(flags = []) {
   };
 }
 
-/** For the tests of a `describe`: a page, of which `ready` is told before them. After them it must have made no error and asked no other host. */
-export function onPage(hash, ready, { flags, ...options } = {}) {
+/**
+ * Opens a page before the tests of a `describe` and passes it to `ready`. After them it asserts that the page had no
+ * error and requested nothing from other hosts. `flags`: of the browser, made when it starts.
+ */
+export function onPage(hash, ready, { flags = () => [], ...options } = {}) {
   let opened, page;
   before(async () => {
-    opened = await openBrowser(flags);
+    opened = await openBrowser(flags());
     page = await opened.page(hash, options);
     await ready(page, opened);
   });
@@ -58,13 +61,17 @@ export function onPage(hash, ready, { flags, ...options } = {}) {
   });
 }
 
+const fakes = ['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream'];
 /** A browser whose microphone is a sound file, played once. */
-export const hears = (file) => ['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${file}%noloop`];
+export const hears = (file) => [...fakes, `--use-file-for-fake-audio-capture=${file}%noloop`];
+/** A browser whose camera and microphone are files, played again and again. */
+export const filmsWith = ({ picture, sound }) => [...fakes, `--use-file-for-fake-video-capture=${picture}`, `--use-file-for-fake-audio-capture=${sound}`, loud];
+/** Lets pages sound before somebody presses anything. */
+export const loud = '--autoplay-policy=no-user-gesture-required';
 
-/** Waits until something holds in the page. Asks from here, again and again: the page's policy lets no script be made inside it. */
+/** Waits until something holds in the page. Polls from here, since the page's policy forbids Playwright's own wait. */
 export const until = (page, what, holds, argument = null) => seen(what, () => page.evaluate(holds, argument));
 
-/** Waits for so many frames. */
 export async function framesPass(page, many = 2) {
   const frames = await page.evaluate(() => window.wisp.frames);
   await until(page, `${many} frames`, (most) => window.wisp.frames > most, frames + many);
@@ -73,10 +80,10 @@ export async function framesPass(page, many = 2) {
 export const allLit = () => window.wisp.burning?.lit === window.wisp.burning?.of;
 export const noneLit = () => window.wisp.burning?.lit === 0;
 
-/** Drops a file on the page: its bytes, or so many zeros. */
+/** Drops a file on the page. `bytes`: its contents, or a number of zeros. */
 export const drop = (page, name, bytes) => dropAll(page, { [name]: bytes });
 
-/** Drops files, each by its name. Their bytes go as text: as a list of numbers a film takes a minute. */
+/** Drops files by name. Their bytes are passed as text, since a film as a list of numbers takes a minute. */
 export const dropAll = (page, files) =>
   page.evaluate(
     (all) => {
@@ -94,21 +101,21 @@ export async function openDrawer(page) {
   await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
 }
 
-/** Opens the card with which something is sent. */
 export async function openCard(page) {
   await page.click('#share');
   await until(page, 'the card is open', () => !document.getElementById('card').hidden);
 }
 
-/** Blows by the space bar until nothing burns. */
-export async function blowOut(page) {
+export async function hold(page, code, what, holds) {
   await page.focus('#stage');
-  await page.keyboard.down('Space');
-  await until(page, 'it is out', () => window.wisp.burning?.lit === 0);
-  await page.keyboard.up('Space');
+  await page.keyboard.down(code);
+  await until(page, what, holds);
+  await page.keyboard.up(code);
 }
+/** Blows by the space bar until nothing burns. */
+export const blowOut = (page) => hold(page, 'Space', 'it is out', noneLit);
 
-/** The studio's steps and words, in the tests of the studio. */
+/** For tests of the studio: its panel, its step, and the words in a place. */
 export const panel = '#studio .panel';
 export const step = (page, name) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name);
 export const says = (page, where, words) =>
@@ -121,10 +128,10 @@ export async function enterStudio(page) {
 }
 export const chooses = (page) => until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
 export const toLearn = (page) => until(page, 'it can be learned', () => document.querySelector('[data-act=learn]') !== null);
-/** What comes to the disk when that is pressed. */
+/** The download that begins when an element is pressed. */
 export const saved = async (page, pressed) => (await Promise.all([page.waitForEvent('download'), page.click(pressed)]))[0];
 
-/** How many pixels of each canvas are bright, blue or orange: right of `left`, in an upper share of it. */
+/** Number of bright, blue or orange pixels of each canvas, right of `left` and in the upper `share` of its height. */
 export const painted = (page, canvases, kind, left = 0, share = 1) =>
   page.$$eval(
     canvases,

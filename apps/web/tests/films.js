@@ -17,13 +17,13 @@ function runs(command) {
   }
 }
 
-/** Why there are no films here, or false. */
+/** Reason why films cannot be made, or false. */
 export const noFilms = !existsSync(program) && 'build/release/bin/wisp is not built';
-/** Why nothing can be made of them, or false. */
+/** Reason why films cannot be converted, or false. */
 export const noConverter = noFilms || (!runs('ffmpeg') && 'there is no ffmpeg here');
 
 const convert = (...values) => execFileSync('ffmpeg', ['-v', 'error', '-y', ...values]);
-/** What makes another film of one, in the folder. */
+/** Returns a function that converts a film to a file of that name in a folder. */
 const another = (name, ...values) => (film, folder) => {
   const made = join(folder, name);
   convert('-i', film, ...values, made);
@@ -51,27 +51,20 @@ export function recordedFalls(folder) {
   return falls;
 }
 
-/** The same, to be shown turned by a quarter. */
+/** Five seconds of a film, to be shown rotated by 90 degrees. */
 export const turnedFilm = another('turned.mp4', '-t', '5', '-c', 'copy', '-metadata:s:v:0', 'rotate=90');
 
-/** Five seconds of it in a file that states no colours. */
+/** Five seconds of a film in a file that states no colour space. */
 export const untaggedFilm = another('untagged.mp4', '-t', '5', '-vf', 'setparams=colorspace=unknown:color_primaries=unknown:color_trc=unknown', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy');
 
-/** The recording that the program captures. */
-export function capturedByProgram(film, folder) {
-  const recording = join(folder, 'recording.csv');
-  execFileSync(program, ['capture', 'flame', film, '-o', recording, '--quiet'], { stdio: 'ignore' });
+const byProgram = (recording, ...what) => {
+  execFileSync(program, ['capture', ...what, '-o', recording, '--quiet'], { stdio: 'ignore' });
   return recording;
-}
+};
+export const capturedByProgram = (film, folder) => byProgram(join(folder, 'recording.csv'), 'flame', film);
+export const fallsByProgram = (film, metres, folder) => byProgram(join(folder, 'program_falls.csv'), 'fall', film, '--height', String(metres));
 
-/** The falls that the program finds in a film. */
-export function fallsByProgram(film, metres, folder) {
-  const recording = join(folder, 'program_falls.csv');
-  execFileSync(program, ['capture', 'fall', film, '--height', String(metres), '-o', recording, '--quiet'], { stdio: 'ignore' });
-  return recording;
-}
-
-/** The same as what a camera and a microphone give, again and again. */
+/** A film as files for Chromium's fake camera and microphone. */
 export function asDevices(film, folder, { silent = false, seconds = 8 } = {}) {
   const [picture, sound] = [join(folder, 'camera.mjpeg'), join(folder, 'microphone.wav')];
   convert('-i', film, '-an', '-t', String(seconds), '-c:v', 'mjpeg', '-q:v', '3', picture);
@@ -86,13 +79,13 @@ export function wallFilm(folder) {
   return film;
 }
 
-/** Two seconds of it as browsers record: VP9 and Opus in WebM. */
+/** Two seconds of a film as browsers record: VP9 and Opus in WebM. */
 export const webFilm = another('web.webm', '-t', '2', '-c:v', 'libvpx-vp9', '-deadline', 'realtime', '-cpu-used', '8', '-crf', '20', '-b:v', '0', '-c:a', 'libopus');
 
-/** Its sound alone, in a film's file. */
+/** A film's file with its sound alone. */
 export const soundAlone = another('sound.mp4', '-t', '1', '-vn', '-c:a', 'copy');
 
-/** Its beginning, as a copy that was broken off: where MP4 says what is in it is missing. */
+/** A truncated copy: the index at the end of the MP4 is missing. */
 export function brokenOff(film, folder) {
   const whole = join(folder, 'broken_off.mp4');
   convert('-i', film, '-t', '1', '-c', 'copy', whole);
@@ -100,16 +93,16 @@ export function brokenOff(film, folder) {
   return whole;
 }
 
-/** Its first second. */
+/** A film's first second. */
 export const shortFilm = another('short.mp4', '-t', '1', '-c', 'copy');
 
-/** The same with every seventh frame left out, each of the others at its own time. */
+/** Four seconds of a film without every seventh frame; the others keep their times. */
 export const unevenFilm = another('uneven.mp4', '-t', '4', '-vf', "select='not(eq(mod(n,7),3))'", '-vsync', 'vfr', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy');
 
-/** Two thirds of a second of it at 7680 by 4320 pixels. */
+/** Two thirds of a second of a film at 7680 by 4320 pixels. */
 export const hugePicture = another('huge.mp4', '-an', '-t', '0.67', '-r', '15', '-vf', 'scale=-2:4320:flags=fast_bilinear,pad=7680:4320:(ow-iw)/2:0', '-c:v', 'libx264', '-preset', 'ultrafast', '-crf', '26', '-pix_fmt', 'yuv420p');
 
-/** The same in a file of more than 2 GB, most of it a hole that the disk does not hold. */
+/** A film in a sparse file of more than 2 GB. */
 export function hugeFile(film, folder) {
   const huge = join(folder, 'gigabytes.mp4');
   const hole = 2_200_000_000;
@@ -124,8 +117,7 @@ export function hugeFile(film, folder) {
   return huge;
 }
 
-/** Whether two recordings are the same: to a hundredth of a pixel, as decoders of pictures agree, and to a thousandth of wind. They have
- * that channel. */
+/** Asserts that two recordings with a channel agree: to `most` pixels, by which decoders differ, and to a thousandth of wind. */
 export function assertSame(ours, theirs, most = 0.01, channel = 'u:wind') {
   const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
   const [[head, ...found], [names, ...wanted]] = [rows(ours), rows(theirs)];

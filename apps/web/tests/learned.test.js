@@ -1,23 +1,16 @@
-// What the page says of models, and what it makes of one that has never felt wind.
+// What the page says about models, and how it plays one that was learned without wind.
 // tests/models/calm.wisp: 15 s of the simulated candle without any wind (WindKind::kCalm, seed 2), without its sound, through `wisp learn flame`.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
-import { drop, onPage, openDrawer, says, skip, until } from './browser.js';
+import { drop, hold, loud, onPage, openDrawer, says, skip, until } from './browser.js';
 
 const calm = readFileSync(new URL('models/calm.wisp', import.meta.url));
 
-const hold = async (page, code, what, holds) => {
-  await page.focus('#stage');
-  await page.keyboard.down(code);
-  await until(page, what, holds);
-  await page.keyboard.up(code);
-};
-
 describe('what was learned', { skip }, () => {
-  let opened, page;
-  onPage('#scene=candle&seed=3&detail=0.1', (...made) => ([page, opened] = made) && openDrawer(page), { flags: ['--autoplay-policy=no-user-gesture-required'] });
+  let page;
+  onPage('#scene=candle&seed=3&detail=0.1', (made) => openDrawer((page = made)), { flags: () => [loud] });
 
   it('says that the simulator taught the shipped flame, and claims no film', async () => {
     const said = await page.textContent('.introduction');

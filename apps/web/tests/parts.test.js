@@ -1,4 +1,4 @@
-// Every piece of the page that comes late is lost on its way once, and comes all the same.
+// Each part that the page loads late fails to arrive once, and is fetched again.
 
 import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';

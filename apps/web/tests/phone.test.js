@@ -1,4 +1,4 @@
-// The page under a finger on a small, upright screen, in Chromium's likeness of a phone.
+// The page by touch on a small, upright screen, in Chromium's emulation of a phone.
 
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
@@ -40,8 +40,7 @@ describe('on a phone', { skip }, () => {
     await held(10, 88, 0);
     await page.keyboard.press('a');
     await sees('it has asked, in a press', () => window.asked === true && document.querySelector('[data-knob=senses]').ariaPressed === 'true');
-    // What it is held like at first counts from the first event that the page has had, on a busy machine late. The browser
-    // tells of changes alone.
+    // The rest position is that of the first event, which a busy machine delivers late. The browser reports changes only.
     await page.evaluate(() => addEventListener('deviceorientation', () => (window.turned = true)));
     await held(10, 88.1, 0);
     await sees('nothing blows', () => window.turned && Math.abs(window.wisp.wind) < 0.02);

@@ -1,4 +1,4 @@
-// What people send to each other: a link that carries a model, a picture, three seconds; and what other pages take over.
+// What people send to each other: a link with a model, a picture, a film; and the overlay for other programs.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -8,7 +8,7 @@ import { blowOut, drop, framesPass, onPage, openCard, openDrawer, saved, says, s
 const clipboard = ['clipboard-read', 'clipboard-write'];
 const bytesOf = (name) => readFileSync(new URL(`../public/models/${name}`, import.meta.url));
 
-/** What the canvas shows in the next frame: red, green, blue, opacity of each pixel, from the lower left. */
+/** The canvas's next frame: red, green, blue, opacity of each pixel, from the lower left. */
 async function canvasOf(page) {
   const [text, width, height] = await page.evaluate(
     () =>

@@ -6,12 +6,13 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { wavOf } from '../../../bindings/npm/tests/chromium.mjs';
+import { hears, openBrowser, until } from './browser.js';
 
 export const rate = 44_100;
 
 const data = process.env.WISP_DATA ?? fileURLToPath(new URL('../../../../shared/data/', import.meta.url));
 
-// The same numbers every time.
+// Pseudo-random numbers from −1 to 1.
 function noise(seed) {
   let word = seed >>> 0;
   return () => {
@@ -26,14 +27,13 @@ function rms(samples) {
   return Math.sqrt(sum / samples.length);
 }
 
-/** Made as loud as that, with soft ends. */
+/** Scales samples to a level (RMS) and fades their ends. */
 function loud(samples, level, fade = 0.15) {
   const gain = level / Math.max(1e-9, rms(samples));
   const ends = Math.round(fade * rate);
   return samples.map((value, k) => value * gain * Math.min(1, k / ends, (samples.length - 1 - k) / ends));
 }
 
-/** A quiet room. */
 export function room(seconds, level = 0.0008) {
   const next = noise(7);
   let low = 0;
@@ -44,7 +44,7 @@ export function room(seconds, level = 0.0008) {
   return loud(samples, level, 0);
 }
 
-// Air on a membrane: deep noise that swells and falls.
+// Synthetic breath: low-frequency noise whose loudness varies.
 function madeBreath(seconds) {
   const next = noise(23);
   let deep = 0;
@@ -56,7 +56,7 @@ function madeBreath(seconds) {
   });
 }
 
-/** A blow of which a microphone passes one band alone: without its rumble, a hiss from 0.8 to 3.2 kHz. */
+/** Blowing at a microphone that passes only a band of frequencies, Hz. */
 export function hiss(seconds, level, band = [800, 3200]) {
   const next = noise(31);
   const [low, high] = band.map((hertz) => 1 - Math.exp((-2 * Math.PI * hertz) / rate));
@@ -78,7 +78,7 @@ function samplesOf(path) {
   return Float32Array.from({ length: count }, (_, k) => bytes.readInt16LE(from + 2 * k) / 32768);
 }
 
-/** The loudest stretch of that length. */
+/** The loudest part of that length. */
 function loudest(samples, seconds) {
   const length = Math.round(seconds * rate);
   let best = 0;
@@ -90,13 +90,13 @@ function loudest(samples, seconds) {
   return samples.slice(best, best + length);
 }
 
-/** Somebody's breath on a microphone where there is a recording, else made of noise. */
+/** Recorded breath where there is a recording, else synthetic. */
 export function breath(seconds, level) {
   const recorded = join(data, 'sound/breath_normal.wav');
   return loud(existsSync(recorded) ? loudest(samplesOf(recorded), seconds) : madeBreath(seconds), level);
 }
 
-/** A sentence, or null where nothing here can speak. */
+/** A spoken sentence; null without espeak-ng. */
 export function speech(seconds, level) {
   const folder = mkdtempSync(join(tmpdir(), 'wisp-speech-'));
   const path = join(folder, 'speech.wav');
@@ -115,7 +115,7 @@ export function speech(seconds, level) {
   return loud(spoken, level, 0.02);
 }
 
-/** Writes pieces one after another, over the room's noise. */
+/** Writes pieces one after another to a WAV file, with the room's noise added. */
 export function writeSound(path, pieces) {
   const length = pieces.reduce((sum, piece) => sum + piece.length, 0);
   const background = room(Math.ceil(length / rate) + 1);
@@ -126,4 +126,28 @@ export function writeSound(path, pieces) {
     at += piece.length;
   }
   writeFileSync(path, wavOf(samples, rate));
+}
+
+/**
+ * A page that hears these pieces of sound, one after another, from the moment in which its microphone opens. What it
+ * shows is kept thirty times a second, timed by the sound.
+ */
+export async function hearing(folder, pieces, { detail = 0.2, ...options } = {}) {
+  const file = join(folder, `${Math.random()}.wav`);
+  writeSound(file, pieces);
+  const opened = await openBrowser(hears(file));
+  const page = await opened.page(`#scene=candle&seed=1&noise=0.5&detail=${detail}`, options);
+  await page.evaluate(() => {
+    let began = 0;
+    window.course = [];
+    setInterval(() => {
+      const { hearing, wind, answer, burning, smoking, sound, frames } = window.wisp;
+      if (began === 0 && hearing === 'listening') began = performance.now();
+      window.soundTime = began === 0 ? 0 : (performance.now() - began) / 1000;
+      window.course.push({ time: window.soundTime, hearing, wind, answer, lit: burning.lit, smoking, frames, ...sound });
+    }, 33);
+  });
+  const at = (seconds) => until(page, `${seconds} s of sound`, (time) => window.soundTime > time, seconds);
+  const between = (from, to) => page.evaluate(([low, high]) => window.course.filter(({ time }) => time > low && time < high), [from, to]);
+  return { opened, page, at, between };
 }

@@ -1,11 +1,11 @@
-// Days on which the studio has it hard: films out of the ordinary, devices that are taken away, a worker that stops. Each
-// ends in a model or in a sentence, and what was gathered before stays.
+// The studio under difficulties: unusual films, devices that disappear, a worker that stops. Each ends in a model or in a
+// sentence, and what was gathered before is kept.
 
 import assert from 'node:assert/strict';
 import { readFileSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, describe, it } from 'node:test';
-import { chooses, drop, enterStudio, onPage, openBrowser, panel, saved, says, skip as noChromium, step, temporaryFolder, toLearn, until } from './browser.js';
+import { describe, it } from 'node:test';
+import { chooses, drop, enterStudio, filmsWith, loud, onPage, panel, saved, says, skip as noChromium, step, temporaryFolder, toLearn, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
 import { asDevices, assertSame, brokenOff, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, soundAlone, unevenFilm, webFilm } from './films.js';
 
@@ -18,7 +18,7 @@ const looked = (page) => until(page, 'it has looked', () => document.querySelect
 const inStudio = (ready, options = {}) =>
   onPage('#scene=candle&detail=0.1', (page) => enterStudio(page).then(() => ready(page)), { viewport: { width: 1000, height: 700 }, ...options });
 
-/** Chooses a file by its place on the disk: its bytes do not pass through the test. */
+/** Chooses a file by its path: its bytes do not pass through the test. */
 const choose = (page, kind, path) => page.setInputFiles(`[data-choose=${kind}]`, path);
 
 describe('a film out of the ordinary', { skip }, () => {
@@ -45,7 +45,7 @@ describe('a film out of the ordinary', { skip }, () => {
     for (const [name, [bytes, words]] of Object.entries(strangers)) {
       await drop(page, name, bytes);
       await says(page, `${panel} .verdict.bad`, words);
-      // Where no picture was seen, there is none to look at in another way.
+      // Without a picture there is none to analyse in another way.
       assert.doesNotMatch(await page.textContent(panel), /The picture stays|something that falls/);
       await anew();
     }
@@ -72,7 +72,7 @@ describe('a film out of the ordinary', { skip }, () => {
     }
     const words = (await page.textContent(panel)) + (await page.textContent('#notices'));
     assert.match(words, /short|frames|not enough|rows|seconds/i);
-    // A notice of an earlier film may stand while this one is still being learned from.
+    // A notice about an earlier film may be shown while this one is still being learned from.
     await page.locator('[data-act=choose], [data-act=leave-out], [data-act=anew]').first().click();
     await chooses(page);
   });
@@ -143,7 +143,7 @@ describe('a worker that stops', { skip }, () => {
     await looked(page);
   });
 
-  /** Something happens in the worker while it looks at a film. */
+  /** Runs a function in the worker while it analyses a film. */
   const meanwhile = async (happens) => {
     await page.click('[data-act=more]');
     await drop(page, 'second.mp4', readFileSync(film()));
@@ -188,7 +188,7 @@ describe('a worker that stops', { skip }, () => {
 
 describe('devices that are taken away', { skip }, () => {
   let page;
-  // In the page: the film stands for the camera, a tone for the microphone.
+  // Runs in the page: a drawn flame in place of the camera, and a silent microphone.
   function stubDevices() {
     window.deaf = false;
     navigator.mediaDevices.getUserMedia = async (wanted) => {
@@ -213,7 +213,7 @@ describe('devices that are taken away', { skip }, () => {
       return stream;
     };
   }
-  inStudio((made) => (page = made), { before: stubDevices, flags: ['--autoplay-policy=no-user-gesture-required'] });
+  inStudio((made) => (page = made), { before: stubDevices, flags: () => [loud] });
   const filming = async () => {
     await page.click('[data-gather=camera]');
     await says(page, panel, 'Film your flame');
@@ -243,7 +243,6 @@ describe('devices that are taken away', { skip }, () => {
     await says(page, '#notices', 'camera is gone; what was filmed till then is kept');
     await looked(page);
     assert.match(await page.textContent(panel), /The flame is|Nothing was learned/);
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
   });
 
   it('the worker while it films: it is said at once', async () => {
@@ -256,14 +255,11 @@ describe('devices that are taken away', { skip }, () => {
 });
 
 describe('falls before a camera', { skip }, () => {
-  let opened;
-  after(() => opened?.close());
+  let page;
+  const devices = () => asDevices(fallsFilm(join(folder, 'paper.mp4'), 10), folder, { silent: true, seconds: 16 });
+  inStudio((made) => (page = made), { viewport: { width: 390, height: 844 }, flags: () => filmsWith(devices()) });
 
   it('are counted while they are filmed, and learned from', async () => {
-    const { picture } = asDevices(fallsFilm(join(folder, 'paper.mp4'), 10), folder, { silent: true, seconds: 16 });
-    opened = await openBrowser(['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-video-capture=${picture}`]);
-    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 390, height: 844 } });
-    await enterStudio(page);
     await page.click('[data-gather=falls]');
     await says(page, panel, 'Film how it falls');
     assert.deepEqual(await page.evaluate(() => document.querySelector('.viewer video').srcObject.getAudioTracks().length), 0, 'no microphone is wanted');
@@ -279,6 +275,5 @@ describe('falls before a camera', { skip }, () => {
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
     await page.click('[data-act=learn]');
     await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null || document.getElementById('notices').textContent !== '');
-    assert.deepEqual([page.errors, page.strangers], [[], []]);
   });
 });

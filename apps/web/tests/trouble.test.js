@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
-import { drop, framesPass, onPage, says, seen, skip, until } from './browser.js';
+import { drop, framesPass, loud, onPage, says, seen, skip, until } from './browser.js';
 
 const flame = readFileSync(new URL('../public/models/flame-4.wisp', import.meta.url));
 
@@ -11,7 +11,7 @@ describe('trouble', { skip }, () => {
   let opened;
   let page;
 
-  // In the page: microphones that are not as they should be.
+  // Runs in the page: a microphone that is real, absent, or made here.
   function stubMicrophone() {
     const real = navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices);
     window.microphone = 'real';
@@ -25,7 +25,7 @@ describe('trouble', { skip }, () => {
     };
   }
 
-  const flags = ['--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream=deny', '--autoplay-policy=no-user-gesture-required'];
+  const flags = () => ['--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream=deny', loud];
   onPage('#scene=candle&seed=3&detail=0.5', (...made) => ([page, opened] = made), { before: stubMicrophone, flags });
 
   const said = async (words) => {
@@ -59,29 +59,18 @@ describe('trouble', { skip }, () => {
     assert.equal(await page.evaluate(() => window.wisp.hearing), 'off');
   });
 
-  it('says that a file is empty', async () => {
-    await drop(page, 'empty.wisp', 0);
-    await said('empty.wisp is empty');
-  });
-
-  it('says that a file of 50 MB is no model, without reading it', async () => {
-    await drop(page, 'heap.bin', 50_000_000);
-    await said('heap.bin is 50 MB large');
-  });
-
-  it('says what is wrong with a broken model', async () => {
-    await drop(page, 'broken.wisp', flame.map((value, k) => (k < 400 ? value : value ^ 1)));
-    await said('broken.wisp is not a model that can be played');
-    await drop(page, 'short.wisp', flame.subarray(0, 100));
-    await said('short.wisp is not a model that can be played');
-    await drop(page, 'letter.txt', Buffer.from('Dear Sir or Madam'));
-    await said('letter.txt is not a model that can be played');
-  });
-
-  it('plays a sound model that is dropped', async () => {
-    await drop(page, 'mine.wisp', flame);
-    await said('Playing mine.wisp');
-  });
+  for (const [name, bytes, words] of [
+    ['empty.wisp', 0, 'is empty'],
+    ['heap.bin', 50_000_000, 'is 50 MB large'],
+    ['broken.wisp', flame.map((value, k) => (k < 400 ? value : value ^ 1)), 'is not a model that can be played'],
+    ['short.wisp', flame.subarray(0, 100), 'is not a model that can be played'],
+    ['letter.txt', Buffer.from('Dear Sir or Madam'), 'is not a model that can be played'],
+  ]) {
+    it(`says that ${name} ${words}`, async () => {
+      await drop(page, name, bytes);
+      await said(`${name} ${words}`);
+    });
+  }
 
   it('says that the picture is gone, and goes on when it is back', async () => {
     await page.evaluate(() => {

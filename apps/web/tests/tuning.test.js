@@ -1,10 +1,9 @@
 // The guided calibration, in Chromium: a sound file plays in the place of a microphone that is far too sensitive.
 
 import assert from 'node:assert/strict';
-import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { hears, openBrowser, skip, temporaryFolder, until } from './browser.js';
-import { breath, hiss, room, writeSound } from './sound.js';
+import { skip, temporaryFolder, until } from './browser.js';
+import { breath, hearing, hiss, room } from './sound.js';
 
 const folder = temporaryFolder();
 const phone = { viewport: { width: 390, height: 844 } };
@@ -12,27 +11,6 @@ const phone = { viewport: { width: 390, height: 844 } };
 /** Loudness of somebody's breath at that microphone. */
 const SOFT = 0.15;
 const HARD = 0.6;
-
-/** A page that hears these pieces of sound, one after another, from the moment in which its microphone opens. */
-async function hearing(pieces, options = {}) {
-  const file = join(folder, `${Math.random()}.wav`);
-  writeSound(file, pieces);
-  const opened = await openBrowser(hears(file));
-  const page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.2', options);
-  await page.evaluate(() => {
-    let began = 0;
-    window.course = [];
-    setInterval(() => {
-      const { hearing, wind, answer, burning } = window.wisp;
-      if (began === 0 && hearing === 'listening') began = performance.now();
-      window.soundTime = began === 0 ? 0 : (performance.now() - began) / 1000;
-      window.course.push({ time: window.soundTime, wind, answer, lit: burning.lit });
-    }, 33);
-  });
-  const at = (seconds) => until(page, `${seconds} s of sound`, (time) => window.soundTime > time, seconds);
-  const between = (from, to) => page.evaluate(([low, high]) => window.course.filter(({ time }) => time > low && time < high), [from, to]);
-  return { opened, page, at, between };
-}
 
 const words = (page) => page.textContent('#tuning');
 
@@ -43,12 +21,12 @@ describe('a microphone that is too sensitive', { skip }, () => {
     // Soft and hard at the times of the two steps, with half a second to spare; the hard one is over before its step
     // is, or the candle that is tuned by then goes out by the rest. Then soft, then hard.
     const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(2, HARD), room(4.6), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
-    heard = await hearing(pieces, phone);
+    heard = await hearing(folder, pieces, phone);
   });
   after(() => heard?.opened.close());
 
   it('without tuning takes a soft breath for a hard one', async () => {
-    const { opened, page, at } = await hearing([room(5), breath(3, SOFT), room(10)]);
+    const { opened, page, at } = await hearing(folder, [room(5), breath(3, SOFT), room(10)]);
     await page.click('#blow');
     await at(5);
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
@@ -103,7 +81,7 @@ describe('a microphone that is too sensitive', { skip }, () => {
 
 describe('tuning', { skip }, () => {
   let heard;
-  before(async () => (heard = await hearing([room(60)], { ...phone, reducedMotion: 'reduce' })));
+  before(async () => (heard = await hearing(folder, [room(60)], { ...phone, reducedMotion: 'reduce' })));
   after(() => heard?.opened.close());
 
   it('opens by T, lies on the screen of a phone, and closes by Escape', async () => {
@@ -166,7 +144,7 @@ describe('tuning', { skip }, () => {
 describe('blow after blow that puts nothing out', { skip }, () => {
   it('brings the offer to tune, which opens it', async () => {
     const blows = Array.from({ length: 5 }, () => [breath(1, 0.02), room(0.8)]).flat();
-    const { opened, page } = await hearing([room(4), ...blows, room(20)]);
+    const { opened, page } = await hearing(folder, [room(4), ...blows, room(20)]);
     await page.click('#blow');
     await until(page, 'the offer', () => /tuned to your breath/.test(document.getElementById('notices').textContent));
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
@@ -178,7 +156,7 @@ describe('blow after blow that puts nothing out', { skip }, () => {
 
 describe('a microphone that takes the rumble of breath away', { skip }, () => {
   it('hears a hard blow all the same', async () => {
-    const { opened, page, at, between } = await hearing([room(4), hiss(1, 0.2), room(20)]);
+    const { opened, page, between } = await hearing(folder, [room(4), hiss(1, 0.2), room(20)]);
     await page.click('#blow');
     await until(page, 'it is out', () => window.wisp.burning.lit === 0);
     assert.ok((await between(0, 3.5)).every(({ lit }) => lit === 1), 'not before it was blown at');
@@ -189,7 +167,7 @@ describe('a microphone that takes the rumble of breath away', { skip }, () => {
     // Soft and hard at the times of the two steps; then quiet, then hard blows.
     const tap = (seconds, level) => hiss(seconds, level, [20, 20_000]);
     const pieces = [room(7), tap(6, 0.03), room(0.3), tap(2.2, 0.2), room(4), ...Array.from({ length: 6 }, () => [tap(1, 0.2), room(2)]).flat(), room(5)];
-    const { opened, page, at, between } = await hearing(pieces, phone);
+    const { opened, page, at, between } = await hearing(folder, pieces, phone);
     await page.click('#blow');
     await until(page, 'it listens', () => window.wisp.hearing === 'listening');
     await page.click('#tune');

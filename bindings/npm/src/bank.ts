@@ -17,37 +17,17 @@ export interface BankOptions {
 /** Value that names an instance; ids of ended instances are never reused. */
 export type Instance = bigint;
 
-/** Id of no instance. */
 export const noInstance: Instance = 0n;
 
 /** State of a flame. Times are nanoseconds of shown time; Infinity for events that never happened. */
-export interface FlameState {
-  lit: boolean;
-  /** Size from 0 to 1; outputs already include it. */
-  flameSize: number;
-  sinceLit: number;
-  sinceOut: number;
+export interface FlameState extends Omit<at.Values<typeof at.flameState.fields>, 'events'> {
   /** In the last call of `step()` or `advance()`, or by a call since. */
   wentOut: boolean;
   relit: boolean;
-  /** Light source: middle of the outline (z in the round), area relative to rest, colour temperature. */
-  light: [number, number, number];
-  intensity: number;
-  kelvin: number;
 }
 
 /** Position of an instance in its chain. */
-export interface ChainPlace {
-  segment: number;
-  step: number;
-  mode: number;
-  /** Over the last step: metres and radians a second, z up. */
-  velocity: [number, number, number];
-  spin: [number, number, number];
-  /** Whether it rests on the ground; whether it touched it in the last `step()` or `advance()`. */
-  lies: boolean;
-  landed: boolean;
-}
+export type ChainPlace = at.Values<typeof at.chainPlace.fields>;
 
 /** Settings of a chain; null: initial value. */
 export interface ChainSettings {
@@ -127,12 +107,10 @@ export class Bank {
   }
 
   private static create(native: Native, model: number, options: BankOptions): number {
-    return native.withRoom(at.bankOptions.size + 4, (p) => {
+    return native.withRoom(at.bankOptions.size, (p) => {
       native.functions.wisp_bank_default_options!(p);
       at.putAt(native, p, at.bankOptions, options);
-      const made = p + at.bankOptions.size;
-      native.check(native.functions.wisp_bank_create!(model, p, made));
-      return native.data.getUint32(made, true);
+      return native.made((made) => native.functions.wisp_bank_create!(model, p, made));
     });
   }
 
@@ -148,13 +126,9 @@ export class Bank {
 
   /** Starts an instance. Its random stream is the count of spawns so far, or `stream`. Throws when the bank is full. */
   spawn(stream?: bigint | number): Instance {
-    const { native, scratch } = this;
-    native.check(
-      stream === undefined
-        ? native.functions.wisp_bank_spawn!(this.pointer, scratch)
-        : native.functions.wisp_bank_spawn_stream!(this.pointer, BigInt.asUintN(64, BigInt(stream)), scratch),
-    );
-    return native.data.getBigUint64(scratch, true);
+    if (stream === undefined) this.call('wisp_bank_spawn', this.scratch);
+    else this.call('wisp_bank_spawn_stream', BigInt.asUintN(64, BigInt(stream)), this.scratch);
+    return this.native.data.getBigUint64(this.scratch, true);
   }
 
   end(instance: Instance): void {
@@ -180,12 +154,10 @@ export class Bank {
     this.give('wisp_bank_set_inputs', values);
   }
 
-  /** Sets the same inputs for all instances. */
   setCommonInputs(values: ArrayLike<number>): void {
     this.give('wisp_bank_set_common_inputs', values);
   }
 
-  /** Sets the inputs of one instance. */
   setInstanceInputs(instance: Instance, values: ArrayLike<number>): void {
     this.give('wisp_bank_set_instance_inputs', values, instance);
   }
@@ -210,8 +182,8 @@ export class Bank {
 
   /** Advances by nanoseconds; outputs interpolate between the last two steps. Returns the number of steps made. */
   advance(nanoseconds: number): number {
-    const time = Number.isFinite(nanoseconds) ? BigInt(Math.round(nanoseconds)) : 0n;
-    this.call('wisp_bank_advance', BigInt.asIntN(64, time), this.scratch);
+    const time = Number.isFinite(nanoseconds) ? Math.max(-1e18, Math.min(1e18, nanoseconds)) : 0;
+    this.call('wisp_bank_advance', BigInt(Math.round(time)), this.scratch);
     return this.native.data.getInt32(this.scratch, true);
   }
 
@@ -250,24 +222,26 @@ export class Bank {
 
   /** In the round: surface of one instance, rings × segments vertices with position and normal, as a copy. */
   mesh(instance: Instance, segments: number): Float32Array<ArrayBuffer> {
+    const { native, ringCount } = this;
     this.rings(instance);
-    return this.filled(6 * this.ringCount * segments, (room, count) => {
-      const { wisp_ring_mesh } = this.native.functions;
-      this.native.check(wisp_ring_mesh!(this.rooms.rings.pointer, this.ringCount, segments, room.pointer, count, 6));
-      return room.first(count).slice();
+    const count = Math.max(0, 6 * ringCount * segments);
+    return native.withRoom(4 * count, (p) => {
+      native.check(native.functions.wisp_ring_mesh!(this.rooms.rings.pointer, ringCount, segments, p, count, 6));
+      return native.floats(p, count).slice();
     });
   }
 
   /** Three indices for each of the 2 × rings × segments − 4 triangles of `mesh()`, anticlockwise seen from outside. */
   triangles(segments: number): Uint32Array {
-    return this.filled(6 * this.ringCount * segments - 12, (room, count) => {
-      this.native.check(this.native.functions.wisp_ring_triangles!(this.ringCount, segments, room.pointer, count));
-      const words = room.first(count);
-      return new Uint32Array(words.buffer, words.byteOffset, count).slice();
+    const { native, ringCount } = this;
+    this.living();
+    const count = Math.max(0, 6 * ringCount * segments - 12);
+    return native.withRoom(4 * count, (p) => {
+      native.check(native.functions.wisp_ring_triangles!(ringCount, segments, p, count));
+      return new Uint32Array(native.data.buffer, p, count).slice();
     });
   }
 
-  /** State of a flame. */
   flameState(instance: Instance): FlameState {
     const { events, ...state } = this.struct(at.flameState, 'wisp_bank_get_flame_state', instance);
     return { ...state, wentOut: (events & 1) !== 0, relit: (events & 2) !== 0 };
@@ -364,17 +338,6 @@ export class Bank {
   // A freed bank has no scratch memory either.
   private living(): void {
     if (this.pointer === 0) this.native.check(this.native.functions.wisp_bank_step!(0));
-  }
-
-  // Calls `make` with a buffer of so many numbers, and returns its result.
-  private filled<T>(count: number, make: (room: Room, count: number) => T): T {
-    this.living();
-    const room = new Room(this.native, Math.max(count, 0));
-    try {
-      return make(room, Math.max(count, 0));
-    } finally {
-      room.free();
-    }
   }
 
   private get ringCount(): number {

@@ -4,27 +4,8 @@ import { Library } from './library.js';
 import { Native, type LoadOptions } from './native.js';
 import { WindLevel, type WindOptions } from './wind.js';
 
-export {
-  Bank,
-  noInstance,
-  type BankOptions,
-  type Body,
-  type ChainPlace,
-  type ChainSettings,
-  type FlameState,
-  type Instance,
-} from './bank.js';
-export {
-  Model,
-  type ArxFacts,
-  type BlowOut,
-  type ChainFacts,
-  type Channel,
-  type Dynamics,
-  type ModelFacts,
-  type Provenance,
-  type View,
-} from './model.js';
+export * from './bank.js';
+export * from './model.js';
 export { Library } from './library.js';
 export { hasSimd, Status, WispError, type LoadOptions } from './native.js';
 export { WindLevel, type WindAsk, type WindCalibration, type WindFrame, type WindOptions } from './wind.js';

@@ -1,5 +1,5 @@
 // The C ABI's structs in WebAssembly memory: byte offset and kind of each field. wasm/layout.cpp checks the compiler
-// against the same numbers.
+// against the same numbers. The package's types of facts, states and frames are made of these fields.
 
 import type { Native } from './native.js';
 
@@ -25,7 +25,7 @@ export interface Struct<F extends Fields> {
   fields: F;
 }
 
-export type Values<F extends Fields> = { [Name in keyof F]: ReturnType<(typeof readers)[F[Name][1]]> };
+export type Values<F extends Fields> = { -readonly [Name in keyof F]: ReturnType<(typeof readers)[F[Name][1]]> };
 
 const struct = <const F extends Fields>(size: number, fields: F): Struct<F> => ({ size, fields });
 
@@ -55,24 +55,47 @@ export function putAt<F extends Fields>({ data }: Native, p: number, { fields }:
 export const modelFacts = struct(128, {
   inputs: [4, 'count'],
   outputs: [8, 'count'],
+  /** Number of control points of an outline; otherwise 0. */
   controlPoints: [12, 'count'],
+  /** Steps per second; `stepNanoseconds`: duration of one. */
   rateHz: [24, 'double'],
+  /** Metres per unit of an outline; 0 if unknown. */
   metresPerUnit: [32, 'double'],
   stepNanoseconds: [40, 'long'],
+  /** Non-zero coefficients (the paper's count of cost), as stored in the file; 0 if missing. */
   multiplyAddsPerFrame: [48, 'long'],
+  /** All arithmetic operations of a frame, as stored; 0 if missing. */
   operationsPerFrame: [56, 'long'],
-  blowOutLevel: [64, 'double'],
-  blowOutSeconds: [72, 'double'],
   dynamics: [80, 'count'],
   view: [84, 'count'],
+  /** Half sizes in metres of a body with pose or position; 0 if unknown. */
   halfWidth: [88, 'double'],
   halfLength: [96, 'double'],
-  blowOutHaste: [104, 'double'],
-  blowOutRecoverySeconds: [112, 'double'],
-  blowOutInput: [120, 'count'],
 });
 
-export const channel = struct(40, { name: [8, 'text'], unit: [12, 'text'], lowest: [16, 'double'], highest: [24, 'double'], evenOdd: [32, 'flag'] });
+/** The fields `blow_out_…` of the same struct. */
+export const blowOut = struct(modelFacts.size, {
+  /** Index of the wind input. */
+  input: [120, 'count'],
+  /** Minimum wind that extinguishes when it lasts `seconds`, in the input's unit. */
+  level: [64, 'double'],
+  seconds: [72, 'double'],
+  /** At twice the level it takes seconds / (1 + haste). */
+  haste: [104, 'double'],
+  /** Seconds below the level until full recovery. */
+  recoverySeconds: [112, 'double'],
+});
+
+export const channel = struct(40, {
+  name: [8, 'text'],
+  /** Unit of the values; '' if none. */
+  unit: [12, 'text'],
+  /** Trained or observed range; the bank clamps values to it extended by half its width at each end. */
+  lowest: [16, 'double'],
+  highest: [24, 'double'],
+  /** For inputs: whether the dynamics have separate coefficients for positive and negative values. */
+  evenOdd: [32, 'flag'],
+});
 
 export const provenance = struct(32, { sources: [4, 'count'], options: [8, 'count'], figures: [12, 'count'], usable: [16, 'flag'], program: [24, 'text'], reason: [28, 'text'] });
 
@@ -99,10 +122,12 @@ export const bankFacts = struct(48, {
 
 export const flameState = struct(56, {
   lit: [4, 'flag'],
+  /** Size from 0 to 1; outputs already include it. */
   flameSize: [8, 'float'],
   events: [12, 'count'],
   sinceLit: [16, 'time'],
   sinceOut: [24, 'time'],
+  /** Light source at the outline's centroid; `intensity`: area relative to rest; `kelvin`: colour temperature. */
   light: [32, 'vector'],
   intensity: [44, 'float'],
   kelvin: [48, 'float'],
@@ -112,8 +137,10 @@ export const chainPlace = struct(48, {
   segment: [4, 'count'],
   step: [8, 'count'],
   mode: [12, 'count'],
+  /** Over the last step: metres and radians a second, z up. */
   velocity: [16, 'vector'],
   spin: [28, 'vector'],
+  /** Whether it rests on the ground; whether it touched it in the last `step()` or `advance()`. */
   lies: [40, 'flag'],
   landed: [44, 'flag'],
 });
@@ -123,12 +150,19 @@ export const chainSettings = struct(12, { hasGround: [4, 'flag'], ground: [8, 'f
 export const body = struct(56, { position: [4, 'vector'], orientation: [16, 'vector'], velocity: [32, 'vector'], spin: [44, 'vector'] });
 
 export const windOptions = struct(56, {
+  /** Number of interleaved channels, 1 to 8; default 1. */
   channels: [4, 'count'],
+  /** Sampling rate of each channel, 8000 to 192000 Hz. */
   sampleRate: [8, 'double'],
+  /** Frames of wind per second, 1 to 1000; default 60. */
   frameRate: [16, 'double'],
+  /** Exponent of the sound's RMS that gives wind speed, 0.1 to 2; default 0.5. */
   exponent: [24, 'double'],
+  /** Averaging time of the level, 0 to 1 s; default 0. */
   smoothingSeconds: [32, 'double'],
+  /** Maximum rise of the background, dB a second, 0 to 60; default 1. */
   floorRiseDbPerSecond: [40, 'double'],
+  /** Initial RMS of wind 1, full scale 1; default 0.04. */
   firstGustRms: [48, 'double'],
 });
 
@@ -137,10 +171,14 @@ export const windFrame = struct(40, {
   rms: [8, 'float'],
   rmsClean: [12, 'float'],
   level: [16, 'float'],
+  /** Proportional to wind speed; 1 lies between soft breath and hard blowing. */
   speed: [20, 'float'],
+  /** Input for a model: speed where it sounds like blowing, 0 in silence. */
   wind: [24, 'float'],
+  /** Confidence from 0 to 1 that the sound is blowing, not talking. */
   confidence: [28, 'float'],
   background: [32, 'float'],
+  /** Share of samples at full scale. */
   clipped: [36, 'float'],
 });
 

@@ -77,18 +77,14 @@ function refusal(error: unknown): MicrophoneError {
   return new MicrophoneError(trouble, message, { cause: error });
 }
 
+/** All three enhance speech and suppress noise, and wind is noise. */
+const RAW = { echoCancellation: false, noiseSuppression: false, autoGainControl: false };
+
 async function askForSound(deviceId: string | undefined): Promise<MediaStream> {
   if (!globalThis.navigator?.mediaDevices?.getUserMedia || typeof AudioWorkletNode === 'undefined') {
     throw new MicrophoneError('unsupported', 'There is no microphone here: a page needs HTTPS or localhost for it.');
   }
-  // All three enhance speech and suppress noise, and wind is noise.
-  const audio: MediaTrackConstraints = {
-    echoCancellation: false,
-    noiseSuppression: false,
-    autoGainControl: false,
-    channelCount: 1,
-  };
-  if (deviceId) audio.deviceId = { exact: deviceId };
+  const audio: MediaTrackConstraints = { ...RAW, channelCount: 1, ...(deviceId ? { deviceId: { exact: deviceId } } : {}) };
   try {
     return await navigator.mediaDevices.getUserMedia({ audio, video: false });
   } catch (error) {
@@ -116,7 +112,6 @@ const STUCK = 4;
 /** Events that may resume an interrupted sound. */
 const WAKES = ['pointerdown', 'keydown', 'visibilitychange'] as const;
 
-/** An open microphone. */
 export type Microphone = Readonly<Pick<OpenMicrophone, 'settings' | 'raw' | 'asleep' | 'latest' | 'calibrate' | 'calibration' | 'reset' | 'stop'>>;
 
 class OpenMicrophone {
@@ -232,7 +227,6 @@ class OpenMicrophone {
     });
   }
 
-  /** Resets the estimator. */
   reset(): void {
     this.tell({ type: 'reset' });
   }

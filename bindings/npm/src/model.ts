@@ -5,16 +5,7 @@ import * as at from './layout.js';
 import { Native } from './native.js';
 
 /** An input or an output. */
-export interface Channel {
-  name: string;
-  /** Unit of the values; '' if none. */
-  unit: string;
-  /** Trained or observed range; the bank clamps values to it extended by half its width at each end. */
-  lowest: number;
-  highest: number;
-  /** For inputs: whether the dynamics have separate coefficients for positive and negative values. */
-  evenOdd: boolean;
-}
+export type Channel = at.Values<typeof at.channel.fields>;
 
 /** 'arx': autoregression with exogenous inputs. 'chain': recorded segments, joined at random. 'switched': ARX modes in turn. */
 export type Dynamics = 'arx' | 'chain' | 'switched';
@@ -23,33 +14,9 @@ export type Dynamics = 'arx' | 'chain' | 'switched';
 export type View = 'plain' | 'outline' | 'pose' | 'position';
 
 /** The rule of extinction by wind. */
-export interface BlowOut {
-  /** Index of the wind input. */
-  input: number;
-  /** Minimum wind that extinguishes when it lasts `seconds`, in the input's unit. */
-  level: number;
-  seconds: number;
-  /** At twice the level it takes seconds / (1 + haste). */
-  haste: number;
-  /** Seconds below the level until full recovery. */
-  recoverySeconds: number;
-}
+export type BlowOut = at.Values<typeof at.blowOut.fields>;
 
-export interface ModelFacts {
-  /** Steps per second, and duration of one. */
-  rateHz: number;
-  stepNanoseconds: number;
-  /** Number of control points of an outline; otherwise 0. */
-  controlPoints: number;
-  /** Metres per unit of an outline; 0 if unknown. */
-  metresPerUnit: number;
-  /** Half sizes in metres of a body with pose or position; 0 if unknown. */
-  halfWidth: number;
-  halfLength: number;
-  /** Non-zero coefficients (the paper's count of cost), as stored in the file; 0 if missing. */
-  multiplyAddsPerFrame: number;
-  /** All arithmetic operations of a frame, as stored; 0 if missing. */
-  operationsPerFrame: number;
+export interface ModelFacts extends Omit<at.Values<typeof at.modelFacts.fields>, 'inputs' | 'outputs' | 'dynamics' | 'view'> {
   /** null: wind does not extinguish it. */
   blowOut: BlowOut | null;
 }
@@ -71,7 +38,6 @@ export interface ArxFacts {
   noise: number[];
 }
 
-/** Composition of a chain. */
 export interface ChainFacts {
   modes: number;
   segments: { mode: number; steps: number }[];
@@ -101,12 +67,8 @@ const viewNames: View[] = ['plain', 'outline', 'pose', 'position'];
 // The signature of a model's file.
 const magic = [0x89, 0x57, 0x49, 0x53, 0x50, 0x0d, 0x0a, 0x1a];
 
-function rows<T>(values: ArrayLike<T>, columns: number): T[][] {
-  const flat = Array.from(values);
-  return Array.from({ length: columns ? flat.length / columns : 0 }, (_, row) =>
-    flat.slice(row * columns, (row + 1) * columns),
-  );
-}
+const rows = (values: readonly number[], columns: number): number[][] =>
+  Array.from({ length: columns ? values.length / columns : 0 }, (_, row) => values.slice(row * columns, (row + 1) * columns));
 
 /** Made by `Wisp.model()`. Free it when it is no longer needed; its banks stay valid. */
 export class Model {
@@ -125,10 +87,9 @@ export class Model {
   ) {
     this.pointer = typeof bytes === 'number' ? bytes : native.allocating(() => Model.read(native, bytes));
     this.name = native.text(native.functions.wisp_model_name!(this.pointer));
-    const { inputs, outputs, dynamics, view, blowOutInput, blowOutLevel, blowOutSeconds, blowOutHaste, blowOutRecoverySeconds, ...facts } =
-      this.read(at.modelFacts, 'wisp_model_get_facts');
-    const blowOut = { input: blowOutInput, level: blowOutLevel, seconds: blowOutSeconds, haste: blowOutHaste, recoverySeconds: blowOutRecoverySeconds };
-    this.facts = { ...facts, blowOut: blowOutLevel > 0 ? blowOut : null };
+    const { inputs, outputs, dynamics, view, ...facts } = this.read(at.modelFacts, 'wisp_model_get_facts');
+    const blowOut = this.read(at.blowOut, 'wisp_model_get_facts');
+    this.facts = { ...facts, blowOut: blowOut.level > 0 ? blowOut : null };
     this.kind = dynamicsNames[dynamics]!;
     this.view = viewNames[view]!;
     this.inputs = Array.from({ length: inputs }, (_, k) => this.read(at.channel, 'wisp_model_get_input', k));
@@ -146,13 +107,7 @@ export class Model {
    */
   inTheRound(): Model {
     const { native } = this;
-    const made = native.allocating(() =>
-      native.withRoom(4, (room) => {
-        native.check(native.functions.wisp_model_in_the_round!(this.pointer, room));
-        return native.data.getUint32(room, true);
-      }),
-    );
-    return new Model(native, made);
+    return new Model(native, native.allocating(() => native.made((made) => native.functions.wisp_model_in_the_round!(this.pointer, made))));
   }
 
   /** Origin and quality of the model. */
@@ -161,12 +116,7 @@ export class Model {
     const made = this.read(at.provenance, 'wisp_model_get_provenance');
     return {
       ...made,
-      sources: Array.from({ length: made.sources }, (_, k) =>
-        native.withRoom(4, (p) => {
-          native.check(native.functions.wisp_model_get_source!(pointer, k, p));
-          return native.text(native.data.getUint32(p, true));
-        }),
-      ),
+      sources: Array.from({ length: made.sources }, (_, k) => native.text(native.made((p) => native.functions.wisp_model_get_source!(pointer, k, p)))),
       options: Array.from({ length: made.options }, (_, k) => this.read(at.note, 'wisp_model_get_option', k)),
       figures: Array.from({ length: made.figures }, (_, k) => this.read(at.figure, 'wisp_model_get_figure', k)),
     };
@@ -209,11 +159,9 @@ export class Model {
     // Bytes without a model's signature are not copied, as a dropped film of many megabytes would stay in memory.
     const promising = bytes.length >= 32 && magic.every((byte, k) => bytes[k] === byte);
     const given = promising ? bytes : bytes.subarray(0, 64);
-    return native.withRoom(given.length + 4, (room) => {
-      const copied = room + 4;
+    return native.withRoom(given.length, (copied) => {
       native.bytes.set(given, copied);
-      native.check(native.functions.wisp_model_load!(copied, given.length, room));
-      return native.data.getUint32(room, true);
+      return native.made((made) => native.functions.wisp_model_load!(copied, given.length, made));
     });
   }
 
@@ -240,10 +188,8 @@ export class Model {
     const { native } = this;
     return native.withRoom(count * 8, (p) => {
       native.check(native.functions.wisp_model_chain_segments!(this.pointer, p, p + 4 * count, count));
-      return Array.from({ length: count }, (_, k) => ({
-        mode: native.data.getUint32(p + 4 * k, true),
-        steps: native.data.getUint32(p + 4 * (count + k), true),
-      }));
+      const words = new Uint32Array(native.data.buffer, p, 2 * count);
+      return Array.from({ length: count }, (_, k) => ({ mode: words[k]!, steps: words[count + k]! }));
     });
   }
 }

@@ -153,6 +153,14 @@ export class Native {
     }
   }
 
+  /** Pointer that a call stores in the memory it is given. */
+  made(call: (room: number) => number): number {
+    return this.withRoom(4, (room) => {
+      this.check(call(room));
+      return this.data.getUint32(room, true);
+    });
+  }
+
   /** Reads zero-terminated text. */
   text(pointer: number): string {
     const bytes = this.bytes;

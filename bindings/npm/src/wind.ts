@@ -3,48 +3,13 @@
 import * as at from './layout.js';
 import { Native } from './native.js';
 
-export interface WindOptions {
-  /** Sampling rate of each channel, 8000 to 192000 Hz. */
-  sampleRate: number;
-  /** Number of interleaved channels, 1 to 8; default 1. */
-  channels?: number;
-  /** Frames of wind per second, 1 to 1000; default 60. */
-  frameRate?: number;
-  /** Exponent of the sound's RMS that gives wind speed, 0.1 to 2; default 0.5. */
-  exponent?: number;
-  /** Averaging time of the level, 0 to 1 s; default 0. */
-  smoothingSeconds?: number;
-  /** Maximum rise of the background, dB a second, 0 to 60; default 1. */
-  floorRiseDbPerSecond?: number;
-  /** Initial RMS of wind 1, full scale 1; default 0.04. */
-  firstGustRms?: number;
-}
+export type WindOptions = { sampleRate: number } & Partial<at.Values<typeof at.windOptions.fields>>;
 
 /** The wind during one frame. Amplitudes are root mean squares with full scale 1. */
-export interface WindFrame {
-  index: number;
-  rms: number;
-  rmsClean: number;
-  level: number;
-  /** Proportional to wind speed; 1 lies between soft breath and hard blowing. */
-  speed: number;
-  /** Input for a model: speed where it sounds like blowing, 0 in silence. */
-  wind: number;
-  /** Confidence from 0 to 1 that the sound is blowing, not talking. */
-  confidence: number;
-  background: number;
-  /** Share of samples at full scale. */
-  clipped: number;
-}
+export type WindFrame = at.Values<typeof at.windFrame.fields>;
 
-/** Calibration of a microphone in a room; stored, it saves the next start from estimating it. */
-export interface WindCalibration {
-  backgroundRms: number;
-  backgroundLevel: number;
-  floorDb: number;
-  /** 0: unknown. */
-  gustRms: number;
-}
+/** Calibration of a microphone in a room; stored, it saves the next start from estimating it. `gustRms` 0: unknown. */
+export type WindCalibration = at.Values<typeof at.windCalibration.fields>;
 
 /** Requests of a guided calibration to the user, in the order of WISP_WIND_*. */
 export const windAsks = ['breathe gently', 'blow hard'] as const;
@@ -72,12 +37,10 @@ export class WindLevel {
   }
 
   private static create(native: Native, options: WindOptions): number {
-    return native.withRoom(at.windOptions.size + 8, (p) => {
+    return native.withRoom(at.windOptions.size, (p) => {
       native.functions.wisp_wind_default_options!(p);
       at.putAt(native, p, at.windOptions, options);
-      const made = p + at.windOptions.size;
-      native.check(native.functions.wisp_wind_create!(p, made));
-      return native.data.getUint32(made, true);
+      return native.made((made) => native.functions.wisp_wind_create!(p, made));
     });
   }
 
@@ -123,7 +86,6 @@ export class WindLevel {
     if (typeof ask === 'string') this.native.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
-  /** Whether a calibration is running. */
   get calibrating(): boolean {
     return this.native.functions.wisp_wind_calibrating!(this.pointer) === 1;
   }

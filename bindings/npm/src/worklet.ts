@@ -5,7 +5,6 @@
 
 import type { WindCalibration, WindFrame } from './wind.js';
 
-/** Options of the processor (`processorOptions`). */
 export interface WindProcessorOptions {
   /** The module, as from `Wisp.module`. */
   module: WebAssembly.Module;
@@ -29,7 +28,6 @@ export type WindMessage =
   | { type: 'calibrated'; known: WindCalibration; heard: boolean }
   | { type: 'failed'; message: string };
 
-/** Commands to the processor. */
 export type WindCommand =
   /** `ask`: one of WISP_WIND_*. */
   | { type: 'calibrate'; seconds: number; ask: number }

@@ -1,12 +1,11 @@
 // The package as `npm pack` makes it, used by a plain page and by a Vite project, in Chromium.
 
 import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { executablePath, furnish, models, pack, quiet, serve, skip, until, watched, wavOf } from './chromium.mjs';
+import { executablePath, models, quiet, serveInstalled, skip, until, watched, wavOf } from './chromium.mjs';
 import { load } from '../dist/index.js';
 import { Chance, hashOfLife } from './lives.mjs';
 
@@ -24,42 +23,30 @@ function writeBreath(path) {
 }
 
 describe('in Chromium', { skip }, () => {
-  let work, chromium, browser, listening;
-  const servers = {};
+  let pages, browser, listening;
 
   before(async () => {
-    ({ chromium } = await import('playwright-core'));
-    const { build } = await import('vite');
-    work = mkdtempSync(join(tmpdir(), 'wisp-player-'));
-    const tarball = pack(work);
-    const plain = furnish(work, tarball, 'plain');
-    const project = furnish(work, tarball, 'vite');
-    await build({ root: project, logLevel: 'error', configFile: join(project, 'vite.config.js') });
-    for (const [name, folder] of [['plain', plain], ['vite', join(project, 'dist')]]) {
-      cpSync(models, join(folder, 'models'), { recursive: true });
-      servers[name] = await serve(folder);
-    }
-    writeBreath(join(work, 'breath.wav'));
+    const { chromium } = await import('playwright-core');
+    pages = await serveInstalled('plain', 'vite');
+    const sound = join(pages.work, 'breath.wav');
+    writeBreath(sound);
+    const hears = ['--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${sound}`, '--autoplay-policy=no-user-gesture-required'];
     browser = await chromium.launch({ executablePath, args: quiet });
-    listening = await chromium.launch({
-      executablePath,
-      args: [...quiet, '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${join(work, 'breath.wav')}`,
-        '--autoplay-policy=no-user-gesture-required'],
-    });
+    listening = await chromium.launch({ executablePath, args: [...quiet, ...hears] });
   });
 
   after(async () => {
     await browser?.close();
     await listening?.close();
-    for (const server of Object.values(servers)) server.close();
-    if (work) rmSync(work, { recursive: true, force: true });
+    pages?.close();
   });
 
   async function open(browser, name, permissions) {
-    const address = `http://localhost:${servers[name].address().port}/`;
+    const address = pages.address(name);
     const page = await watched(browser, address, { permissions });
     await page.goto(address);
     await until(page, 'window.page');
+    page.started = await page.evaluate("page.start('models/flame.wisp')");
     return page;
   }
 
@@ -68,7 +55,7 @@ describe('in Chromium', { skip }, () => {
     test(`a page made with ${name} plays with the bits that Node.js has, in a worker too`, async (t) => {
       const expected = hashOfLife(await load(), readFileSync(join(models, 'leaf.wisp')), 1000);
       const page = await open(browser, name, []);
-      const started = await page.evaluate("page.start('models/flame.wisp')");
+      const { started } = page;
       assert.equal(started.points, 64);
       assert.equal(started.simd, true);
       t.diagnostic(`library ready in ${started.load.toFixed(1)} ms, first outline in ${started.first.toFixed(1)} ms`);
@@ -79,7 +66,6 @@ describe('in Chromium', { skip }, () => {
 
     test(`a page made with ${name} hears a breath, raw, and notices that the microphone is gone`, async () => {
       const page = await open(listening, name, ['microphone']);
-      await page.evaluate("page.start('models/flame.wisp')");
       await page.evaluate(`(() => {
         const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
         window.resumes = AudioContext.prototype.resume;
@@ -109,11 +95,9 @@ describe('in Chromium', { skip }, () => {
 
   test('a microphone that is denied, or is not there, is told apart', async () => {
     const denied = await open(listening, 'plain', []);
-    await denied.evaluate("page.start('models/flame.wisp')");
     const refused = await denied.evaluate('page.listen({})');
     assert.equal(refused.trouble, 'denied', refused.message);
     const bare = await open(browser, 'plain', ['microphone']);
-    await bare.evaluate("page.start('models/flame.wisp')");
     const missing = await bare.evaluate('page.listen({})');
     assert.equal(missing.trouble, 'none', missing.message);
   });

@@ -2,8 +2,9 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, readFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -12,7 +13,7 @@ export const models = fileURLToPath(new URL('../../../tests/c/models/', import.m
 export const executablePath = process.env.WISP_CHROMIUM ?? ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync) ?? '/usr/bin/chromium';
 export const quiet = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--disable-quic', '--no-first-run'];
-/** Where there is no graphics card the processor draws. */
+/** Flags for drawing on the processor, where there is no graphics card. */
 export const drawing = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
 const types = { '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm',
@@ -37,14 +38,8 @@ export function serve(folder, strict = true) {
 
 export const skip = existsSync(executablePath) ? false : `there is no ${executablePath}`;
 
-/** The package as npm packs it, in a folder. */
-export function pack(work) {
-  const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', work], { cwd: join(here, '..') });
-  return join(work, packed.toString().trim());
-}
-
 /** Timeout of every wait, milliseconds: many times what any step takes on a busy machine. */
-export const patience = 180_000;
+const patience = 180_000;
 
 /** Waits until `holds()` returns true; after the timeout fails with the words `what`. */
 export async function seen(what, holds) {
@@ -70,24 +65,37 @@ export async function watched(browser, address, options = {}) {
 
 /** Sound of one channel, 16 bits, as a WAV file. */
 export function wavOf(samples, rate) {
-  const header = Buffer.alloc(44);
-  header.write('RIFF', 0);
-  header.writeUInt32LE(36 + samples.byteLength, 4);
-  header.write('WAVEfmt ', 8);
-  header.writeUInt32LE(16, 16);
-  header.writeUInt16LE(1, 20);
-  header.writeUInt16LE(1, 22);
-  header.writeUInt32LE(rate, 24);
-  header.writeUInt32LE(2 * rate, 28);
-  header.writeUInt16LE(2, 32);
-  header.writeUInt16LE(16, 34);
-  header.write('data', 36);
-  header.writeUInt32LE(samples.byteLength, 40);
-  return Buffer.concat([header, Buffer.from(samples.buffer)]);
+  const size = samples.byteLength;
+  const [riff, wave, fmt, data] = ['RIFF', 'WAVE', 'fmt ', 'data'].map((name) => Buffer.from(name).readUInt32LE());
+  // PCM and one channel, and two bytes a sample of 16 bits, are pairs of 16-bit numbers.
+  const header = new Uint32Array([riff, 36 + size, wave, fmt, 16, 1 + (1 << 16), rate, 2 * rate, 2 + (16 << 16), data, size]);
+  return Buffer.concat([Buffer.from(header.buffer), Buffer.from(samples.buffer)]);
 }
 
-/** A folder with the packed package installed, a page, and the scripts that pages share; the caller adds models. */
-export function furnish(work, tarball, name) {
+/** Serves pages that use the package as npm packs it, by name; a page with a configuration for Vite is built. `close()` ends all. */
+export async function serveInstalled(...names) {
+  const { build } = await import('vite');
+  const work = mkdtempSync(join(tmpdir(), 'wisp-player-'));
+  const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', work], { cwd: join(here, '..') });
+  const servers = {};
+  for (const name of names) {
+    const page = furnish(work, join(work, packed.toString().trim()), name);
+    const configFile = join(page, 'vite.config.js');
+    const built = existsSync(configFile);
+    if (built) await build({ root: page, logLevel: 'error', configFile });
+    const folder = built ? join(page, 'dist') : page;
+    cpSync(models, join(folder, 'models'), { recursive: true });
+    servers[name] = await serve(folder);
+  }
+  const close = () => {
+    for (const server of Object.values(servers)) server.close();
+    rmSync(work, { recursive: true, force: true });
+  };
+  return { work, address: (name) => `http://localhost:${servers[name].address().port}/`, close };
+}
+
+/** A folder with the packed package installed, a page, and the scripts that pages share. */
+function furnish(work, tarball, name) {
   const folder = join(work, name);
   const installed = join(folder, 'node_modules/@wisp/player');
   mkdirSync(installed, { recursive: true });

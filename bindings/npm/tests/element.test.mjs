@@ -1,36 +1,25 @@
 // The elements in pages of other people: plain HTML, a Vite project, a frame of another origin.
 
 import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { drawing, executablePath, furnish, models, pack, quiet, serve, skip, until, watched } from './chromium.mjs';
+import { drawing, executablePath, quiet, serveInstalled, skip, until, watched } from './chromium.mjs';
 
 const flags = [...quiet, ...drawing, '--use-fake-device-for-media-stream',
   '--use-fake-ui-for-media-stream', '--autoplay-policy=no-user-gesture-required'];
 
 describe('elements in Chromium', { skip }, () => {
-  let work, browser, plain, vite, framing;
+  let pages, browser, plain, framing;
 
   before(async () => {
     const { chromium } = await import('playwright-core');
-    const { build } = await import('vite');
-    work = mkdtempSync(join(tmpdir(), 'wisp-element-'));
-    const tarball = pack(work);
-    const folder = furnish(work, tarball, 'element');
-    cpSync(models, join(folder, 'models'), { recursive: true });
-    plain = await serve(folder);
-    const project = furnish(work, tarball, 'element_vite');
-    await build({ root: project, logLevel: 'error', configFile: join(project, 'vite.config.js') });
-    cpSync(models, join(project, 'dist', 'models'), { recursive: true });
-    vite = await serve(join(project, 'dist'));
+    pages = await serveInstalled('element', 'element_vite');
+    plain = pages.address('element');
     // Another origin, which only frames the plain page.
     framing = createServer((_request, response) => {
       response.setHeader('content-type', 'text/html');
-      response.end(`<!doctype html><iframe src="http://localhost:${plain.address().port}/" width="400" height="300"></iframe>`);
+      response.end(`<!doctype html><iframe src="${plain}" width="400" height="300"></iframe>`);
     });
     await new Promise((resolve) => framing.listen(0, '127.0.0.1', resolve));
     browser = await chromium.launch({ executablePath, args: flags });
@@ -38,33 +27,31 @@ describe('elements in Chromium', { skip }, () => {
 
   after(async () => {
     await browser?.close();
-    for (const server of [plain, vite, framing]) server?.close();
-    if (work) rmSync(work, { recursive: true, force: true });
+    framing?.close();
+    pages?.close();
   });
 
-  /** Opens a page, counting the modules that it fetches. */
-  async function open(address) {
+  const lit = (id, count) => `document.getElementById('${id}')?.burning?.lit === ${count}`;
+
+  /** Opens a page, counting the modules that it fetches, and waits until a condition holds in it. */
+  async function open(address, ready = lit('one', 1)) {
     const page = await watched(browser, address, { viewport: { width: 420, height: 320 } });
     page.modules = 0;
     page.on('request', (request) => (page.modules += request.url().endsWith('.wasm') ? 1 : 0));
     await page.goto(address);
+    await until(page, ready);
     return page;
   }
 
-  const local = (server) => `http://localhost:${server.address().port}/`;
-  const lit = (id, count) => `document.getElementById('${id}')?.burning?.lit === ${count}`;
-
   test('two candles on a plain page burn, and share one module', async () => {
-    const page = await open(local(plain));
-    await until(page, `${lit('one', 1)} && ${lit('two', 3)}`);
+    const page = await open(plain, `${lit('one', 1)} && ${lit('two', 3)}`);
     assert.equal(page.modules, 1);
     assert.equal(await page.evaluate('document.getElementById("one").shadowRoot.querySelector("canvas").ariaLabel'), 'A candle burns in a dark room.');
     assert.deepEqual(page.errors, []);
   });
 
   test('Space blows it out and says so, Enter lights it again; one without wind burns on', async () => {
-    const page = await open(local(plain));
-    await until(page, `${lit('one', 1)} && ${lit('two', 3)}`);
+    const page = await open(plain, `${lit('one', 1)} && ${lit('two', 3)}`);
     await page.evaluate(`window.heard = []; for (const kind of ['extinguish', 'light'])
       document.getElementById('one').addEventListener(kind, () => heard.push(kind))`);
     for (const id of ['one', 'two']) {
@@ -83,8 +70,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('attributes act while it plays: more candles, another model, and one that is not there', async () => {
-    const page = await open(local(plain));
-    await until(page, lit('one', 1));
+    const page = await open(plain);
     await page.evaluate(`document.getElementById('one').setAttribute('candles', '5')`);
     await until(page, lit('one', 5));
     await page.evaluate(`(() => { const one = document.getElementById('one');
@@ -94,8 +80,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('its button lies below the candle', async () => {
-    const page = await open(local(plain));
-    await until(page, `${lit('one', 1)} && document.getElementById('one').scene.places().wick[1] > 20`);
+    const page = await open(plain, `${lit('one', 1)} && document.getElementById('one').scene.places().wick[1] > 20`);
     const wick = `document.getElementById('one').scene.places().wick[1] / document.getElementById('one').shadowRoot.querySelector('canvas').height`;
     const before = await page.evaluate(wick);
     await page.evaluate(`document.getElementById('one').setAttribute('wind', 'mic')`);
@@ -103,8 +88,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('taken out of the page it stands still, put back it goes on', async () => {
-    const page = await open(local(plain));
-    await until(page, lit('one', 1));
+    const page = await open(plain);
     await page.evaluate(`(() => { window.kept = document.getElementById('one'); kept.remove();
       window.frames = 0; const real = requestAnimationFrame; kept.watch = () => { frames += 1; }; })()`);
     await page.waitForTimeout(500);
@@ -114,8 +98,7 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('after twenty others came and went, the one that stayed has its picture', async () => {
-    const page = await open(local(plain));
-    await until(page, lit('one', 1));
+    const page = await open(plain);
     for (let k = 0; k < 20; ++k) {
       await page.evaluate(`document.body.append(window.passing = Object.assign(document.createElement('wisp-candle'), { id: 'passing' }))`);
       await until(page, lit('passing', 1));
@@ -127,15 +110,14 @@ describe('elements in Chromium', { skip }, () => {
   });
 
   test('burns in a frame of another origin', async () => {
-    const page = await open(`http://127.0.0.1:${framing.address().port}/`);
-    const inside = () => page.frames().find((frame) => frame.url().startsWith(local(plain)));
+    const page = await open(`http://127.0.0.1:${framing.address().port}/`, 'true');
+    const inside = () => page.frames().find((frame) => frame.url().startsWith(plain));
     await until({ evaluate: (words) => inside()?.evaluate(words) ?? false }, lit('one', 1));
     assert.deepEqual(page.errors, []);
   });
 
   test('a Vite project has a candle that listens when it is asked to, and leaves', async () => {
-    const page = await open(local(vite));
-    await until(page, lit('one', 1));
+    const page = await open(pages.address('element_vite'));
     const button = `document.getElementById('one').shadowRoot.querySelector('button')`;
     assert.equal(await page.evaluate(`${button}.hidden`), false);
     assert.equal(await page.evaluate(`${button}.ariaLabel`), 'Blow: microphone on');

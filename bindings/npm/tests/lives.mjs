@@ -27,7 +27,6 @@ export class Chance {
   }
 }
 
-/** Hash of the outputs of that many frames. */
 export function hashOfLife(wisp, bytes, frames) {
   const model = wisp.model(bytes);
   const isChain = model.kind === 'chain';
@@ -72,15 +71,12 @@ export function* gusts(seconds) {
   }
 }
 
-/** Hash of the wind in that many seconds of sound. */
 export function hashOfWind(wisp, seconds) {
   const wind = wisp.windLevel({ sampleRate: 48000 });
   const hash = new Hash();
   for (const block of gusts(seconds)) {
     for (const f of wind.feed(block)) {
-      hash.fold(
-        new Float32Array([f.rms, f.rmsClean, f.level, f.speed, f.wind, f.confidence, f.background, f.clipped]),
-      );
+      hash.fold(new Float32Array([f.rms, f.rmsClean, f.level, f.speed, f.wind, f.confidence, f.background, f.clipped]));
     }
   }
   wind.free();

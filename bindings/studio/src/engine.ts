@@ -32,17 +32,8 @@ export { Elsewhere, StudioError } from './module.js';
 
 const LAYOUTS = { grey: 0, yuv: 1, rgb: 2 } as const;
 
-interface SeenText {
-  frames: number;
-  decided: boolean;
-  channel?: string;
-  threshold?: number;
-  clipped?: number;
-  flames?: number;
-  box?: [number, number, number, number];
-  moving?: [number, number, number, number];
-}
-
+type Box = [x: number, y: number, width: number, height: number];
+type SeenText = { frames: number; decided: boolean; box?: Box; moving?: Box } & Partial<Pick<Seen, 'channel' | 'threshold' | 'clipped' | 'flames'>>;
 type ReportText = Pick<Learned, 'report' | 'curves' | 'text'>;
 type RecordingText = Omit<Captured, 'csv' | 'series'> & { series: Omit<Series, 'samples'>[] };
 
@@ -51,14 +42,11 @@ type RecordingText = Omit<Captured, 'csv' | 'series'> & { series: Omit<Series, '
  * leaves, from recordings. Each throws `Elsewhere` for models of the other.
  */
 export class Engine extends Module {
-  /** Receives progress; returns whether to continue. */
-  onProgress: (stage: string, share: number) => boolean = () => true;
   private frameAt = 0;
   private frameBytes = 0;
   private width = 0;
   private height = 0;
 
-  /** Starts a module. */
   static async start(module: WebAssembly.Module | BufferSource): Promise<Engine> {
     return new Engine(await compiled(module));
   }
@@ -100,24 +88,14 @@ export class Engine extends Module {
   /** Findings in the frames so far. */
   seen(): Seen {
     this.call('studio_seen');
-    const text = JSON.parse(this.text()) as SeenText;
+    const { frames: frame, decided, box, moving, ...found } = JSON.parse(this.text()) as SeenText;
     const outline = Float32Array.from(this.numbers());
-    return {
-      frame: text.frames,
-      width: this.width,
-      height: this.height,
-      state: !text.decided ? 'waiting' : outline.length > 0 ? 'following' : 'gone',
-      outline,
-      box: text.box === undefined ? null : regionOf(text.box),
-      moving: text.moving === undefined ? null : regionOf(text.moving),
-      threshold: text.threshold ?? null,
-      channel: text.channel ?? null,
-      clipped: text.clipped ?? null,
-      flames: text.flames ?? null,
-    };
+    const { width, height } = this;
+    const state = !decided ? 'waiting' : outline.length > 0 ? 'following' : 'gone';
+    const undecided = { threshold: null, channel: null, clipped: null, flames: null };
+    return { frame, width, height, state, outline, box: regionOf(box), moving: regionOf(moving), ...undecided, ...found };
   }
 
-  /** Ends the capture. */
   finish(): Captured {
     this.call('studio_finish');
     return this.recording();
@@ -137,7 +115,6 @@ export class Engine extends Module {
     return { model, ...(JSON.parse(this.text()) as Omit<Learned, 'model'>) };
   }
 
-  /** Judges a model on recordings. */
   validate(model: Uint8Array, recordings: readonly Uint8Array[]): ReportText {
     this.gather(recordings);
     this.withBytes(model, (at, size) => this.call('studio_validate', at, size));
@@ -149,7 +126,6 @@ export class Engine extends Module {
     for (const [k, bytes] of recordings.entries()) this.read('studio_add', bytes, { name: names[k] ?? 'recording.csv' });
   }
 
-  /** Passes a table to a function that reads it. */
   private read(by: string, bytes: Uint8Array, settings: TableSettings & { name: string }): void {
     this.withBytes(bytes, (at, size) => this.withText(JSON.stringify(settings), (words, length) => this.call(by, at, size, words, length)));
   }
@@ -160,10 +136,6 @@ export class Engine extends Module {
     const series = read.series.map((one, k) => ({ ...one, samples: numbers.slice(k * read.rows, (k + 1) * read.rows) }));
     return { ...read, csv: this.answerBytes(), series };
   }
-
-  protected override progress(stage: string, share: number): boolean {
-    return this.onProgress(stage, share);
-  }
 }
 
-const regionOf = ([x, y, width, height]: [number, number, number, number]): Region => ({ x, y, width, height });
+const regionOf = (box?: Box): Region | null => (box === undefined ? null : { x: box[0], y: box[1], width: box[2], height: box[3] });

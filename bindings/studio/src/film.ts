@@ -18,7 +18,7 @@ const RATES = [24_000 / 1001, 24, 25, 30_000 / 1001, 30, 48, 50, 60_000 / 1001, 
  * Rate of the frames' grid: the camera's, from the usual interval between frames, unless too many of its frames were
  * lost; then the mean rate.
  */
-export function gridRate(times: readonly number[]): number {
+function gridRate(times: readonly number[]): number {
   const sorted = [...times].sort((a, b) => a - b);
   const steps = sorted.slice(1).map((time, k) => time - sorted[k]!).filter((step) => step > 1e-4);
   if (steps.length === 0) return 0;

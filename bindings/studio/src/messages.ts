@@ -3,7 +3,6 @@
 import type { CaptureSettings } from './engine.js';
 import type { Captured, Exported, ExportSettings, Learned, PictureSettings, Recipe, Seen, TableSettings } from './types.js';
 
-/** Requests to a worker. */
 export type Task =
   | { do: 'film'; file: File; settings: PictureSettings }
   | { do: 'pictures'; files: File[]; rate: number; settings: PictureSettings }

@@ -40,6 +40,8 @@ export function told<T>(work: () => T): T {
 }
 
 export class Module {
+  /** Receives progress; returns whether to continue. */
+  onProgress: (stage: string, share: number) => boolean = () => true;
   protected readonly functions: Functions;
   private readonly memory: WebAssembly.Memory;
 
@@ -53,11 +55,6 @@ export class Module {
   /** Current size of its memory in bytes; it grows and never shrinks. */
   get memoryBytes(): number {
     return this.memory.buffer.byteLength;
-  }
-
-  /** Receives progress; returns whether to continue. */
-  protected progress(_stage: string, _share: number): boolean {
-    return true;
   }
 
   /** Calls a function with an answer, and throws its sentence on failure. */
@@ -107,7 +104,7 @@ export class Module {
   /** Imports of the module: progress is reported, and calls to an operating system fail. */
   private imports(module: WebAssembly.Module): WebAssembly.Imports {
     const imports: WebAssembly.Imports = {};
-    const progress = (at: number, size: number, share: number): number => Number(this.progress(new TextDecoder().decode(this.bytes(at, size)), share));
+    const progress = (at: number, size: number, share: number): number => Number(this.onProgress(new TextDecoder().decode(this.bytes(at, size)), share));
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
       imports[from] ??= {};
       imports[from]![name] = name === 'studio_progress' ? progress : name === 'studio_out_of_memory' ? outOfMemory : absent(name);

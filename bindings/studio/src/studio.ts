@@ -113,7 +113,6 @@ export class Studio {
     return this.ask({ do: 'learn', recordings, recipe }, watch);
   }
 
-  /** Judges a model on recordings. */
   validate(model: Uint8Array, recordings: readonly Uint8Array[], watch: Watch = {}): Promise<Pick<Learned, 'report' | 'curves' | 'text'>> {
     return this.ask({ do: 'validate', model, recordings }, watch);
   }

@@ -1,12 +1,7 @@
 // Inputs and results of learning.
 
 /** A rectangle of pixels. */
-export interface Region {
-  x: number;
-  y: number;
-  width: number;
-  height: number;
-}
+export type Region = Record<'x' | 'y' | 'width' | 'height', number>;
 
 /** Settings of a film's capture. Omitted ones have the program's defaults. */
 export interface PictureSettings {
@@ -77,7 +72,6 @@ export interface Series {
   samples: Float64Array;
 }
 
-/** A recording. */
 export interface Captured {
   /** as the program writes it, for learning, saving and sending */
   csv: Uint8Array;
@@ -154,7 +148,6 @@ export interface ExportSettings {
   height?: number;
 }
 
-/** A file. */
 export interface Exported {
   name: string;
   bytes: Uint8Array;

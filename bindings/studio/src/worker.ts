@@ -31,13 +31,11 @@ async function fetched(address: URL): Promise<ArrayBuffer> {
 /** Loads a module at first use, and again after a failure. */
 function onDemand<T>(start: () => Promise<T>): () => Promise<T> {
   let started: Promise<T> | null = null;
-  return () => {
-    started ??= start();
-    return started.catch((error: unknown) => {
+  return () =>
+    (started ??= start().catch((error: unknown) => {
       started = null;
       throw error;
-    });
-  };
+    }));
 }
 
 // Literal addresses, which bundlers recognise.
@@ -82,15 +80,14 @@ function showing(of: number, wisp: Engine): (picture: RawPicture | null, share: 
   };
 }
 
-/** A live capture. */
 class Live {
   private first: number | null = null;
   private early: { sound: Float32Array; rate: number; seconds: number }[] = [];
   private heardTo: number | null = null;
   /** reason why it cannot continue */
   private failure: unknown = null;
-  /** whether it was abandoned: the engine then captures something else */
-  private abandoned = false;
+  /** whether it was abandoned: the engine then captures something else, and waiting input is discarded */
+  abandoned = false;
   private work: Promise<void> = Promise.resolve();
   private readonly show: ReturnType<typeof showing>;
 
@@ -125,11 +122,6 @@ class Live {
       if (this.first === null) this.early.push({ sound, rate, seconds });
       else this.hear(sound, rate, seconds);
     });
-  }
-
-  /** Discards waiting input, which does not belong to the next capture. */
-  abandon(): void {
-    this.abandoned = true;
   }
 
   async finish(): Promise<Captured> {
@@ -206,7 +198,7 @@ async function perform(of: number, task: Task): Promise<Outcome | null> {
   if (task.do === 'export') return (await exporter()).files(task.model, task.settings);
   const wisp = watched(of, await engine);
   if (task.do === 'film' || task.do === 'pictures' || task.do === 'live') {
-    live?.abandon();
+    if (live !== null) live.abandoned = true;
     live = null;
   }
   switch (task.do) {

@@ -64,7 +64,6 @@ export class Drawer {
     );
   }
 
-  /** Adds one frame to the plots. */
   frame(reading: Reading, cost: Readonly<FrameCost>): void {
     const values = [reading.wind, reading.answer, cost.update + cost.draw];
     this.plots.forEach((plot, k) => plot.push(values[k] as number));

@@ -26,7 +26,6 @@ function filled<Made extends Element>(made: Made, attributes: Attributes, childr
   return made;
 }
 
-/** A button with an action. */
 export const button = (words: string, act: () => unknown, attributes: Attributes = {}): HTMLButtonElement =>
   element('button', { type: 'button', class: 'tool', click: act, ...attributes }, words);
 

@@ -1,13 +1,6 @@
 // Names, units and good ranges of the figures in a model's file.
 
-/** A figure as displayed. */
-export interface Shown {
-  words: string;
-  value: string;
-  /** range of good values; empty where none is better than another */
-  good: string;
-}
-
+/** `good`: range of good values; empty where none is better than another. */
 interface Kind {
   words: string;
   unit: (value: number) => string;
@@ -65,14 +58,10 @@ function horizon(steps: string): string {
 }
 
 /** Describes a figure; unknown ones keep their own name. */
-export function inWords(name: string, value: number): Shown {
+export function inWords(name: string, value: number): Record<'words' | 'value' | 'good', string> {
   const [base, steps] = name.split('.') as [string, string | undefined];
-  const ahead = AHEAD[base];
-  if (ahead !== undefined) {
-    const words = steps === undefined ? ahead.words : `${ahead.words}, ${horizon(steps)}`;
-    return { words, value: ahead.unit(value), good: ahead.good };
-  }
-  const kind = KINDS[name];
+  const kind = AHEAD[base] ?? KINDS[name];
   if (kind === undefined) return { words: name.replaceAll('_', ' ').replaceAll('.', ', '), value: number(value), good: '' };
-  return { words: kind.words, value: kind.unit(value), good: kind.good };
+  const words = base in AHEAD && steps !== undefined ? `${kind.words}, ${horizon(steps)}` : kind.words;
+  return { words, value: kind.unit(value), good: kind.good };
 }

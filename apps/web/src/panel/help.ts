@@ -30,7 +30,6 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['?'], 'this help'],
 ];
 
-/** Fills the dialog. */
 export function fillHelp(dialog: HTMLDialogElement, app: App): void {
   const row = (how: string, ...what: (string | HTMLElement)[]): HTMLElement => element('tr', {}, element('th', { scope: 'row' }, ...what), element('td', {}, how));
   const rows = [...GESTURES.map(([what, how]) => row(how, what)), ...KEYS.map(([keys, how]) => row(how, ...keys.flatMap((key) => [element('kbd', {}, key), ' '])))];

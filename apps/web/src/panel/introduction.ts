@@ -24,15 +24,15 @@ function wind(model: Model, borrows: boolean): string {
 
 /** Two or three sentences. `borrows`: the wind response is the shipped flame's. */
 export function introductionTo(model: Model, shipped: boolean, borrows: boolean): string {
-  if (model.view === 'outline') {
-    const order = Math.max(...(model.arx?.na.flat() ?? [0]));
-    const what = model.arx && model.arx.na.length !== model.outputs.length ? 'Each component of the shape' : 'Each point of the outline';
-    return `Nothing here is animated by hand. ${what} follows an equation in its last ${order} steps${
-      model.inputs.length > 0 ? ' and the wind' : ''
-    }. ${taught(model, shipped)}${wind(model, borrows)}`;
+  return `${motionOf(model)} ${taught(model, shipped)}${wind(model, borrows)}`;
+}
+
+function motionOf({ view, kind, arx, inputs, outputs }: Model): string {
+  if (view === 'outline') {
+    const order = Math.max(...(arx?.na.flat() ?? [0]));
+    const what = arx && arx.na.length !== outputs.length ? 'Each component of the shape' : 'Each point of the outline';
+    return `Nothing here is animated by hand. ${what} follows an equation in its last ${order} steps${inputs.length > 0 ? ' and the wind' : ''}.`;
   }
-  if (model.kind === 'chain') {
-    return `Nothing here is animated by hand. Pieces of recorded motion follow each other by chance, as often as they were seen to. ${taught(model, shipped)}${wind(model, false)}`;
-  }
-  return `What the model does, number by number. ${taught(model, shipped)}${wind(model, false)}`;
+  if (kind === 'chain') return 'Nothing here is animated by hand. Pieces of recorded motion follow each other by chance, as often as they were seen to.';
+  return 'What the model does, number by number.';
 }

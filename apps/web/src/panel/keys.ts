@@ -2,9 +2,6 @@
 
 import { KeyBreath } from '@wisp/player/parts/air/keys';
 
-/** Action of each key (KeyboardEvent.key, in lower case). */
-export type KeyActions = Readonly<Record<string, () => void>>;
-
 /** Whether the focused element handles that key itself. */
 function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
   if (!(target instanceof HTMLElement)) return false;
@@ -15,21 +12,20 @@ function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
   return (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement) && event.code === 'Space';
 }
 
-/** Listens to the keyboard while the page exists. */
-export function listenToKeys(breath: KeyBreath, actions: KeyActions, touched: () => void, single: () => boolean): void {
+/** Listens to the keyboard while the page exists. `actions`: by KeyboardEvent.key, in lower case. */
+export function listenToKeys({ held }: KeyBreath, actions: Readonly<Record<string, () => void>>, touched: () => void, single: () => boolean): void {
   window.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || keeps(event.target, event)) return;
     if (KeyBreath.blows(event.code)) {
       event.preventDefault();
-      breath.press(event.code);
-      touched();
-      return;
+      held.add(event.code);
+      return touched();
     }
     const action = actions[event.key.toLowerCase()];
     if (action === undefined || event.repeat || (event.key.length === 1 && !single())) return;
     event.preventDefault();
     action();
   });
-  window.addEventListener('keyup', (event) => breath.release(event.code));
-  window.addEventListener('blur', () => breath.releaseAll());
+  window.addEventListener('keyup', (event) => held.delete(event.code));
+  window.addEventListener('blur', () => held.clear());
 }

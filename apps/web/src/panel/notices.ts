@@ -5,17 +5,11 @@ import { button, element } from './element.js';
 const STAYS = 9000;
 const MOST = 3;
 
-/** An action offered by a button of the message. */
-export interface Offer {
-  words: string;
-  accept(): void;
-}
-
 export class Notices {
   constructor(private readonly place: HTMLElement) {}
 
-  /** Shows a sentence or two for a while, with an optional action; a repeated message only stays longer. */
-  say(text: string, offer?: Offer): void {
+  /** Shows a sentence or two for a while; a repeated message only stays longer. `offer`: an action, by a button. */
+  say(text: string, offer?: { words: string; accept(): void }): void {
     for (const shown of this.place.querySelectorAll('.notice')) {
       if (shown.querySelector('p')?.textContent === text) shown.remove();
     }

@@ -5,14 +5,7 @@ import type { Asked, Ear } from '../wind/ear.js';
 import { after } from '../saving.js';
 import { button, element } from './element.js';
 
-interface Step {
-  asked: Asked;
-  title: string;
-  words: string;
-  seconds: number;
-}
-
-const STEPS: readonly Step[] = [
+const STEPS: readonly { asked: Asked; title: string; words: string; seconds: number }[] = [
   { asked: 'breathe gently', title: 'Breathe gently', words: 'As on a cold window: the flame is to lean and burn on.', seconds: 3 },
   { asked: 'blow hard', title: 'Blow hard', words: 'As on a birthday cake.', seconds: 2.5 },
 ];

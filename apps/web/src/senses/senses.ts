@@ -76,7 +76,6 @@ export class Senses {
     else this.open().catch(() => undefined);
   }
 
-  /** Updates one frame. */
   frame(lit: number): void {
     if (lit < this.burning && this.on) navigator.vibrate?.(VIBRATES);
     this.burning = lit;

@@ -53,10 +53,8 @@ export class Outlines {
     const middle = (columns: readonly Float64Array[], row: number): number =>
       ((columns[0]?.[row] as number) + (columns[last]?.[row] as number)) / 2;
     const every = Array.from({ length: rows }, (_, row) => row);
-    this.base = {
-      x: quantile(sorted(every.map((row) => named('base.x')?.[row] ?? middle(this.xs, row))), 0.5),
-      y: quantile(sorted(every.map((row) => named('base.y')?.[row] ?? middle(this.ys, row))), 0.5),
-    };
+    const baseOf = (name: string, columns: readonly Float64Array[]): number => quantile(sorted(every.map((row) => named(name)?.[row] ?? middle(columns, row))), 0.5);
+    this.base = { x: baseOf('base.x', this.xs), y: baseOf('base.y', this.ys) };
     const tops = every.map((row) => Math.min(...this.ys.map((column) => column[row] as number)));
     this.height = Math.max(1, quantile(sorted(every.map((row) => middle(this.ys, row) - (tops[row] as number))), 0.5));
     const tip = last / 2;
@@ -74,8 +72,8 @@ export class Outlines {
   }
 
   private boundsOf(tops: readonly number[]): Region {
-    const left = quantile(sorted(this.xs.flatMap((column) => [...column])), 0.002);
-    const right = quantile(sorted(this.xs.flatMap((column) => [...column])), 0.998);
+    const across = sorted(this.xs.flatMap((column) => [...column]));
+    const [left, right] = [quantile(across, 0.002), quantile(across, 0.998)];
     const top = quantile(sorted(tops), 0.005);
     const bottom = quantile(sorted(this.ys.flatMap((column) => [...column])), 0.998);
     return { x: left, y: top, width: Math.max(1, right - left), height: Math.max(1, bottom - top) };

@@ -29,7 +29,6 @@ export async function unfold(files: readonly File[], entries: readonly (FileSyst
   return (await Promise.all(folders.map(filesOf))).flat();
 }
 
-/** Classifies files. */
 export function pickOf(files: readonly File[]): Pick {
   const films = files.filter(isFilm);
   if (films.length > 0) return { kind: 'film', files: films };

@@ -17,13 +17,10 @@ export interface Kept {
 
 export class Reel {
   private pictures: Kept[] = [];
-  private every: number;
   private last = -Infinity;
 
   /** `every`: initial seconds between pictures; `most`: maximum number */
-  constructor(every = 0, private readonly most = MOST) {
-    this.every = every;
-  }
+  constructor(private every = 0, private readonly most = MOST) {}
 
   /** Whether a picture at that time would be kept. */
   wants(seconds: number): boolean {

@@ -19,7 +19,7 @@ import { pickOf, unfold } from './picks.js';
 import { MAX_OF_FILE, Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
-import { nameInC, type Format } from './panels/taking.js';
+import { nameInC, type Format, type Moving } from './panels/taking.js';
 import { saveFile } from '../saving.js';
 import type { StudioDoor } from '../studio_door.js';
 import { emptied, newSession, sessionName, shownIn, thingOf, withTake, type Looked, type Session, type Take } from './session.js';
@@ -90,10 +90,7 @@ export class Room {
     document.querySelector('header.top')?.after(this.place);
     // Keys that blow or pause elsewhere on the page type text here.
     this.place.addEventListener('keydown', (event) => event.stopPropagation());
-    fetchShipped(FLAME).then(
-      (model) => this.invitation.fill(model),
-      () => undefined,
-    );
+    fetchShipped(FLAME).then((model) => this.invitation.fill(model), () => undefined);
     this.gather();
   }
 
@@ -112,12 +109,8 @@ export class Room {
     if (this.filming !== null) this.gather();
   }
 
-  /** Accepts dropped files. */
   take({ files, entries }: Dropped): void {
-    unfold(files, entries).then(
-      (found) => this.files(found),
-      () => this.say('What was dropped cannot be read.'),
-    );
+    unfold(files, entries).then((found) => this.files(found), () => this.say('What was dropped cannot be read.'));
   }
 
   private stepTo(step: Step, thing: Thing = 'flame'): void {
@@ -134,16 +127,10 @@ export class Room {
     if (here || document.activeElement === document.body) panel.querySelector<HTMLElement>('h2')?.focus({ preventScroll: true });
   }
 
-  private showLeft(...parts: HTMLElement[]): void {
-    this.left.replaceChildren(...parts);
-  }
-
-  /** Shows the placeholder for a film. */
   private invite(): void {
-    this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
+    this.left.replaceChildren(element('div', { class: 'viewer' }, this.invitation.canvas));
   }
 
-  /** Shows a message of the page. */
   say(words: string): void {
     this.app.notices.say(words);
   }
@@ -156,15 +143,10 @@ export class Room {
   /** Ends all running work. */
   private clear(): void {
     this.turn += 1;
-    this.working?.abort();
-    this.working = null;
-    this.judging?.abort();
-    this.judging = null;
+    for (const work of [this.working, this.judging]) work?.abort();
     this.filming?.close();
-    this.filming = null;
     this.duet?.dispose();
-    this.duet = null;
-    this.looked = null;
+    this.working = this.judging = this.filming = this.duet = this.looked = null;
     this.below.replaceChildren();
   }
 
@@ -179,7 +161,7 @@ export class Room {
   }
 
   /** Returns to the last display. */
-  private back(): void {
+  back(): void {
     const last = this.session.takes.at(-1);
     if (this.session.learned !== null && last !== undefined) this.showResult();
     else if (last === undefined || thingOf(this.session) === 'table') this.gather();
@@ -222,7 +204,7 @@ export class Room {
     this.stepTo('look', settings.looks_for === 'falls' ? 'fall' : 'flame');
     this.viewer.clear();
     this.viewer.showBox(settings.region ?? null);
-    this.showLeft(this.viewer.place);
+    this.left.replaceChildren(this.viewer.place);
     const { title, words, thing } = LOOKING[settings.looks_for ?? 'flame'];
     const working = new Working(title, words, (said) => this.announce(said), thing);
     this.working = working;
@@ -249,10 +231,7 @@ export class Room {
   }
 
   private see(seen: Seen, reel: Reel, working: Working): void {
-    if (working !== this.working) {
-      seen.picture?.close();
-      return;
-    }
+    if (working !== this.working) return seen.picture?.close();
     reel.keepSeen(seen);
     this.viewer.show(seen);
     this.traces.add(seen, null);
@@ -271,7 +250,7 @@ export class Room {
     this.clear();
     this.looked = take;
     this.stepTo('look', shownIn(take));
-    this.showLeft(this.viewer.place);
+    this.left.replaceChildren(this.viewer.place);
     this.viewer.showBox(take.settings.region ?? null);
     this.viewer.showFalls((size) => linesOfFalls(take.captured, take.settings.height ?? 1, size));
     const { outlines } = take;
@@ -321,10 +300,7 @@ export class Room {
 
   /** After a failure, ends the worker: later work starts another, with fresh memory. */
   private renew(): void {
-    this.studio().then(
-      (studio) => studio.close(),
-      () => undefined,
-    );
+    this.studio().then((studio) => studio.close(), () => undefined);
   }
 
   /** Reports why a film gave nothing, or was stopped, and what can be done. */
@@ -333,8 +309,7 @@ export class Room {
     this.waiting = [];
     if (isAbort(error)) {
       this.say(this.session.takes.length > 0 ? 'Stopped. What was gathered before is kept.' : 'Stopped.');
-      this.back();
-      return;
+      return this.back();
     }
     this.renew();
     const kept = this.session.takes.length > 0 ? 'What was gathered before is kept.' : '';
@@ -359,13 +334,10 @@ export class Room {
     const { turn } = this;
     try {
       const filming = await Filming.open(await this.studio(), this.viewer, falls, this);
-      if (turn !== this.turn) {
-        filming.close();
-        return;
-      }
+      if (turn !== this.turn) return filming.close();
       this.filming = filming;
       this.stepTo('gather', falls ? 'fall' : 'flame');
-      this.showLeft(this.viewer.place);
+      this.left.replaceChildren(this.viewer.place);
       this.showPanel(filming.panel);
     } catch (error) {
       if (turn === this.turn) this.trouble('There is no camera', wordsOf(error), 'What was gathered before is kept.');
@@ -405,8 +377,7 @@ export class Room {
         this.renew();
         this.say(wordsOf(error));
       }
-      this.back();
-      return;
+      return this.back();
     }
     if (turn !== this.turn) return;
     this.showResult();
@@ -439,18 +410,39 @@ export class Room {
     }
   }
 
-  /** Runs the viewing test of these outlines' film against the learned model. */
-  private async compare(outlines: Outlines | null, model: Uint8Array, file: string): Promise<string> {
+  /** Runs the viewing test of the last film against the model learned from it. Returns a message about the result. */
+  async compare(model: Uint8Array): Promise<string> {
+    const outlines = this.session.takes.at(-1)?.outlines ?? null;
     if (outlines === null) return 'There is no outline';
     const { ANSWERS, filmPairs, Viewing } = await fetchPart(() => import('../viewing/viewing.js'));
     const pairs = filmPairs(this.app.wisp, model, outlines, ANSWERS);
     if (pairs.length < 5) return 'The film is too short for it';
-    new Viewing(pairs, { model: file, from: 'the film that it learned from' });
+    new Viewing(pairs, { model: this.file, from: 'the film that it learned from' });
     return 'Answered';
   }
 
+  /** Name of the learned model's file. */
+  private get file(): string {
+    return `${sessionName(this.session)}.wisp`;
+  }
+
+  /** Plays the learned model in the page's own scene. */
+  blow(model: Uint8Array): void {
+    this.door.blow(this.file, model).catch((error: unknown) => this.say(wordsOf(error)));
+  }
+
+  /** Saves a film or GIF in which the flame is blown out and lit again. Returns a message about the result. */
+  record(model: Uint8Array, kind: Moving): Promise<string> {
+    return this.door.film(this.file, model, kind);
+  }
+
+  /** Learns a model small enough for a link. */
+  async small(): Promise<Uint8Array> {
+    return (await this.learned(this.session, { paper: LINK_ORDER })).model;
+  }
+
   private showResult(): void {
-    const { session, app, door } = this;
+    const { session, app } = this;
     const thing = thingOf(session);
     const { learned } = session;
     const take = session.takes.at(-1);
@@ -459,26 +451,14 @@ export class Room {
     const { outlines } = take;
     this.stepTo('blow', thing);
     if (outlines !== null && thing === 'flame') this.showFlame(take, outlines, learned.model);
-    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured), ...(thing === 'fall' ? fallsPlayed(app.wisp, learned.model, take.captured) : [])])));
-    const file = `${sessionName(session)}.wisp`;
-    this.showPanel(
-      resultPanel(session, learned, {
-        blow: () => void door.blow(file, learned.model).catch((error: unknown) => this.say(wordsOf(error))),
-        compare: () => this.compare(outlines, learned.model, file),
-        more: () => this.gather(),
-        anew: () => this.anew(),
-        again: (change) => this.learnAgain(change),
-        film: (kind) => door.film(file, learned.model, kind),
-        make: (format) => this.make(format, learned.model),
-        small: async () => (await this.learned(session, { paper: LINK_ORDER })).model,
-      }),
-    );
+    else this.left.replaceChildren(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured), ...(thing === 'fall' ? fallsPlayed(app.wisp, learned.model, take.captured) : [])])));
+    this.showPanel(resultPanel(session, learned, this));
     const { title, reason } = verdictOf(learned, thing);
     this.announce(`${title}. ${reason}`);
   }
 
-  /** Creates files for other tools and saves them. */
-  private async make(format: Format, model: Uint8Array): Promise<string> {
+  /** Saves files for other tools. Returns a message about the result. */
+  async make(format: Format, model: Uint8Array): Promise<string> {
     const studio = await this.studio();
     const name = sessionName(this.session);
     const settings = format === 'c' ? { name: nameInC(name) } : { name, ...LOOPED[thingOf(this.session)] };
@@ -491,17 +471,18 @@ export class Room {
     this.traces.fill(outlines);
     this.duet = new Duet(wisp, take, outlines, model, (share) => this.traces.mark(share));
     this.duet.loop.start();
-    this.showLeft(this.duet.place);
+    this.left.replaceChildren(this.duet.place);
     this.below.replaceChildren(this.traces.place, new Strip(wisp, take, outlines, model).place);
   }
 
-  private learnAgain(change: Partial<Recipe>): void {
+  learnAgain(change: Partial<Recipe>): void {
     const recipe = Object.fromEntries(Object.entries({ ...this.session.recipe, ...change }).filter(([, value]) => value !== undefined));
     this.session.recipe = recipe as unknown as Recipe;
     void this.learn();
   }
 
-  private anew(): void {
+  /** Starts over without the gathered sources. */
+  anew(): void {
     this.session = emptied(this.session);
     this.gather();
   }
@@ -514,34 +495,29 @@ export class Room {
       const head = headOf(bytes);
       if (head.names.length === 0) throw new Error(`${file.name} is empty.`);
       if (!head.recording && !head.numeric.includes(true)) throw new Error(`${file.name} has no column of numbers. A table is rows of numbers below the names of their columns.`);
-      if (head.recording) {
-        await this.tabled(file.name, bytes, undefined);
-        return;
-      }
+      if (head.recording) return await this.tabled(file.name, bytes);
       this.clear();
       this.stepTo('look', 'table');
-      this.showLeft(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
-      const table = head.named ?? bytes;
-      this.showPanel(
-        tablePanel(file.name, head, {
-          learn: (settings) => void this.tabled(file.name, table, settings),
-          advise: async (settings) => (await this.studio()).table(file.name, table, settings, 'advise'),
-          back: () => this.back(),
-        }),
-      );
+      this.left.replaceChildren(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
+      this.showPanel(tablePanel(file.name, head.named ?? bytes, head, this));
     } catch (error) {
       this.say(wordsOf(error));
     }
   }
 
-  private async tabled(name: string, bytes: Uint8Array, settings: TableSettings | undefined): Promise<void> {
+  async advise(name: string, bytes: Uint8Array, settings: TableSettings): Promise<Captured> {
+    return (await this.studio()).table(name, bytes, settings, 'advise');
+  }
+
+  /** Learns from a table, or keeps an outline's recording; without settings it is a recording, which has its own. */
+  async tabled(name: string, bytes: Uint8Array, settings?: TableSettings): Promise<void> {
     try {
       const captured = await (await this.studio()).table(name, bytes, settings);
       const outlines = Outlines.of(captured);
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {
         this.session = { ...emptied(this.session), takes: [take], recipe: recipeOfTable(captured, settings) };
-        this.showLeft(element('div', { class: 'plots' }, ...plotsOf(recordedOf(captured))));
+        this.left.replaceChildren(element('div', { class: 'plots' }, ...plotsOf(recordedOf(captured))));
         await this.learn();
       } else {
         this.viewer.clear();

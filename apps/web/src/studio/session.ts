@@ -35,7 +35,7 @@ export const shownIn = ({ captured }: Take): Thing => (captured.series.some(({ n
 
 /** Odd number of rows over which velocities of filmed falls are taken, about 1/6 s, as positions in films are
  * accurate to some thousandths of the height. */
-export const smoothRows = (rate: number): number => Math.max(5, 2 * Math.round(rate / 12) + 1);
+const smoothRows = (rate: number): number => Math.max(5, 2 * Math.round(rate / 12) + 1);
 
 /** Kind of object of a session. */
 export const thingOf = ({ recipe }: Session): Thing => (recipe.kind === 'arx' ? 'table' : recipe.kind === 'leaf' || recipe.kind === 'chain' ? 'fall' : 'flame');

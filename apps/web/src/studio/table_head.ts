@@ -8,7 +8,6 @@ const ROWS = 400;
 
 export interface TableHead {
   names: string[];
-  /** whether each column is numeric */
   numeric: boolean[];
   /** whether it is a Wisp recording, whose roles are known */
   recording: boolean;
@@ -18,12 +17,7 @@ export interface TableHead {
   preview: Curve[];
 }
 
-function separatorOf(line: string): RegExp {
-  if (line.includes('\t')) return /\t/;
-  if (line.includes(';')) return /;/;
-  if (line.includes(',')) return /,/;
-  return /\s+/;
-}
+const separatorOf = (line: string): RegExp => [/\t/, /;/, /,/].find((one) => one.test(line)) ?? /\s+/;
 
 const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
 /** Value of a cell with decimal comma or point, and Fortran's exponents; NaN where it is no number. */
@@ -33,7 +27,6 @@ const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.te
 /** Whether a name suggests a column of times. */
 const isTime = (name: string): boolean => /^(t|time|seconds?|sec|zeit|millis|ms)(?![a-z])/i.test(name);
 
-/** Examines the first lines of a table. */
 export function headOf(bytes: Uint8Array): TableHead {
   const text = new TextDecoder().decode(bytes.subarray(0, LOOKED_AT)).replace(/^\uFEFF/, '');
   const all = text.split(/\r?\n/).filter((line) => line.trim() !== '' && !/^sep=/i.test(line));
@@ -86,7 +79,7 @@ export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSe
   return { kind: 'arx', ...(inputs === undefined ? {} : { inputs }), ...(outputs === undefined ? {} : { outputs }) };
 }
 
-export type Role = 'input' | 'output' | 'ignored';
+type Role = 'input' | 'output' | 'ignored';
 
 /** Role of a column suggested by its name; null: none. */
 function suggested(name: string, numeric: boolean): Role | null {

@@ -91,7 +91,6 @@ function praiseOf(report: Report): string {
   return `${follows} ${borrowed}`.trim();
 }
 
-/** Verdict on a model. */
 export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
   const lost = thing === 'table' && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
@@ -134,8 +133,7 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     return value === null ? null : value / 100;
   };
   if (thing === 'fall') {
-    // 1: the play is as near to the recording as its two halves are to each other; 0: as far as its rows in random
-    // order.
+    // 1: play and recording differ as the recording's two halves do; 0: as the recording and its rows in random order.
     const near = (...name: string[]): number | null => {
       const [value, floor, ceiling] = ['value', 'floor', 'ceiling'].map((one) => figure(report, 'fidelity', ...name, one));
       return value == null || floor == null || ceiling == null || !(ceiling > floor) ? null : 1 - Math.max(0, value - floor) / (ceiling - floor);
@@ -171,24 +169,20 @@ const ENOUGH = 25;
 
 /** Suggestions of what to film for improvement: at most three, the most effective first. */
 export function adviceOf(captured: readonly Captured[], report: Report | null): string[] {
-  const made: string[] = [];
   const seconds = captured.reduce((sum, { rows, rate }) => sum + rows / rate, 0);
   const windy = captured.some(({ series }) => series.some(({ role }) => role === 'input'));
   const heard = captured.some((one) => within(one.report, 'wind', 'heard') === true);
-  if (!windy) made.push('Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.');
-  else if (!heard) made.push('Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.');
-  if (seconds < ENOUGH) made.push(`Only ${Math.round(seconds)} s were filmed. Forty, with a soft breath from the side now and then, make it surer.`);
-  const out = captured.some((one) => figure(one.report, 'out_at') !== null);
-  if (report !== null && windy && !out && within(report, 'extinction', 'source') !== 'learned') {
-    made.push('It has not been seen to go out. Blow it out once or twice while you film, and light it again.');
-  }
-  if (captured.some((one) => (figure(one.report, 'clipped') ?? 0) > 0.5)) {
-    made.push('The flame is white all over. Lower the exposure until its edge has a colour.');
-  }
-  if (captured.some((one) => one.report.usable?.verdict === false)) {
-    made.push('Let the flame stand alone before something dark, large in the picture, and keep the camera still.');
-  }
-  return made.slice(0, 3);
+  const out = captured.some((one) => figure(one.report, 'out_at') !== null) || (report !== null && within(report, 'extinction', 'source') === 'learned');
+  const white = captured.some((one) => (figure(one.report, 'clipped') ?? 0) > 0.5);
+  const unseen = captured.some((one) => one.report.usable?.verdict === false);
+  return [
+    !windy && 'Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.',
+    windy && !heard && 'Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.',
+    seconds < ENOUGH && `Only ${Math.round(seconds)} s were filmed. Forty, with a soft breath from the side now and then, make it surer.`,
+    report !== null && windy && !out && 'It has not been seen to go out. Blow it out once or twice while you film, and light it again.',
+    white && 'The flame is white all over. Lower the exposure until its edge has a colour.',
+    unseen && 'Let the flame stand alone before something dark, large in the picture, and keep the camera still.',
+  ].filter((words) => words !== false).slice(0, 3);
 }
 
 const CAPTURING: Readonly<Record<Thing | 'either', string>> = {
@@ -205,11 +199,9 @@ const STAGES: Readonly<Record<string, string>> = {
   fitting: 'Fitting what each point of the outline does next.',
   simulating: 'Playing it freely, beside the film.',
   predicting: 'Predicting seconds that it has never seen.',
-  judging: 'Judging it on seconds that it has never seen.',
   'testing residuals': 'Looking whether anything is left that could be learned.',
 };
 
-/** Explanation of a stage of work. */
 export function stageInWords(stage: string, thing: Thing | 'either' = 'flame'): string {
   return stage === 'capturing' ? CAPTURING[thing] : (STAGES[stage] ?? sentence(stage));
 }

@@ -52,23 +52,13 @@ function played(model: Model, { wind, rate, before, filmed }: Stretch, seed: num
 
 const pairOf = (model: Model, stretch: Stretch, seed: number): Pair => ({ name: stretch.name, filmed: stretch.filmed, played: played(model, stretch, seed) });
 
-/** Returns the list in random order. */
-export function shuffled<T>(list: readonly T[], chance: () => number = Math.random): T[] {
-  return list.map((one) => [chance(), one] as const).sort(([a], [b]) => a - b).map(([, one]) => one);
-}
-
-interface FilmedFile {
-  rate: number;
-  shown: number;
-  before: number;
-  clips: { wind: number[]; outlines: number[][] }[];
-}
+const shuffled = <T>(list: readonly T[]): T[] => list.map((one) => [Math.random(), one] as const).sort(([a], [b]) => a - b).map(([, one]) => one);
 
 /** Pairs from the rig's films and a model that was not learned from them. */
 export async function rigPairs(wisp: Library, bytes: Uint8Array, many: number): Promise<Pair[]> {
   const answer = await fetch('./models/filmed.json');
   if (!answer.ok) throw new Error(`The films could not be fetched (${answer.status}).`);
-  const { rate, shown, before, clips } = (await answer.json()) as FilmedFile;
+  const { rate, shown, before, clips } = (await answer.json()) as Record<'rate' | 'shown' | 'before', number> & { clips: { wind: number[]; outlines: number[][] }[] };
   const model = wisp.model(bytes);
   const points = (clips[0]?.outlines[0]?.length ?? 0) / 2;
   const spline = new Spline(points, evenKnots(points), POINTS);

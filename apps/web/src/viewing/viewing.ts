@@ -15,17 +15,8 @@ export const ANSWERS = 20;
 const SIDES = ['left', 'right'] as const;
 type Side = (typeof SIDES)[number];
 
-/** One answer of the test. */
-interface Answer {
-  pair: string;
-  filmed: Side;
-  answered: Side;
-  right: boolean;
-  seconds: number;
-}
-
 /** Share of right answers with its 95 % interval (Wilson, 1927). */
-export function shareOf(right: number, of: number): { share: number; low: number; high: number } {
+function shareOf(right: number, of: number): { share: number; low: number; high: number } {
   const z = 1.96;
   const share = right / of;
   const middle = (share + z ** 2 / (2 * of)) / (1 + z ** 2 / of);
@@ -34,7 +25,7 @@ export function shareOf(right: number, of: number): { share: number; low: number
 }
 
 /** Meaning of the result for the model. */
-export function meaningOf(right: number, of: number): string {
+function meaningOf(right: number, of: number): string {
   const { low, high } = shareOf(right, of);
   const spread = `${Math.round(100 * low)} to ${Math.round(100 * high)} %`;
   if (low > 0.5) return `You see a difference: with chance alone so many are right less than once in twenty tests. What lies between is ${spread}.`;
@@ -44,12 +35,12 @@ export function meaningOf(right: number, of: number): string {
 
 /** A clip repeated on a canvas. */
 class Screen {
-  readonly canvas: HTMLCanvasElement;
+  readonly canvas = element('canvas', { role: 'img' });
   clip: Clip | null = null;
   private readonly shape = new FlameShape();
 
   constructor(side: Side) {
-    this.canvas = element('canvas', { role: 'img', 'aria-label': `A flame, ${side}` });
+    this.canvas.setAttribute('aria-label', `A flame, ${side}`);
   }
 
   draw(seconds: number): void {
@@ -77,7 +68,7 @@ export class Viewing {
   private readonly screens = { left: new Screen('left'), right: new Screen('right') };
   private readonly stage = element('div', { class: 'both' }, this.screens.left.canvas, this.screens.right.canvas);
   private readonly actions = element('div', { class: 'actions' });
-  private readonly answers: Answer[] = [];
+  private readonly answers: { pair: string; filmed: Side; answered: Side; right: boolean; seconds: number }[] = [];
   private since = 0;
   private filmed: Side = 'left';
 

@@ -119,20 +119,16 @@ export class Ear {
         },
         onAsleep: (asleep) => {
           if (this.state !== 'off') this.state = asleep ? 'asleep' : 'listening';
-          if (asleep) this.wind = this.heard = 0;
-          if (asleep) this.app.breath.deafen();
+          if (!asleep) return;
+          this.wind = this.heard = 0;
+          this.app.breath.deafen();
         },
         onLost: (error) => this.fail(error),
       });
-      if (turn !== this.turn) {
-        microphone.stop();
-        return;
-      }
+      if (turn !== this.turn) return microphone.stop();
       this.microphone = microphone;
       this.state = 'listening';
-      if (!microphone.raw) {
-        this.app.notices.say('This browser or system smooths the sound of the microphone: blow a little harder.');
-      }
+      if (!microphone.raw) this.app.notices.say('This browser or system smooths the sound of the microphone: blow a little harder.');
     } catch (error) {
       if (turn === this.turn) this.fail(error);
     }
@@ -148,8 +144,7 @@ export class Ear {
   /** Switches to another microphone and discards the calibration of the first. */
   async choose(id: string): Promise<void> {
     this.device = id;
-    this.known = null;
-    this.plain = null;
+    this.known = this.plain = null;
     this.close();
     await this.open();
   }
@@ -160,8 +155,7 @@ export class Ear {
     this.microphone?.stop();
     this.microphone = null;
     this.state = 'off';
-    this.wind = 0;
-    this.heard = 0;
+    this.wind = this.heard = 0;
     this.answered(false);
     this.app.breath.deafen();
   }

@@ -17,10 +17,7 @@ const WAKE = { share: 0.45, wide: 0.16, long: 1.1 };
 /** Minimum share of the wind behind any number of candles. */
 const SHELTERED = 0.5;
 
-interface Place {
-  x: number;
-  z: number;
-}
+type Place = Readonly<Record<'x' | 'z', number>>;
 
 /** Share of a wind with unit direction (x, z) that the other candles leave at a place. */
 export function shelter(at: Place, others: readonly Place[], x: number, z: number): number {
@@ -39,7 +36,6 @@ export class WindDelay {
   private newest = 0;
   private clock = 0;
 
-  /** Takes the breath of this frame. */
   push(seconds: number, wind: number): void {
     this.clock += seconds;
     this.newest = (this.newest + 1) % KEPT;

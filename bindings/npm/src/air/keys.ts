@@ -11,26 +11,13 @@ const BREATHS: Readonly<Record<string, readonly [number, number]>> = {
 };
 
 export class KeyBreath {
-  private readonly held = new Set<string>();
+  /** keys that are held; all are released when the window loses the keyboard focus */
+  readonly held = new Set<string>();
   private strength = 0;
   private clock = 0;
 
-  /** Whether a key (KeyboardEvent.code) blows. */
   static blows(code: string): boolean {
     return code in BREATHS;
-  }
-
-  press(code: string): void {
-    this.held.add(code);
-  }
-
-  release(code: string): void {
-    this.held.delete(code);
-  }
-
-  /** Releases all keys, as when the window loses the keyboard focus. */
-  releaseAll(): void {
-    this.held.clear();
   }
 
   /** Advances by a time and returns the signed breath; 1 is strong. */

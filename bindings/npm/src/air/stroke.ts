@@ -21,7 +21,6 @@ export class Stroke {
   /** gust of the last stroke, decayed so far */
   private gust: Readonly<Air> = STILL;
 
-  /** Makes the air around the flame still. */
   settle(): void {
     this.gust = STILL;
     Object.assign(this.wind, STILL);

@@ -7,22 +7,10 @@ import boardVertex from './shaders/board.vert.js';
 import matchFragment from './shaders/match.frag.js';
 import noise from './shaders/noise.glsl.js';
 
-export class After {
-  readonly glare: Glare;
-  readonly air: Air;
-  readonly match: Program;
-  readonly warm: () => boolean;
+export type After = ReturnType<typeof afterOf>;
 
-  constructor(gl: WebGL2RenderingContext, quad: Quad) {
-    this.glare = new Glare(gl, quad);
-    this.air = new Air(gl, quad);
-    this.match = new Program(gl, boardVertex, noise + matchFragment);
-    this.warm = warming([this.match, this.glare.program, ...Object.values(this.air.programs)]);
-  }
-
-  dispose(): void {
-    this.glare.dispose();
-    this.air.dispose();
-    this.match.dispose();
-  }
+export function afterOf(gl: WebGL2RenderingContext, quad: Quad) {
+  const [glare, air, match] = [new Glare(gl, quad), new Air(gl, quad), new Program(gl, boardVertex, noise + matchFragment)];
+  const warm = warming([match, glare.program, ...Object.values(air.programs)]);
+  return { glare, air, match, warm, dispose: () => [glare, air, match].forEach((one) => one.dispose()) };
 }

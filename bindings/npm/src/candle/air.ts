@@ -15,7 +15,7 @@ import { Words } from './words.js';
 /** Number of cells of the air's grid, and refinement of the smoke's grid. */
 const CELLS = 22_000;
 const FINER = 3;
-/** Jacobi iterations of the pressure per frame, starting from the last frame's pressure. */
+/** Jacobi iterations of the pressure per step, starting from the last step's pressure. */
 const PRESSINGS = 10;
 const WISH_FONT = '600 96px ui-rounded, "Trebuchet MS", system-ui, sans-serif';
 /** Maximum half height of a line of smoke writing. */
@@ -129,9 +129,7 @@ export class Air {
   }
 
   dispose(): void {
-    for (const pair of [this.flow, this.pressure, this.smoke]) pair.dispose();
-    this.words.dispose();
-    for (const program of Object.values(this.programs)) program.dispose();
+    for (const one of [this.flow, this.pressure, this.smoke, this.words, ...Object.values(this.programs)]) one.dispose();
   }
 
   /** Sets up square cells, about as many for every aspect ratio. */

@@ -2,7 +2,7 @@
 
 import { FlameShape } from './flame_shape.js';
 import { Stroke } from '../air/stroke.js';
-import { flameFoot, type Stand } from './room.js';
+import type { Stand } from './room.js';
 
 /** Wind at the flame while its base moves at one flame height a second. */
 const MOTION_WIND = 0.3;
@@ -61,11 +61,6 @@ export class Candle {
 
   get lit(): boolean {
     return this.sinceOut === Infinity;
-  }
-
-  /** Height of the flame's base in the room. */
-  get foot(): number {
-    return flameFoot(this.stand);
   }
 
   /** Wind at the flame from the candle's own motion. Call once a frame. */

@@ -104,11 +104,7 @@ export class FlameShape {
     const at = this.along;
     for (let k = 0; k < count; ++k) {
       if (points[3 * k] === this.tipX && points[3 * k + 1] === this.tipY) tip = k;
-      if (k > 0) {
-        const dx = (points[3 * k] as number) - (points[3 * k - 3] as number);
-        const dy = (points[3 * k + 1] as number) - (points[3 * k - 2] as number);
-        length += Math.hypot(dx, dy);
-      }
+      if (k > 0) length += Math.hypot(points[3 * k]! - points[3 * k - 3]!, points[3 * k + 1]! - points[3 * k - 2]!);
       at[k] = length;
     }
     const left = Math.max(1e-6, at[tip] ?? 0);
@@ -124,9 +120,7 @@ export class FlameShape {
     let twice = 0;
     for (let k = 0; k < count; ++k) {
       const next = (k + 1) % count;
-      twice +=
-        (points[3 * k] as number) * (points[3 * next + 1] as number) -
-        (points[3 * next] as number) * (points[3 * k + 1] as number);
+      twice += points[3 * k]! * points[3 * next + 1]! - points[3 * next]! * points[3 * k + 1]!;
     }
     return twice / 2;
   }

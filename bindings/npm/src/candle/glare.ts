@@ -42,8 +42,7 @@ export class Glare {
   }
 
   dispose(): void {
-    for (const target of [...this.down, ...this.up]) target.dispose();
-    this.program.dispose();
+    for (const one of [...this.down, ...this.up, this.program]) one.dispose();
   }
 
   private pass(from: Target, finer: Target | null, to: Target, spread: number): void {

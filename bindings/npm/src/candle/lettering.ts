@@ -74,16 +74,15 @@ export class Lettering {
   /** Stroke of a digit below its upper end at 0 (its wick), x to the right. */
   figure(digit: string, height: number): Float32Array {
     const key = `${digit} ${height}`;
-    let made = this.figures.get(key);
-    if (made === undefined) {
-      const line = Array.from({ length: POINTS }, (_, k) => through(STROKES[digit] ?? STROKES['0']!, k / (POINTS - 1)));
-      const [wick, top] = line.reduce((best, one) => (one[1] > best[1] + 1e-6 ? one : best));
-      // Where the highest part is level, the wick is at its middle.
-      const level = line.filter(([, y]) => y > top - 0.02).map(([x]) => x);
-      const middle = level.length > 2 ? (Math.min(...level) + Math.max(...level)) / 2 : wick;
-      made = Float32Array.from(line.flatMap(([x, y]) => [NARROW * height * (x - middle), height * (y - top), 0]));
-      this.figures.set(key, made);
-    }
+    const known = this.figures.get(key);
+    if (known !== undefined) return known;
+    const line = Array.from({ length: POINTS }, (_, k) => through(STROKES[digit] ?? STROKES['0']!, k / (POINTS - 1)));
+    const [wick, top] = line.reduce((best, one) => (one[1] > best[1] + 1e-6 ? one : best));
+    // Where the highest part is level, the wick is at its middle.
+    const level = line.filter(([, y]) => y > top - 0.02).map(([x]) => x);
+    const middle = level.length > 2 ? (Math.min(...level) + Math.max(...level)) / 2 : wick;
+    const made = Float32Array.from(line.flatMap(([x, y]) => [NARROW * height * (x - middle), height * (y - top), 0]));
+    this.figures.set(key, made);
     return made;
   }
 

@@ -3,11 +3,10 @@
 import { FlameShape } from './flame_shape.js';
 import { smokeAfter } from './candle.js';
 
-/** Seconds to reach a wick by itself and of the strike before; distance of the strike, room units; flare's decay, s. */
-const ERRAND = 0.75;
-const STRIKE = 0.22;
-const STRUCK = 0.34;
-const FLARES = 0.32;
+const ERRAND = 0.75; // seconds in which it reaches a wick by itself
+const STRIKE = 0.22; // seconds of the strike before
+const STRUCK = 0.34; // distance of the strike, room units
+const FLARES = 0.32; // decay time of the flare, seconds
 
 export class Match {
   readonly shape = new FlameShape();
@@ -70,8 +69,7 @@ export class Match {
   send(x: number, y: number): void {
     this.errand = { left: ERRAND + 0.5 };
     this.strike();
-    this.goalX = x;
-    this.goalY = y;
+    this.moveTo(x, y);
   }
 
   moveTo(x: number, y: number): void {
@@ -82,8 +80,7 @@ export class Match {
   drop(): void {
     this.held = false;
     this.errand = null;
-    this.goalX = this.homeX;
-    this.goalY = this.homeY;
+    this.moveTo(this.homeX, this.homeY);
   }
 
   /** Whether it should burn: held or moving by itself, and struck. */
@@ -91,12 +88,6 @@ export class Match {
     return (this.held || this.errand !== null) && this.striking === 0;
   }
 
-  /** Ignites its head. */
-  catchFire(): void {
-    this.flare = 1;
-  }
-
-  /** Advances its motion. */
   update(seconds: number): void {
     if (seconds <= 0) return;
     this.flare *= Math.exp(-seconds / FLARES);

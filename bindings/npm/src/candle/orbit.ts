@@ -29,11 +29,9 @@ export class Orbit {
 
   /** Pointer position in a picture of that width, and its speed. Returns whether the eye has moved. */
   drag(x: number, speed: number, width: number): boolean {
-    if (this.held === null) return false;
     // A fast stroke makes wind and does not rotate.
     if (Math.abs(speed) > SWIPE * width) this.held = null;
-    else return this.turnTo(this.held.azimuth - ((x - this.held.x) / Math.max(1, width)) * ACROSS);
-    return false;
+    return this.held !== null && this.turnTo(this.held.azimuth - ((x - this.held.x) / Math.max(1, width)) * ACROSS);
   }
 
   turnTo(azimuth: number): boolean {

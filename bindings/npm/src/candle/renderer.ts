@@ -14,12 +14,12 @@ import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
 import flameFragment from './shaders/flame.frag.js';
-import fullVertex from './shaders/full.vert.js';
 import lightFragment from './shaders/light.frag.js';
 import noise from './shaders/noise.glsl.js';
 import room from './shaders/room.glsl.js';
 import surfaceFragment from './shaders/surface.frag.js';
 import table from './shaders/table.glsl.js';
+import wholeVertex from './shaders/whole.vert.js';
 
 /** Maximum number of lights: candles, match, one to spare. */
 const MAX_LIGHTS = MAX_LAMPS + 2;
@@ -32,8 +32,7 @@ const MIN_PLUME = 0.02;
 /** Exposure in lit and dark rooms, and adaptation times in seconds to more and to less light. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
-/** Contents of one picture. */
-export interface CandlePicture {
+interface CandlePicture {
   setting: Setting;
   candles: Candle[];
   match: Match;
@@ -57,12 +56,7 @@ interface Room {
   warm: () => boolean;
 }
 
-interface Lamp {
-  x: number;
-  y: number;
-  z: number;
-  light: number;
-}
+type Lamp = Record<'x' | 'y' | 'z' | 'light', number>;
 
 export class CandleRenderer {
   private readonly quad: Quad;
@@ -96,7 +90,7 @@ export class CandleRenderer {
     this.programs = {
       candle: new Program(gl, boardVertex, noise + candleFragment),
       flame: new Program(gl, boardVertex, noise + flameFragment),
-      develop: new Program(gl, fullVertex, noise + developFragment),
+      develop: new Program(gl, wholeVertex, noise + developFragment),
     };
     this.warm = warming(Object.values(this.programs));
   }
@@ -111,7 +105,7 @@ export class CandleRenderer {
     gl.disable(gl.BLEND);
     this.gatherLamps(view, shown);
     this.adapt(shown);
-    const after = this.ready(look);
+    const after = this.after !== null && !look.plain && this.after.warm() ? this.after : null;
     if (after !== null) after.air.update(view.width / view.height, this.stirring(view, shown));
     if (!look.clear) this.drawSurface(room.surface, view, shown);
     const lies = after !== null && shown.match.lying;
@@ -136,16 +130,8 @@ export class CandleRenderer {
 
   dispose(): void {
     this.gone = true;
-    this.quad.dispose();
-    this.surface.dispose();
-    this.picture.dispose();
-    this.after?.dispose();
-    this.lettering?.dispose();
-    for (const program of Object.values(this.programs)) program.dispose();
-    for (const { surface, light } of Object.values(this.rooms)) {
-      surface.dispose();
-      light.dispose();
-    }
+    const rooms = Object.values(this.rooms).flatMap(({ surface, light }) => [surface, light]);
+    for (const one of [this.quad, this.surface, this.picture, this.after, this.lettering, ...Object.values(this.programs), ...rooms]) one?.dispose();
   }
 
   /** Programs for a setting; null while those of a cake are loading. */
@@ -154,25 +140,23 @@ export class CandleRenderer {
     const name = setting.cake === null ? 'table' : 'cake';
     const there = this.rooms[name];
     if (there !== undefined) return there.warm() ? there : null;
-    if (name === 'table') {
-      this.furnish(name, table);
-      return null;
+    if (name === 'table') this.furnish(name, table);
+    else if (!this.bringing) {
+      this.bringing = true;
+      void import('./cake.js').then(({ cake, Lettering }) => {
+        this.bringing = false;
+        if (this.gone) return;
+        this.lettering = new Lettering(this.gl);
+        this.furnish('cake', cake);
+      });
     }
-    if (this.bringing) return null;
-    this.bringing = true;
-    void import('./cake.js').then(({ cake, Lettering }) => {
-      this.bringing = false;
-      if (this.gone) return;
-      this.lettering = new Lettering(this.gl);
-      this.furnish('cake', cake);
-    });
     return null;
   }
 
   private furnish(name: 'table' | 'cake', onIt: string): void {
     const source = noise + room + onIt;
-    const surface = new Program(this.gl, fullVertex, source + surfaceFragment);
-    const light = new Program(this.gl, fullVertex, source + lightFragment);
+    const surface = new Program(this.gl, wholeVertex, source + surfaceFragment);
+    const light = new Program(this.gl, wholeVertex, source + lightFragment);
     this.rooms[name] = { surface, light, warm: warming([surface, light]) };
   }
 
@@ -180,14 +164,10 @@ export class CandleRenderer {
   private bring(): void {
     if (this.bringing || this.after !== null || !hasRange(this.gl)) return;
     this.bringing = true;
-    void import('./after.js').then(({ After }) => {
+    void import('./after.js').then(({ afterOf }) => {
       this.bringing = false;
-      if (!this.gone && !this.gl.isContextLost()) this.after = new After(this.gl, this.quad);
+      if (!this.gone && !this.gl.isContextLost()) this.after = afterOf(this.gl, this.quad);
     });
-  }
-
-  private ready(look: SceneLook): After | null {
-    return this.after !== null && !look.plain && this.after.warm() ? this.after : null;
   }
 
   /** Adapts the exposure to the amount of light. */
@@ -309,49 +289,47 @@ export class CandleRenderer {
     return sum;
   }
 
+  /** Sets up a candle or digit in a box, relative to its upper end. `nearer`: that of the flame, whose own light is left out. */
+  private setWax(program: Program, view: RoomView, { stand, shape, ember }: Candle, nearer: number, box: number[]): Program {
+    return this.setBoard(program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, box)
+      .set('uRadius', stand.radius / stand.unit)
+      .set('uHeight', stand.height / stand.unit)
+      .set('uLight', shape.empty ? 0 : shape.light)
+      .set('uEmber', ember)
+      .set('uWax', ...stand.wax)
+      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer }));
+  }
+
   private drawCandle(view: RoomView, candle: Candle, { clock, turn }: CandlePicture): void {
     const { stand, shape } = candle;
-    const top = stand.ground + stand.height;
     const radius = stand.radius / stand.unit;
     const height = stand.height / stand.unit;
-    const upper = view.flatness(top, stand.z);
+    const upper = view.flatness(stand.ground + stand.height, stand.z);
     const lower = view.flatness(stand.ground, stand.z);
     // Without a table each candle has its own dish.
     const saucer = (view.clear && stand.saucer === 0 ? 2.7 * stand.radius : stand.saucer) / stand.unit;
     const wide = Math.max(radius, saucer) + 0.12;
     const box = [-wide, -height - Math.max(radius, saucer) * lower - 0.05, wide, 0.34];
-    this.setBoard(this.programs.candle, view, stand.x, top, stand.z, stand.unit, box)
-      .set('uRadius', radius)
-      .set('uHeight', height)
+    this.setWax(this.programs.candle, view, candle, candle.nearer, box)
       .set('uSaucer', saucer)
       .set('uFlat', upper, lower)
-      .set('uLight', shape.empty ? 0 : shape.light)
       .set('uLean', shape.middleX, shape.middleY)
-      .set('uEmber', candle.ember)
       .set('uSeed', stand.seed)
       .set('uStripe', stand.striped ? 1 : 0)
       .set('uClock', clock)
-      .set('uTurn', turn)
-      .set('uWax', ...stand.wax)
-      .set('uOthers', ...this.lightFromOthers(candle));
+      .set('uTurn', turn);
     this.quad.draw();
   }
 
-  /** Draws a candle shaped as a digit. */
-  private drawFigure(view: RoomView, { stand, shape, ember }: Candle): void {
+  private drawFigure(view: RoomView, candle: Candle): void {
     const { lettering } = this;
     if (lettering === null) return;
+    const { stand } = candle;
     const height = stand.height / stand.unit;
     const points = lettering.figure(stand.figure ?? '', height);
-    this.setBoard(lettering.program, view, stand.x, stand.ground + stand.height, stand.z, stand.unit, [-height, -height - 0.1, height, 0.3])
+    this.setWax(lettering.program, view, candle, 0, [-height, -height - 0.1, height, 0.3])
       .setVectors('uOutline', 3, points)
-      .setInteger('uPoints', points.length / 3)
-      .set('uRadius', stand.radius / stand.unit)
-      .set('uHeight', height)
-      .set('uLight', shape.empty ? 0 : shape.light)
-      .set('uEmber', ember)
-      .set('uWax', ...stand.wax)
-      .set('uOthers', ...this.lightFromOthers({ stand, shape, nearer: 0 }));
+      .setInteger('uPoints', points.length / 3);
     this.quad.draw();
   }
 

@@ -33,6 +33,8 @@ export interface Setting {
 /** Maximum number of candles on a cake, and of lights in the room. */
 export const MAX_CANDLES = 100;
 export const MAX_LAMPS = 12;
+/** Height of a digit candle. */
+const FIGURE_HEIGHT = 0.95;
 /** Maximum digits of a number on a cake. */
 const MAX_DIGITS = 3;
 
@@ -89,9 +91,6 @@ export function settingFor(candles: number, figures = ''): Setting {
   return { cake, stands: stands.sort((a, b) => a.z - b.z) };
 }
 
-/** Height of a digit candle. */
-export const FIGURE_HEIGHT = 0.95;
-
 /** Positions of many candles on rings, with equal spacing within and between rings. */
 function rings(candles: number): [number, number][] {
   const radii = [1.42, 1.16, 0.9, 0.64, 0.38, 0.12].slice(0, candles <= 30 ? 2 : candles <= 50 ? 3 : 6);
@@ -134,6 +133,7 @@ function places(candles: number): [x: number, z: number][] {
 export class RoomView {
   readonly eye = 3.4;
   readonly distance = DISTANCE;
+  readonly nearness = nearnessAt;
   width = 1;
   footer = 0;
   clear = false;
@@ -150,10 +150,7 @@ export class RoomView {
    * cake's candles without the cake; `above`: extra height of digits over sticks.
    */
   frame(width: number, height: number, cake: boolean, footer: number, clear: boolean, above = 0): void {
-    this.width = width;
-    this.height = height;
-    this.footer = footer;
-    this.clear = clear;
+    Object.assign(this, { width, height, footer, clear });
     const free = height * (1 - footer);
     // Height from the nearest drawn edge to above the highest flame, width, and height of that edge.
     const [tall, wide, low] = cake ? (clear ? [1.95, 3.4, -0.6] : [4 + above, 5, 0.94]) : [3.6, 2.9, 0.4];
@@ -163,11 +160,6 @@ export class RoomView {
     const spare = Math.max(0, free - this.scale * tall);
     const foot = height * footer + 0.42 * spare + this.scale * low;
     this.horizon = foot + this.scale * this.eye;
-  }
-
-  /** Scale at a depth relative to z = 0. */
-  nearness(z: number): number {
-    return nearnessAt(z);
   }
 
   pixelX(x: number, z: number): number {

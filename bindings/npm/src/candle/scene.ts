@@ -7,7 +7,7 @@ import type { Lender } from './lender.js';
 import { Match } from './match.js';
 import { Orbit } from './orbit.js';
 import { CandleRenderer } from './renderer.js';
-import { MAX_CANDLES, RoomView, settingFor, type Setting } from './room.js';
+import { flameFoot, MAX_CANDLES, RoomView, settingFor, type Setting, type Stand } from './room.js';
 import { shelter, WindDelay } from '../air/delay.js';
 
 /** Points of a flame's outline; looks smooth up to a height of 500 pixels. */
@@ -15,6 +15,9 @@ const OUTLINE_POINTS = 40;
 const NANOSECONDS = 1e9;
 /** Seconds after the last extinction at which smoke writing starts and ends. */
 const WISH = { from: 0.9, to: 5 };
+
+/** Height of a candle's wick in the room. */
+const wickY = ({ ground, height, unit }: Stand): number => ground + height + 0.1 * unit;
 
 /** The model as a body of revolution; null unless it is a flame of symmetric and antisymmetric components. */
 function roundOf(model: Model): Model | null {
@@ -117,10 +120,7 @@ export class CandleScene implements Scene {
   }
 
   press(x: number, y: number): void {
-    if (this.overMatch(x, y)) {
-      this.match.take();
-      return;
-    }
+    if (this.overMatch(x, y)) return this.match.take();
     const candle = this.candleAt(x, y);
     if (candle === null) {
       if (this.round !== null) this.orbit.grab(x);
@@ -132,10 +132,7 @@ export class CandleScene implements Scene {
   }
 
   release(x: number, y: number, tap: boolean): void {
-    if (this.match.held) {
-      this.match.drop();
-      return;
-    }
+    if (this.match.held) return this.match.drop();
     this.dragged = null;
     this.orbit.letGo();
     if (!tap) return;
@@ -151,9 +148,9 @@ export class CandleScene implements Scene {
   }
 
   act(): void {
-    const out = this.candles.find((candle) => !candle.lit);
-    if (out === undefined) return;
-    this.match.send(...this.wickOf(out));
+    // `lit` is that of the last picture, the state is current.
+    const out = this.candles.find((candle) => !candle.lit && !this.stateOf(candle).lit);
+    if (out !== undefined) this.match.send(...this.wickOf(out));
   }
 
   apply(settings: SceneSettings): void {
@@ -165,7 +162,7 @@ export class CandleScene implements Scene {
   }
 
   describe(): string {
-    const lit = this.candles.filter((candle) => candle.lit).length;
+    const { lit } = this.burning();
     const { figures = '', name = '' } = this.settings;
     if (this.setting.cake === null) return lit === 1 ? 'A candle burns in a dark room.' : 'The candle is out.';
     const what = figures === '' ? `${this.candles.length} candles` : `candles that say ${figures}`;
@@ -175,7 +172,7 @@ export class CandleScene implements Scene {
   /** Whether the smoke of the last extinction still shows the wish. */
   private wishing(): boolean {
     const latest = Math.min(...this.candles.map(({ sinceOut }) => sinceOut));
-    return this.candles.every(({ lit }) => !lit) && latest > WISH.from && latest < WISH.to;
+    return this.burning().lit === 0 && latest > WISH.from && latest < WISH.to;
   }
 
   /** Number of burning candles, and of all candles. */
@@ -183,7 +180,6 @@ export class CandleScene implements Scene {
     return { lit: this.candles.filter((candle) => candle.lit).length, of: this.candles.length };
   }
 
-  /** x of the first candle. */
   get firstX(): number {
     return this.candles[0]?.stand.x ?? 0;
   }
@@ -192,13 +188,9 @@ export class CandleScene implements Scene {
   places(): { wick: readonly [number, number]; match: readonly [number, number] } {
     const { view, match } = this;
     const { stand } = this.candles[0] as Candle;
-    return {
-      wick: [view.pixelX(stand.x, stand.z), view.pixelY(stand.ground + stand.height + 0.1 * stand.unit, stand.z)],
-      match: [view.pixelX(match.x, match.z), view.pixelY(match.y, match.z)],
-    };
+    return { wick: [view.pixelX(stand.x, stand.z), view.pixelY(wickY(stand), stand.z)], match: [view.pixelX(match.x, match.z), view.pixelY(match.y, match.z)] };
   }
 
-  /** Whether there is smoke in the air. */
   get smoking(): boolean {
     return this.candles.some((candle) => candle.smoking > 0);
   }
@@ -287,7 +279,7 @@ export class CandleScene implements Scene {
     const busy = this.match.held || this.dragged !== null || this.orbit.turning || candle.sheltered > 0;
     const near = this.view.scale * this.view.nearness(stand.z) * stand.unit;
     const flameX = this.view.pixelX(stand.x, stand.z);
-    const flameY = this.view.pixelY(candle.foot + 0.4 * stand.unit, stand.z);
+    const flameY = this.view.pixelY(flameFoot(stand) + 0.4 * stand.unit, stand.z);
     candle.stroke.update(acting, busy, flameX, flameY, near);
     const right = felt.right + candle.stroke.wind.right + candle.motionWind(acting.seconds);
     const away = felt.away + candle.stroke.wind.away;
@@ -299,7 +291,7 @@ export class CandleScene implements Scene {
   private showCandle(candle: Candle): void {
     const state = this.stateOf(candle);
     const sinceOut = state.lit ? Infinity : Number(state.sinceOut) / NANOSECONDS;
-    const own = this.outlineOf(candle.id, candle.stand.z, candle.foot);
+    const own = this.outlineOf(candle.id, candle.stand.z, flameFoot(candle.stand));
     candle.tipAway = this.orbit.tipAway;
     candle.nearer = -this.orbit.middleAway;
     const outline = candle.lent === null || this.lender === null ? own : this.lender.lend(candle.lent, own, state);
@@ -310,7 +302,7 @@ export class CandleScene implements Scene {
     const { match } = this;
     if (match.wanted && match.id === null) {
       match.id = this.bank.spawn(BigInt(1000));
-      match.catchFire();
+      match.flare = 1;
       if (this.model.facts.blowOut !== null) {
         this.bank.extinguish(match.id);
         this.bank.relight(match.id);
@@ -329,16 +321,10 @@ export class CandleScene implements Scene {
       const [x, y] = this.wickOf(candle);
       if (Math.hypot(x - match.x, y - match.y) < 0.42 * Math.max(0.5, candle.stand.unit)) {
         this.relight(candle);
-        this.sendOn();
+        // By itself it goes on to the next wick.
+        if (!match.held) this.act();
       }
     }
-  }
-
-  /** Sends the match, moving by itself, to the next extinguished wick. */
-  private sendOn(): void {
-    if (this.match.held) return;
-    const next = this.candles.find((candle) => !candle.lit && !this.stateOf(candle).lit);
-    if (next !== undefined) this.match.send(...this.wickOf(next));
   }
 
   private showMatch(seconds: number): void {
@@ -365,9 +351,7 @@ export class CandleScene implements Scene {
   private wickOf(candle: Candle): [number, number] {
     const { view, match } = this;
     const { stand } = candle;
-    const x = view.pixelX(stand.x + 0.02, stand.z);
-    const y = view.pixelY(stand.ground + stand.height + 0.1 * stand.unit, stand.z);
-    return [view.roomX(x, match.z), view.roomY(y, match.z) - 0.12];
+    return [view.roomX(view.pixelX(stand.x + 0.02, stand.z), match.z), view.roomY(view.pixelY(wickY(stand), stand.z), match.z) - 0.12];
   }
 
   private overMatch(x: number, y: number): boolean {
@@ -399,7 +383,7 @@ export class CandleScene implements Scene {
       const { stand } = candle;
       const near = this.view.scale * this.view.nearness(stand.z);
       const dx = (x - this.view.pixelX(stand.x, stand.z)) / near;
-      const dy = (y - this.view.pixelY(candle.foot, stand.z)) / near;
+      const dy = (y - this.view.pixelY(flameFoot(stand), stand.z)) / near;
       const far = Math.hypot(dx, dy > 0 ? dy : 0.35 * dy);
       if (far < least) [least, best] = [far, candle];
     }

@@ -4,7 +4,7 @@
 const LINE = 128;
 
 /** Breaks text between words into lines of about equal length, near `about` characters. */
-export function brokenLines(text: string, about: number): string[] {
+function brokenLines(text: string, about: number): string[] {
   const lines: string[] = [''];
   const most = text.length / Math.ceil(text.length / about) + 3;
   for (const word of text.trim().split(/\s+/)) {
@@ -48,8 +48,7 @@ export class Words {
     for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
     gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    this.shape = canvas.width / canvas.height;
-    return this.shape;
+    return (this.shape = canvas.width / canvas.height);
   }
 
   dispose(): void {

@@ -3,6 +3,7 @@
 
 import type { Bank, Instance } from '../index.js';
 import type { LeafCamera } from './camera.js';
+import { MAX_LEAVES } from './limits.js';
 
 /** Range of depths and maximum height of leaves, metres. */
 const NEAREST = -1.35;
@@ -27,6 +28,8 @@ const LIFTING = 0.9;
 const LIFT_SECONDS = 0.45;
 /** Squared reach of the pointer's gust, metres². */
 const REACH2 = 1.4;
+/** Orientation where a model has none. */
+const LEVEL = [1, 0, 0, 0] as const;
 /** Numbers per instance on the graphics card: x, y, z, opacity; quaternion w, x, y, z. */
 export const LEAF_NUMBERS = 8;
 
@@ -48,21 +51,21 @@ export interface Gust {
 }
 
 export class LeafFall {
-  readonly shown: Float32Array;
+  readonly shown = new Float32Array(LEAF_NUMBERS * MAX_LEAVES);
   count = 0;
   /** number of leaves on the ground */
   lying = 0;
   private readonly ids: Instance[] = [];
-  private readonly offsetX: Float32Array;
-  private readonly offsetY: Float32Array;
-  private readonly rested: Float32Array;
-  private readonly rests: Float32Array;
-  private readonly lift: Float32Array;
-  private readonly seen: Float32Array;
+  private readonly offsetX = new Float32Array(MAX_LEAVES);
+  private readonly offsetY = new Float32Array(MAX_LEAVES);
+  private readonly rested = new Float32Array(MAX_LEAVES);
+  private readonly rests = new Float32Array(MAX_LEAVES);
+  private readonly lift = new Float32Array(MAX_LEAVES);
+  private readonly seen = new Float32Array(MAX_LEAVES);
   /** number of leaves in each ground cell; cell and layer of each lying leaf, −1 and 0 for others */
   private readonly heights = new Uint8Array(2 * HALF_COLUMNS * Math.ceil((FARTHEST - NEAREST) / CELL));
-  private readonly cells: Int32Array;
-  private readonly layers: Float32Array;
+  private readonly cells = new Int32Array(MAX_LEAVES).fill(-1);
+  private readonly layers = new Float32Array(MAX_LEAVES);
   private readonly wide: boolean;
   private random: number;
   private clock = 0;
@@ -70,21 +73,12 @@ export class LeafFall {
   /** speed of the gust's own air */
   private stroke = 0;
 
+  /** `bank`: empty, with room for MAX_LEAVES. */
   constructor(
     private readonly bank: Bank,
     private readonly camera: LeafCamera,
     seed: number,
   ) {
-    const most = bank.capacity;
-    this.shown = new Float32Array(LEAF_NUMBERS * most);
-    this.offsetX = new Float32Array(most);
-    this.offsetY = new Float32Array(most);
-    this.rested = new Float32Array(most);
-    this.rests = new Float32Array(most);
-    this.lift = new Float32Array(most);
-    this.seen = new Float32Array(most);
-    this.cells = new Int32Array(most).fill(-1);
-    this.layers = new Float32Array(most);
     this.wide = bank.outputs >= 7;
     this.random = (seed * 2654435761) >>> 0 || 1;
     bank.setGround(0);
@@ -92,7 +86,7 @@ export class LeafFall {
 
   /** Sets the wanted number of leaves; they appear or disappear over the next frames. */
   want(count: number): void {
-    this.wanted = Math.min(count, this.bank.capacity);
+    this.wanted = Math.min(count, MAX_LEAVES);
     while (this.ids.length > this.wanted) {
       this.bank.end(this.ids.pop() as Instance);
       if ((this.cells[this.ids.length] as number) >= 0) this.leaveHeap(this.ids.length);
@@ -106,7 +100,9 @@ export class LeafFall {
     let placings = PLACINGS;
     const began = performance.now();
     while (this.ids.length < this.wanted && (placings > 0 || performance.now() - began < FILLING)) {
-      this.begin();
+      const slot = this.ids.push(this.bank.spawn(this.ids.length)) - 1;
+      this.start(slot, TOP * (0.12 + 0.95 * this.chance()));
+      this.count = this.ids.length;
       placings = Math.max(0, placings - 1);
     }
     this.blow(gust);
@@ -122,13 +118,6 @@ export class LeafFall {
     word ^= word << 5;
     this.random = word >>> 0;
     return this.random / 4294967296;
-  }
-
-  private begin(): void {
-    const slot = this.ids.length;
-    this.ids.push(this.bank.spawn(slot));
-    this.start(slot, TOP * (0.12 + 0.95 * this.chance()));
-    this.count = this.ids.length;
   }
 
   /** Starts a leaf at a height, at a random place. */
@@ -205,22 +194,13 @@ export class LeafFall {
       shown[to] = x;
       shown[to + 1] = y;
       shown[to + 2] = z;
-      if (this.wide) {
-        shown[to + 4] = outputs[from + 3] as number;
-        shown[to + 5] = outputs[from + 4] as number;
-        shown[to + 6] = outputs[from + 5] as number;
-        shown[to + 7] = outputs[from + 6] as number;
-      } else {
-        shown[to + 4] = 1;
-      }
+      for (let k = 0; k < 4; ++k) shown[to + 4 + k] = this.wide ? (outputs[from + 3 + k] as number) : LEVEL[k]!;
       this.lift[slot] = Math.max(0, (this.lift[slot] as number) - seconds);
       const tired = this.rest(slot, x, y, z, seconds);
       shown[to + 2] = z + LAYER * (this.layers[slot] as number);
       if (tired && placings > again.length && seen[slot] === 0) again.push(slot);
       if (z < LYING && again.length + kicked.length < placings && this.lifts(x, y, gust)) kicked.push(slot);
-      const goal = tired ? 0 : 1;
-      const step = seconds / FADES;
-      seen[slot] = Math.max(0, Math.min(1, (seen[slot] as number) + (goal > 0 ? step : -step)));
+      seen[slot] = Math.max(0, Math.min(1, (seen[slot] as number) + (tired ? -seconds : seconds) / FADES));
       shown[to + 3] = seen[slot] as number;
     }
     for (const slot of again) this.start(slot, TOP * (0.8 + 0.3 * this.chance()));
@@ -269,15 +249,12 @@ export class LeafFall {
     return wind > LIFTING && wind > LIFTING * (1 + 2 * this.chance());
   }
 
-  /** Throws a lying leaf upwards. */
   private kick(slot: number, gust: Gust): void {
     const outputs = this.bank.instanceOutputs(this.ids[slot] as Instance);
     const spread = (): number => this.chance() - 0.5;
     this.bank.place(this.ids[slot] as Instance, {
       position: [outputs[0] as number, outputs[1] as number, LYING + 0.02],
-      orientation: this.wide
-        ? [outputs[3] as number, outputs[4] as number, outputs[5] as number, outputs[6] as number]
-        : [1, 0, 0, 0],
+      orientation: this.wide ? ([...outputs.subarray(3, 7)] as [number, number, number, number]) : LEVEL,
       velocity: [0.5 * gust.everywhere + 0.3 * gust.speedX + spread(), spread(), 1.6 + 1.4 * this.chance()],
       spin: [8 * spread(), 8 * spread(), 6 * spread()],
     });
@@ -300,7 +277,6 @@ function nearness(far2: number): number {
   return share * share * share;
 }
 
-/** Wraps a value into a range. */
 function wrapped(value: number, low: number, high: number): number {
   const range = high - low;
   return value - range * Math.floor((value - low) / range);

@@ -5,14 +5,11 @@
 /** Position of the stalk's end along the midrib. */
 const STALK = -0.28;
 
-export interface LeafMesh {
-  /** per vertex x, y, z, then the position across (−1 … 1) and along the midrib (below 0: the stalk; 1: the tip) */
-  vertices: Float32Array;
-  indices: Uint16Array;
-}
-
-/** A mesh of `rows` along and `columns` across. */
-export function leafMesh(rows: number, columns: number): LeafMesh {
+/**
+ * A mesh of `rows` along and `columns` across. Per vertex x, y, z, then the position across (−1 … 1) and along the
+ * midrib (below 0: the stalk; 1: the tip).
+ */
+export function leafMesh(rows: number, columns: number): { vertices: Float32Array; indices: Uint16Array } {
   const vertices: number[] = [];
   const indices: number[] = [];
   for (let row = 0; row <= rows; ++row) {

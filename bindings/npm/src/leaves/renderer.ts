@@ -3,7 +3,7 @@
 
 import { drawToCanvas, Program, Quad, SQUARE, Target, verticesOf, type Vertices } from '../stage/gl.js';
 import noise from '../candle/shaders/noise.glsl.js';
-import fullVertex from '../candle/shaders/full.vert.js';
+import wholeVertex from '../candle/shaders/whole.vert.js';
 import type { LeafCamera } from './camera.js';
 import { LEAF_NUMBERS } from './fall.js';
 import { leafMesh } from './mesh.js';
@@ -40,12 +40,12 @@ export class LeafRenderer {
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.quad = new Quad(gl);
-    this.picture = new Target(gl, { range: false, depth: true, samples: 4 });
+    this.picture = new Target(gl, { range: false, samples: 4 });
     this.programs = {
-      sky: new Program(gl, fullVertex, noise + skyFragment),
+      sky: new Program(gl, wholeVertex, noise + skyFragment),
       leaf: new Program(gl, leafVertex, noise + species + leafFragment),
       shadow: new Program(gl, shadowVertex, shadowFragment),
-      finish: new Program(gl, fullVertex, noise + finishFragment),
+      finish: new Program(gl, wholeVertex, noise + finishFragment),
     };
     this.instances = gl.createBuffer() as WebGLBuffer;
     this.leaves = MESHES.map(([most, rows, columns]) => {
@@ -90,9 +90,7 @@ export class LeafRenderer {
   }
 
   dispose(): void {
-    this.quad.dispose();
-    this.picture.dispose();
-    for (const program of Object.values(this.programs)) program.dispose();
+    for (const one of [this.quad, this.picture, ...Object.values(this.programs)]) one.dispose();
     for (const shape of [this.shadow, ...this.leaves.map(({ shape: leaf }) => leaf)]) {
       this.gl.deleteVertexArray(shape.array);
       this.gl.deleteBuffer(shape.buffer);

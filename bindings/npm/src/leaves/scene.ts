@@ -41,14 +41,13 @@ export class LeavesScene implements Scene {
 
   update(acting: Acting): void {
     const { pointer, seconds } = acting;
-    const { gust } = this;
+    const { gust, camera } = this;
     this.clock += seconds;
     gust.everywhere = BREATH * acting.breath;
-    const metre = (2 * this.camera.half[1] * (STIRRED_DEPTH - this.camera.eye[1])) / Math.max(1, this.camera.height);
-    [gust.x, gust.z] = this.camera.at(pointer.x, pointer.y, STIRRED_DEPTH);
-    const limited = (speed: number): number => Math.max(-STRONGEST, Math.min(STRONGEST, speed));
-    gust.speedX = pointer.present ? limited(CARRIED * metre * pointer.speedX) : 0;
-    gust.speedZ = pointer.present ? limited(CARRIED * metre * pointer.speedY) : 0;
+    const metre = (2 * camera.half[1] * (STIRRED_DEPTH - camera.eye[1])) / Math.max(1, camera.height);
+    [gust.x, gust.z] = camera.at(pointer.x, pointer.y, STIRRED_DEPTH);
+    const wind = (speed: number): number => (pointer.present ? Math.max(-STRONGEST, Math.min(STRONGEST, CARRIED * metre * speed)) : 0);
+    [gust.speedX, gust.speedZ] = [wind(pointer.speedX), wind(pointer.speedY)];
     this.kickLeft = Math.max(0, this.kickLeft - seconds);
     gust.kick = this.kickLeft / KICKS;
     this.fall.update(seconds, gust);
@@ -76,16 +75,12 @@ export class LeavesScene implements Scene {
     if (!tap) return;
     // Position on the ground, also below a tap in the air.
     const [near] = this.camera.at(x, y, STIRRED_DEPTH);
-    this.gust.kickX = near;
-    this.gust.kickY = this.groundDepth(y);
-    this.gust.kickReach = 0.9;
+    Object.assign(this.gust, { kickX: near, kickY: this.groundDepth(y), kickReach: 0.9 });
     this.kickLeft = KICKS;
   }
 
   act(): void {
-    this.gust.kickX = 0;
-    this.gust.kickY = 0.6;
-    this.gust.kickReach = 2.4;
+    Object.assign(this.gust, { kickX: 0, kickY: 0.6, kickReach: 2.4 });
     this.kickLeft = 2 * KICKS;
   }
 
@@ -95,8 +90,7 @@ export class LeavesScene implements Scene {
   }
 
   leaves(): { count: number; lying: number } {
-    const { count, lying } = this.fall;
-    return { count, lying };
+    return { count: this.fall.count, lying: this.fall.lying };
   }
 
   describe(): string {

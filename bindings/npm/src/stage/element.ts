@@ -35,10 +35,7 @@ export function define(name: string, element: typeof SceneElement & (new () => S
 let wisp: Promise<Library> | null = null;
 
 /** The library, loaded once for all elements of a page. */
-export function shared(): Promise<Library> {
-  wisp ??= loadLibrary();
-  return wisp;
-}
+const shared = (): Promise<Library> => (wisp ??= loadLibrary());
 
 /** Attributes of an element's tag in JSX. */
 export interface SceneAttributes {
@@ -104,23 +101,19 @@ export abstract class SceneElement extends Base {
   protected watch?(): void;
 
   connectedCallback(): void {
-    this.stage ??= new Stage(
-      this.canvas,
-      {
-        breath: (seconds) => this.breath(seconds),
-        air: () => (this.getAttribute('wind') === 'none' ? { right: 0, away: 0 } : this.wind.air),
-        touched: () => undefined,
-        context: (state) => this.say(state === 'absent' ? 'This browser shows no WebGL 2.' : ''),
-        framed: () => this.scene !== null && this.watch?.(),
-      },
-      { clear: this.hasAttribute('clear') },
-    );
+    this.stage ??= new Stage(this.canvas, {
+      breath: (seconds) => (this.getAttribute('wind') === 'none' ? 0 : this.wind.update(seconds, this.stage?.frames ?? 0)),
+      air: () => (this.getAttribute('wind') === 'none' ? { right: 0, away: 0 } : this.wind.air),
+      touched: () => undefined,
+      context: (state) => this.say(state === 'absent' ? 'This browser shows no WebGL 2.' : ''),
+      framed: () => this.scene !== null && this.watch?.(),
+    }, this.hasAttribute('clear'));
     this.stage.take();
-    this.stage.start();
+    this.stage.loop.start();
     // Scenes out of view are not drawn.
     this.seen = new IntersectionObserver(([entry]) => {
-      if (entry?.isIntersecting === true) this.stage?.start();
-      else this.stage?.stop();
+      if (entry?.isIntersecting === true) this.stage?.loop.start();
+      else this.stage?.loop.stop();
     });
     this.seen.observe(this);
     this.showWind();
@@ -129,7 +122,7 @@ export abstract class SceneElement extends Base {
 
   disconnectedCallback(): void {
     this.seen?.disconnect();
-    this.stage?.stop();
+    this.stage?.loop.stop();
     this.closeMicrophone();
     // Browsers allow about sixteen contexts. An element that only moves within the page is connected again by then.
     setTimeout(() => {
@@ -194,10 +187,6 @@ export abstract class SceneElement extends Base {
     this.words.hidden = words === '';
   }
 
-  private breath(seconds: number): number {
-    return this.getAttribute('wind') === 'none' ? 0 : this.wind.update(seconds, this.stage?.frames ?? 0);
-  }
-
   private showWind(): void {
     const wind = this.getAttribute('wind') ?? 'pointer';
     if (this.stage !== null) {
@@ -224,7 +213,7 @@ export abstract class SceneElement extends Base {
     try {
       // Loaded only when the user wants to blow.
       const [library, { openMicrophone }] = await Promise.all([shared(), import('../microphone.js')]);
-      const microphone = await openMicrophone(library, {
+      const opened = await openMicrophone(library, {
         onWind: ({ wind }) => this.wind.hear(wind, this.stage?.frames ?? 0),
         onAsleep: (asleep) => {
           this.wind.deafen();
@@ -235,11 +224,8 @@ export abstract class SceneElement extends Base {
           this.say(error.message);
         },
       });
-      if (asked !== this.asked || !this.isConnected) {
-        microphone.stop();
-        return;
-      }
-      this.microphone = microphone;
+      if (asked !== this.asked || !this.isConnected) return opened.stop();
+      this.microphone = opened;
       this.showButton('Listening');
     } catch (error) {
       this.say(error instanceof Error ? error.message : String(error));
@@ -258,11 +244,11 @@ export abstract class SceneElement extends Base {
     this.canvas.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.key === 'Enter') this.act();
-      else if (KeyBreath.blows(event.code)) this.wind.keys.press(event.code);
+      else if (KeyBreath.blows(event.code)) this.wind.keys.held.add(event.code);
       else return;
       event.preventDefault();
     });
-    this.canvas.addEventListener('keyup', (event) => this.wind.keys.release(event.code));
-    this.canvas.addEventListener('blur', () => this.wind.keys.releaseAll());
+    this.canvas.addEventListener('keyup', (event) => this.wind.keys.held.delete(event.code));
+    this.canvas.addEventListener('blur', () => this.wind.keys.held.clear());
   }
 }

@@ -12,7 +12,6 @@ export class FrameLoop {
     this.running ||= requestAnimationFrame((now) => this.next(now));
   }
 
-  /** Stops the loop until start(). */
   stop(): void {
     cancelAnimationFrame(this.running);
     this.running = 0;

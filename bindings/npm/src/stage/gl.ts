@@ -147,38 +147,32 @@ export class Quad {
 export class Target {
   readonly texture: WebGLTexture;
   private readonly frame: WebGLFramebuffer;
-  private depth: WebGLRenderbuffer | null = null;
-  /** multisampled buffer, before resolving */
-  private sampled: { frame: WebGLFramebuffer; colour: WebGLRenderbuffer } | null = null;
+  /** multisampled buffers of colour and depth, before resolving */
+  private sampled: Record<'frame' | 'colour' | 'depth', WebGLFramebuffer | WebGLRenderbuffer> | null = null;
   width = 0;
   height = 0;
 
-  /** `range`: HDR, where the machine supports it. */
+  /** `range`: HDR, where the machine supports it; `samples`: number per pixel, with a depth buffer. */
   constructor(
     private readonly gl: WebGL2RenderingContext,
-    private readonly options: { range: boolean; depth?: boolean; samples?: number },
+    private readonly options: { range: boolean; samples?: number },
   ) {
     this.texture = gl.createTexture() as WebGLTexture;
     this.frame = gl.createFramebuffer() as WebGLFramebuffer;
   }
 
-  /** Resizes the target. Returns whether the size changed. */
-  resize(width: number, height: number): boolean {
-    if (this.width === width && this.height === height) return false;
+  resize(width: number, height: number): void {
+    if (this.width === width && this.height === height) return;
     const { gl } = this;
-    this.width = width;
-    this.height = height;
-    const range = this.options.range && hasRange(gl);
+    [this.width, this.height] = [width, height];
+    const [inside, kind] = this.options.range && hasRange(gl) ? [gl.RGBA16F, gl.HALF_FLOAT] : [gl.RGBA8, gl.UNSIGNED_BYTE];
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
-    if (range) gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16F, width, height, 0, gl.RGBA, gl.HALF_FLOAT, null);
-    else gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, width, height, 0, gl.RGBA, gl.UNSIGNED_BYTE, null);
+    gl.texImage2D(gl.TEXTURE_2D, 0, inside, width, height, 0, gl.RGBA, kind, null);
     for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.texture, 0);
-    if ((this.options.samples ?? 0) > 1) this.resizeSamples();
-    if (this.options.depth) this.resizeDepth();
-    return true;
+    if (this.options.samples !== undefined) this.resizeSamples(this.options.samples);
   }
 
   /** Directs drawing to this target. */
@@ -204,27 +198,19 @@ export class Target {
   dispose(): void {
     this.gl.deleteFramebuffer(this.frame);
     this.gl.deleteTexture(this.texture);
-    this.gl.deleteRenderbuffer(this.depth);
     this.gl.deleteFramebuffer(this.sampled?.frame ?? null);
-    this.gl.deleteRenderbuffer(this.sampled?.colour ?? null);
+    for (const buffer of ['colour', 'depth'] as const) this.gl.deleteRenderbuffer(this.sampled?.[buffer] ?? null);
   }
 
-  private resizeSamples(): void {
+  private resizeSamples(samples: number): void {
     const { gl } = this;
-    this.sampled ??= { frame: gl.createFramebuffer() as WebGLFramebuffer, colour: gl.createRenderbuffer() as WebGLRenderbuffer };
-    gl.bindRenderbuffer(gl.RENDERBUFFER, this.sampled.colour);
-    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, this.options.samples ?? 1, gl.RGBA8, this.width, this.height);
+    this.sampled ??= { frame: gl.createFramebuffer(), colour: gl.createRenderbuffer(), depth: gl.createRenderbuffer() };
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.sampled.frame);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, this.sampled.colour);
-  }
-
-  private resizeDepth(): void {
-    const { gl } = this;
-    this.depth ??= gl.createRenderbuffer();
-    gl.bindRenderbuffer(gl.RENDERBUFFER, this.depth);
-    const samples = this.sampled === null ? 0 : (this.options.samples ?? 0);
-    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, gl.DEPTH_COMPONENT24, this.width, this.height);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, this.depth);
+    for (const [buffer, format, place] of [['colour', gl.RGBA8, gl.COLOR_ATTACHMENT0], ['depth', gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]] as const) {
+      gl.bindRenderbuffer(gl.RENDERBUFFER, this.sampled[buffer]);
+      gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, this.width, this.height);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, this.sampled[buffer]);
+    }
   }
 }
 
@@ -233,7 +219,6 @@ export function hasRange(gl: WebGL2RenderingContext): boolean {
   return (gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float')) !== null;
 }
 
-/** Directs drawing to the canvas. */
 export function drawToCanvas(gl: WebGL2RenderingContext): void {
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);

@@ -1,19 +1,11 @@
 // Mouse, finger or pen over the canvas as one pointer with a speed.
 
-import type { Pointer } from './scene.js';
+import type { Pointer, Scene } from './scene.js';
 
 /** Averaging time of the speed, seconds. */
 const MEAN = 0.035;
 /** Maximum distance in CSS pixels between press and release of a tap. */
 const TAP = 8;
-
-export interface PointerEvents {
-  press(x: number, y: number): void;
-  release(x: number, y: number, tap: boolean): void;
-  hover(x: number, y: number): 'none' | 'grab';
-  /** a press occurred, of any button */
-  touched(): void;
-}
 
 export class PointerReader {
   readonly now: Pointer = { x: 0, y: 0, fromX: 0, fromY: 0, speedX: 0, speedY: 0, present: false };
@@ -22,15 +14,17 @@ export class PointerReader {
   private fresh = true;
   private pressed: { id: number; x: number; y: number; tap: boolean } | null = null;
 
+  /** `scene`: receives presses; `touched`: called at a press of any button. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly events: PointerEvents,
+    private readonly scene: () => Scene | null,
+    private readonly touched: () => void,
   ) {
     canvas.addEventListener('pointerdown', (event) => this.press(event));
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.release(event, true));
     canvas.addEventListener('pointercancel', (event) => this.release(event, false));
-    canvas.addEventListener('pointerleave', () => this.leave());
+    canvas.addEventListener('pointerleave', () => this.pressed === null && (this.now.present = false));
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
@@ -58,26 +52,28 @@ export class PointerReader {
   }
 
   private press(event: PointerEvent): void {
-    this.events.touched();
+    this.touched();
     if (this.pressed !== null || event.button !== 0) return;
     this.place(event);
     this.fresh = true;
     this.pressed = { id: event.pointerId, x: event.clientX, y: event.clientY, tap: true };
     // Synthetic events have no pointer to capture.
     if (event.isTrusted) this.canvas.setPointerCapture(event.pointerId);
-    this.events.press(this.now.x, this.now.y);
-    this.canvas.classList.toggle('grabbing', this.events.hover(this.now.x, this.now.y) === 'grab');
+    this.scene()?.press?.(this.now.x, this.now.y);
+    this.point('grabbing');
+  }
+
+  /** Shows by the cursor whether a press here would take hold of something. */
+  private point(shape: 'grab' | 'grabbing'): void {
+    this.canvas.classList.toggle(shape, this.scene()?.hover?.(this.now.x, this.now.y) === 'grab');
   }
 
   private move(event: PointerEvent): void {
     if (this.pressed !== null && event.pointerId !== this.pressed.id) return;
     this.place(event);
     const { pressed } = this;
-    if (pressed === null) {
-      this.canvas.classList.toggle('grab', this.events.hover(this.now.x, this.now.y) === 'grab');
-    } else if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > TAP) {
-      pressed.tap = false;
-    }
+    if (pressed === null) this.point('grab');
+    else if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > TAP) pressed.tap = false;
   }
 
   private release(event: PointerEvent, whole: boolean): void {
@@ -86,12 +82,8 @@ export class PointerReader {
     const { tap } = this.pressed;
     this.pressed = null;
     this.canvas.classList.remove('grabbing');
-    this.events.release(this.now.x, this.now.y, whole && tap);
+    this.scene()?.release?.(this.now.x, this.now.y, whole && tap);
     // A lifted finger has no position.
     if (event.pointerType === 'touch') this.now.present = false;
-  }
-
-  private leave(): void {
-    if (this.pressed === null) this.now.present = false;
   }
 }

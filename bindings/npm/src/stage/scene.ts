@@ -15,10 +15,7 @@ export interface Pointer {
 }
 
 /** Wind along the table relative to the eye: to its right, and away from it. */
-export interface Air {
-  right: number;
-  away: number;
-}
+export type Air = Record<'right' | 'away', number>;
 
 /** Influences on a scene during one frame. */
 export interface Acting {

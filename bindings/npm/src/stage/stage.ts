@@ -22,10 +22,7 @@ const FAR_TOO_SLOW = 1 / 16;
 const FADE_SECONDS = 0.45;
 
 /** Cost of a frame: milliseconds of this thread. */
-export interface FrameCost {
-  update: number;
-  draw: number;
-}
+export type FrameCost = Record<'update' | 'draw', number>;
 
 export interface StageEvents {
   /** signed breath of this frame, from microphone and keys */
@@ -38,18 +35,10 @@ export interface StageEvents {
   framed(cost: FrameCost, seconds: number): unknown;
 }
 
-export interface StageOptions {
-  /** only the burning things, on a transparent canvas */
-  clear?: boolean;
-  /** CSS pixels at the lower edge covered by controls */
-  covered?: number;
-}
-
 export class Stage {
   readonly pointer: PointerReader;
-  readonly clear: boolean;
   /** CSS pixels at the lower edge covered by controls */
-  covered: number;
+  covered = 0;
   frames = 0;
   /** whether the last frame drew a picture */
   shown = false;
@@ -59,14 +48,14 @@ export class Stage {
   /** fixed drawn pixels per screen pixel; 0: as many as stay smooth */
   detail = 0;
   private footer = 0;
-  private gl: WebGL2RenderingContext | null = null;
+  private readonly gl: WebGL2RenderingContext | null;
   private given = false;
   private loser: WEBGL_lose_context | null = null;
   private scene: Scene | null = null;
-  /** whether the moving pointer makes no wind */
+  /** whether the pointer makes no wind */
   still = false;
   private wanted: BlobCallback | null = null;
-  private readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
+  readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
   private fade = 0;
   private adapted = 1;
   private lookedAt = 0;
@@ -76,19 +65,14 @@ export class Stage {
   constructor(
     readonly canvas: HTMLCanvasElement,
     private readonly events: StageEvents,
-    options: StageOptions = {},
+    /** whether only the burning things are drawn, on a transparent canvas */
+    private readonly clear: boolean,
   ) {
-    this.clear = options.clear ?? false;
-    this.covered = options.covered ?? 0;
-    this.pointer = new PointerReader(canvas, {
-      press: (x, y) => this.scene?.press?.(x, y),
-      release: (x, y, tap) => this.scene?.release?.(x, y, tap),
-      hover: (x, y) => this.scene?.hover?.(x, y) ?? 'none',
-      touched: () => events.touched(),
-    });
+    this.pointer = new PointerReader(canvas, () => this.scene, () => events.touched());
     canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
     canvas.addEventListener('webglcontextrestored', () => this.regain());
-    this.open();
+    this.gl = canvas.getContext('webgl2', { alpha: clear, antialias: false, depth: false, powerPreference: 'high-performance' });
+    if (this.gl === null) events.context('absent');
   }
 
   /** Shows a scene; the one before is disposed of. */
@@ -98,16 +82,6 @@ export class Stage {
     this.fade = 0;
     if (this.gl !== null && !this.gl.isContextLost()) scene.attach(this.gl);
     this.canvas.setAttribute('aria-label', scene.describe());
-  }
-
-  /** Starts; may be called twice. */
-  start(): void {
-    this.loop.start();
-  }
-
-  /** Stops until start(). */
-  stop(): void {
-    this.loop.stop();
   }
 
   /** Releases the context, as a browser has few of them; take() gets it back. */
@@ -128,16 +102,6 @@ export class Stage {
     return new Promise((resolve, reject) => {
       this.wanted = (blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob));
     });
-  }
-
-  private open(): void {
-    this.gl = this.canvas.getContext('webgl2', {
-      alpha: this.clear,
-      antialias: false,
-      depth: false,
-      powerPreference: 'high-performance',
-    });
-    if (this.gl === null) this.events.context('absent');
   }
 
   private lose(event: Event): void {

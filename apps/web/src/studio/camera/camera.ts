@@ -68,7 +68,7 @@ async function ask(hears: boolean): Promise<{ stream: MediaStream; silent: strin
   }
 }
 
-export interface CameraEvents {
+interface CameraEvents {
   /** the camera was disconnected */
   lost(): void;
   /** the microphone was disconnected; filming continues without it */

@@ -88,7 +88,6 @@ export class Filming {
     this.timer = window.setInterval(() => this.tick(), LOOK);
   }
 
-  /** Sets the searched region. */
   choose(region: Region | null): void {
     const { region: _, ...rest } = this.settings;
     this.settings = region === null ? rest : { ...rest, region };

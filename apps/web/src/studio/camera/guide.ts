@@ -3,10 +3,10 @@
 import type { Seen } from '@wisp/studio';
 
 /** Actions, in order. */
-export type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
+type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
 
 /** Subject: a flame with or without sound, or falling objects. */
-export type Filmed = 'flame' | 'mute flame' | 'falls';
+type Filmed = 'flame' | 'mute flame' | 'falls';
 
 /** Actions of each subject, with their words and maximum seconds. Without sound, blowing is left out. */
 const PLANS: Readonly<Record<Filmed, readonly (readonly [act: Act, words: string, seconds: number])[]>> = {
@@ -23,13 +23,6 @@ const BREATH = 2;
 
 const BREATHS = ['Blow softly, from the side', 'Softly again', 'A little harder', 'Softly once more'];
 
-export interface Moment {
-  act: Act;
-  words: string;
-  /** share of the whole filming, 0 to 1 */
-  share: number;
-}
-
 export class Guide {
   readonly plan: (typeof PLANS)[Filmed];
   private gone = 0;
@@ -39,8 +32,11 @@ export class Guide {
     this.plan = PLANS[filmed];
   }
 
-  /** Action at a number of seconds after the start. `falls`: number of falls seen so far. */
-  at(seconds: number, state: Seen['state'] | null, falls = 0): Moment {
+  /**
+   * Action at a number of seconds after the start, and share of the whole filming, 0 to 1. `falls`: number of falls seen
+   * so far.
+   */
+  at(seconds: number, state: Seen['state'] | null, falls: number): { act: Act; words: string; share: number } {
     const passed = seconds - this.last;
     this.last = seconds;
     let act: Act = 'still';
@@ -68,8 +64,7 @@ const ENOUGH_FALLS = 12;
 
 function wordsOfFalls(falls: number): string {
   if (falls === 0) return 'Drop it before the wall';
-  const said = falls === 1 ? '1 fall. And again' : `${falls} falls.`;
-  return falls === 1 ? said : `${said} ${falls < ENOUGH_FALLS ? 'And again' : 'Enough, or a few more'}`;
+  return `${falls === 1 ? '1 fall' : `${falls} falls`}. ${falls < ENOUGH_FALLS ? 'And again' : 'Enough, or a few more'}`;
 }
 
 /** Minimum descent as a share of the picture's height, and seconds of absence after it, of a fall. */

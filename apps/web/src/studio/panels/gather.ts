@@ -3,7 +3,7 @@
 import { drawing, element, type Attributes } from '../../panel/element.js';
 import type { Room } from '../room.js';
 import type { Thing } from '../words.js';
-import { button } from './verdict.js';
+import { button, panelOf } from './verdict.js';
 
 const ICONS = {
   camera: 'M4 8h3l2-3h6l2 3h3v11H4zM12 10a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7z',
@@ -44,22 +44,14 @@ export function gatherPanel(room: Room, more: { count: number; thing: Thing; bac
     pictures,
     table,
   );
-  if (more !== null) {
-    return element(
-      'div',
-      { class: 'panel' },
-      element('h2', { tabindex: '-1' }, 'Film more'),
-      element('p', {}, `${more.count === 1 ? 'One film is' : `${more.count} films are`} kept. Another is learned together with ${more.count === 1 ? 'it' : 'them'}${more.thing === 'fall' ? ', if it is of the same thing falling.' : ': soft breaths in one, blowing out in the next.'}`),
-      choices,
-      element('div', { class: 'actions' }, button('Back', 'back', () => more.back())),
-    );
-  }
-  return element(
-    'div',
-    { class: 'panel' },
-    element('h2', { tabindex: '-1' }, 'Film a flame, then blow it out'),
-    element('p', {}, 'Half a minute of a real candle is enough. Its outline is found in every picture, what the wind does to it is learned, and the flame that learned it is yours to blow at.'),
-    choices,
-    element('p', { class: 'quiet' }, 'Or drop any of these here. All of it happens on this device: nothing is sent, and closing the page forgets it.'),
-  );
+  const [title, words, last]: [string, string, HTMLElement] = more === null
+    ? ['Film a flame, then blow it out', BEGIN, element('p', { class: 'quiet' }, 'Or drop any of these here. All of it happens on this device: nothing is sent, and closing the page forgets it.')]
+    : ['Film more', wordsOfMore(more.count, more.thing), element('div', { class: 'actions' }, button('Back', 'back', () => more.back()))];
+  return panelOf(title, element('p', {}, words), choices, last);
 }
+
+const BEGIN =
+  'Half a minute of a real candle is enough. Its outline is found in every picture, what the wind does to it is learned, and the flame that learned it is yours to blow at.';
+
+const wordsOfMore = (count: number, thing: Thing): string =>
+  `${count === 1 ? 'One film is' : `${count} films are`} kept. Another is learned together with ${count === 1 ? 'it' : 'them'}${thing === 'fall' ? ', if it is of the same thing falling.' : ': soft breaths in one, blowing out in the next.'}`;

@@ -1,7 +1,7 @@
 // Rates: of pictures, and of a table's rows.
 
 import { element } from '../../panel/element.js';
-import { button } from './verdict.js';
+import { button, panelOf } from './verdict.js';
 
 /** Usual rate of cameras, Hz. */
 const USUAL = 30;
@@ -38,13 +38,6 @@ export function ratePanel(name: string, pictures: number, go: (rate: number) => 
   };
   rate.addEventListener('input', check);
   check();
-  return element(
-    'div',
-    { class: 'panel' },
-    element('h2', { tabindex: '-1' }, 'How many pictures a second?'),
-    element('p', {}, `${name}: ${pictures.toLocaleString('en')} pictures. They do not say how fast they follow each other.`),
-    label,
-    length,
-    goOrBack(look, back),
-  );
+  const words = element('p', {}, `${name}: ${pictures.toLocaleString('en')} pictures. They do not say how fast they follow each other.`);
+  return panelOf('How many pictures a second?', words, label, length, goOrBack(look, back));
 }

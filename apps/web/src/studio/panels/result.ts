@@ -4,20 +4,11 @@ import type { Learned, Recipe } from '@wisp/studio';
 import { element, type Attributes } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
 import { plotsOf } from '../pictures/curves.js';
+import type { Room } from '../room.js';
 import { outputsOf, thingOf, type Session } from '../session.js';
-import { takingOf, type TakingEvents } from './taking.js';
+import { takingOf } from './taking.js';
 import { button, choice, list, verdictHead } from './verdict.js';
 import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
-
-export interface ResultEvents extends TakingEvents {
-  blow(): void;
-  /** viewing test of filmed against played flames; returns a message about the result */
-  compare(): Promise<string>;
-  more(): void;
-  /** starts over without the gathered sources */
-  anew(): void;
-  again(change: Partial<Recipe>): void;
-}
 
 function meter({ words, share, good, value }: Meter): HTMLElement {
   const bar = element('div', { class: share >= good ? 'bar good' : 'bar', 'aria-hidden': 'true' }, element('i'), element('b'));
@@ -35,12 +26,11 @@ function titleOfMeters(thing: Thing, learned: Learned): string {
   return isHeldOut(learned.report) ? 'On seconds that it had not seen' : 'How well it fits what it was learned from';
 }
 
-/** The panel of a session with its learned model. */
-export function resultPanel(session: Session, learned: Learned, events: ResultEvents): HTMLElement {
+export function resultPanel(session: Session, learned: Learned, room: Room): HTMLElement {
   const { takes, recipe } = session;
   const thing = thingOf(session);
   const flame = thing === 'flame';
-  const { report, curves, text } = learned;
+  const { model, report, curves, text } = learned;
   const { good, title, reason } = verdictOf(learned, thing);
   const meters = metersOf(learned, thing, outputsOf(session));
   const panel = element('div', { class: 'panel result' }, verdictHead(good, title, reason));
@@ -49,9 +39,9 @@ export function resultPanel(session: Session, learned: Learned, events: ResultEv
       element(
         'div',
         { class: 'actions' },
-        button(TO_PLAY[thing][good ? 0 : 1], 'blow', () => events.blow(), good),
-        button('Film more', 'more', () => events.more(), !good),
-        ...(flame ? [telling('Which one was filmed?', 'compare', 'One moment…', () => events.compare())] : []),
+        button(TO_PLAY[thing][good ? 0 : 1], 'blow', () => room.blow(model), good),
+        button('Film more', 'more', () => room.gather(), !good),
+        ...(flame ? [telling('Which one was filmed?', 'compare', 'One moment…', () => room.compare(model))] : []),
       ),
     );
   }
@@ -59,9 +49,9 @@ export function resultPanel(session: Session, learned: Learned, events: ResultEv
   panel.append(
     ...list('Take care', (report.warnings ?? []).map(sentence), 'warnings'),
     ...(flame ? list('To make it better', adviceOf(takes.map(({ captured }) => captured), report), 'advice') : []),
-    takingOf(session, learned, events),
-    moreOf(recipe, text, flame ? plotsOf(curves) : null, events),
-    element('div', { class: 'actions' }, button('Begin anew', 'anew', () => events.anew())),
+    takingOf(session, learned, room),
+    moreOf(recipe, text, flame ? plotsOf(curves) : null, room),
+    element('div', { class: 'actions' }, button('Begin anew', 'anew', () => room.anew())),
   );
   return panel;
 }
@@ -84,11 +74,11 @@ function knobsOf({ kind }: Recipe): typeof FLAME_KNOBS {
 }
 
 /** Controls for learning again, and the report as printed by the program. */
-function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | null, events: ResultEvents): HTMLElement {
+function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | null, room: Room): HTMLElement {
   const details = element('details', { class: 'more' }, element('summary', {}, knobsOf(recipe).length > 0 ? 'More: learn it in another way' : 'More'));
   for (const [words, name, options] of knobsOf(recipe)) {
     const now = options.find(([, change]) => change[name] === recipe[name]) ?? options[0];
-    const again = (change: Partial<Recipe>): void => events.again({ [name]: undefined, ...change } as Partial<Recipe>);
+    const again = (change: Partial<Recipe>): void => room.learnAgain({ [name]: undefined, ...change } as Partial<Recipe>);
     const knob = (option: Option): Attributes => ({ 'aria-pressed': String(option === now), 'data-knob': `${name} ${option[0]}`, click: () => again(option[1]) });
     details.append(choice(words, options.map((option) => [option[0], knob(option)])));
   }

@@ -1,11 +1,12 @@
 // Panel of a table: inputs, outputs, rate, and defects that will harm a model.
 
-import type { Captured, TableSettings } from '@wisp/studio';
+import type { TableSettings } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { goOrBack, rateField } from './rate.js';
+import type { Room } from '../room.js';
 import { rolesOf, type TableHead } from '../table_head.js';
 import { inPage, remarksOf, rowsOf } from '../words.js';
-import { button, choice, list } from './verdict.js';
+import { button, choice, list, panelOf } from './verdict.js';
 
 const ROLES = ['input', 'output', 'ignored'] as const;
 const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as const;
@@ -13,18 +14,11 @@ const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as c
 /** Milliseconds after a choice until the table is examined again. */
 const SETTLED_MS = 200;
 
-export interface TableEvents {
-  /** learns with these settings; without a rate the table has its own */
-  learn(settings: TableSettings): void;
-  advise(settings: TableSettings): Promise<Captured>;
-  back(): void;
-}
-
-export function tablePanel(name: string, head: TableHead, events: TableEvents): HTMLElement {
+export function tablePanel(name: string, bytes: Uint8Array, head: TableHead, room: Room): HTMLElement {
   const roles = rolesOf(head);
   const rows = element('div', { class: 'columns' });
   const { input: rate, label } = rateField('table-rate', 'Rows a second', '');
-  const go = button('Learn it', 'learn', () => events.learn(chosen()), true);
+  const go = button('Learn it', 'learn', () => void room.tabled(name, bytes, chosen()), true);
   const trouble = element('p', { class: 'quiet', role: 'status' });
   const found = element('div', { 'data-advice': true, 'aria-live': 'polite' });
   let [said, looks, waiting] = [false, 0, 0];
@@ -34,7 +28,7 @@ export function tablePanel(name: string, head: TableHead, events: TableEvents): 
   };
   const look = async (): Promise<void> => {
     const turn = ++looks;
-    const advice = await events.advise(chosen()).catch((error: unknown) => inPage(error instanceof Error ? error.message : String(error)));
+    const advice = await room.advise(name, bytes, chosen()).catch((error: unknown) => inPage(error instanceof Error ? error.message : String(error)));
     if (turn !== looks) return;
     if (typeof advice === 'string') return found.replaceChildren(element('p', { class: 'warning' }, advice));
     if (!said) rate.value = String(Number(advice.rate.toPrecision(6)));
@@ -62,15 +56,6 @@ export function tablePanel(name: string, head: TableHead, events: TableEvents): 
     check();
   });
   check();
-  return element(
-    'div',
-    { class: 'panel' },
-    element('h2', { tabindex: '-1' }, 'What goes in, what comes out?'),
-    element('p', {}, `${name}: say what each column is. What comes out is learned from its own past and from what went in.`),
-    rows,
-    label,
-    found,
-    trouble,
-    goOrBack(go, () => events.back()),
-  );
+  const words = element('p', {}, `${name}: say what each column is. What comes out is learned from its own past and from what went in.`);
+  return panelOf('What goes in, what comes out?', words, rows, label, found, trouble, goOrBack(go, () => room.back()));
 }

@@ -5,6 +5,7 @@ import { MAX_PACKED_BYTES, packModel } from '../../model_link.js';
 import { element } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
 import { saveFile } from '../../saving.js';
+import type { Room } from '../room.js';
 import { outputsOf, sessionName, thingOf, type Session } from '../session.js';
 import type { Thing } from '../words.js';
 
@@ -13,26 +14,15 @@ async function copy(text: string): Promise<string> {
   return 'Copied';
 }
 
-/** Formats of moving pictures. */
 export type Moving = 'film' | 'gif';
 
 /** Files for other tools. */
 export type Format = ExportSettings['format'];
 
-export interface TakingEvents {
-  /** saves a film or GIF in which the flame is blown out and lit again; returns a message about the result */
-  film(kind: Moving): Promise<string>;
-  /** learns a model small enough for a link */
-  small(): Promise<Uint8Array>;
-  /** saves a file for other tools; returns a message about the result */
-  make(format: Format): Promise<string>;
-}
-
 /** An identifier valid in C. */
 export const nameInC = (name: string): string => name.normalize('NFKD').replace(/\W+/g, '_').replace(/^(?=\d)|^_+/, 'wisp_');
 
-/** The export buttons. */
-export function takingOf(session: Session, { model }: Learned, events: TakingEvents): HTMLElement {
+export function takingOf(session: Session, { model }: Learned, room: Room): HTMLElement {
   const { takes } = session;
   const name = sessionName(session);
   const thing = thingOf(session);
@@ -44,7 +34,7 @@ export function takingOf(session: Session, { model }: Learned, events: TakingEve
   });
   const whole = model.length <= MAX_PACKED_BYTES;
   const link = telling('A link', 'link', whole ? '' : 'Making it small…', async () => {
-    const sent = whole ? model : await events.small();
+    const sent = whole ? model : await room.small();
     if (sent.length > MAX_PACKED_BYTES) return 'Too large for a link: send the model';
     const address = new URL(location.href);
     address.hash = new URLSearchParams({ scene: 'candle', seed: '1', model: await packModel(sent) }).toString();
@@ -54,8 +44,8 @@ export function takingOf(session: Session, { model }: Learned, events: TakingEve
   const tag = telling('A tag for a page', 'tag', '', () =>
     copy(`<script type="module" src="node_modules/@wisp/player/dist/candle/element.js"></script>\n<wisp-candle src="${name}.wisp" wind="mic"></wisp-candle>`),
   );
-  const moving = (words: string, kind: Moving): HTMLButtonElement => telling(words, kind === 'film' ? 'loop' : kind, 'Recording…', () => events.film(kind));
-  const file = (words: string, format: Format): HTMLButtonElement => telling(words, format, 'Making it…', () => events.make(format));
+  const moving = (words: string, kind: Moving): HTMLButtonElement => telling(words, kind === 'film' ? 'loop' : kind, 'Recording…', () => room.record(model, kind));
+  const file = (words: string, format: Format): HTMLButtonElement => telling(words, format, 'Making it…', () => room.make(format, model));
   const itself: Readonly<Record<Thing, readonly HTMLElement[]>> = { flame: [save, recordings, link, tag], fall: [save, recordings], table: [save, recordings] };
   const elsewhere: Readonly<Record<Thing, readonly HTMLElement[]>> = {
     flame: [moving('A film', 'film'), moving('As a GIF', 'gif'), file('glTF', 'glb'), file('Lottie', 'json')],

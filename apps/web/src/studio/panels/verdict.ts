@@ -5,6 +5,8 @@ import { button as tool, element, type Attributes } from '../../panel/element.js
 export const button = (words: string, name: string, act: () => void, main = false): HTMLButtonElement =>
   tool(words, act, { class: main ? 'tool main' : 'tool', 'data-act': name });
 
+export const panelOf = (title: string, ...parts: HTMLElement[]): HTMLElement => element('div', { class: 'panel' }, element('h2', { tabindex: '-1' }, title), ...parts);
+
 /** A choice among options: one button each, with its attributes. */
 export function choice(words: string, options: readonly (readonly [string, Attributes])[]): HTMLElement {
   const made = options.map(([label, attributes]) => element('button', { type: 'button', ...attributes }, label));

@@ -35,7 +35,6 @@ function plotKey({ id }: Curve): string | null {
   return `${family} ${own}`;
 }
 
-/** Plots of all curves. */
 export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   const groups = new Map<string, Curve[]>();
   for (const curve of curves) {
@@ -53,7 +52,6 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
 /** Name of a curve in the legend. */
 const nameOf = ({ id, label }: Pick<Curve, 'id' | 'label'>): string => (id.startsWith('zeros') ? `zeros, ${label}` : label);
 
-/** Whether a curve is poles or zeros in the z plane. */
 const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
 
 /** Whether a curve is one of many similar ones, which need no names. */
@@ -186,19 +184,18 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readon
   const x = (value: number): number => MARGIN.left + ((value - left) / (right - left)) * (width - MARGIN.left - MARGIN.right);
   const y = (value: number): number => height - MARGIN.bottom - ((value - low) / (high - low)) * (height - MARGIN.top - MARGIN.bottom);
   context.font = '11px ui-sans-serif, system-ui, sans-serif';
+  const write = (align: CanvasTextAlign, words: string, across: number, down: number): void => {
+    Object.assign(context, { textAlign: align, fillStyle: '#b9b3ac' });
+    context.fillText(words, across, down);
+  };
   for (const value of [low, (low + high) / 2, high]) {
     context.fillStyle = 'rgb(255 240 220 / 12%)';
     context.fillRect(MARGIN.left, Math.round(y(value)), width - MARGIN.left - MARGIN.right, 1);
-    context.fillStyle = '#b9b3ac';
-    context.textAlign = 'right';
-    context.fillText(short(value), MARGIN.left - 6, y(value) + 4);
+    write('right', short(value), MARGIN.left - 6, y(value) + 4);
   }
-  context.textAlign = 'left';
-  context.fillText(short(left), MARGIN.left, height - 15);
-  context.textAlign = 'right';
-  context.fillText(short(right), width - MARGIN.right, height - 15);
-  context.textAlign = 'center';
-  context.fillText(curves[0]?.x_label ?? '', (MARGIN.left + width) / 2, height - 3);
+  write('left', short(left), MARGIN.left, height - 15);
+  write('right', short(right), width - MARGIN.right, height - 15);
+  write('center', curves[0]?.x_label ?? '', (MARGIN.left + width) / 2, height - 3);
   context.lineWidth = 1.5;
   context.lineJoin = 'round';
   if (places) {

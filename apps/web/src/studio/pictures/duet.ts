@@ -7,7 +7,7 @@ import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
 import type { Take } from '../session.js';
 import { Play } from '../play.js';
-import { drawKept, fitPart, placed, surfaceOf, trace, type Fit } from './surface.js';
+import { drawKept, fitPart, placed, shaded, stroke, surfaceOf, type Fit } from './surface.js';
 import type { Outlines } from '../outlines.js';
 
 /** Seconds; a longer step counts as a jump. */
@@ -118,12 +118,8 @@ export class Duet {
       if (kept !== null) drawKept(context, kept, fit);
     }
     const line = this.outlines.line(row);
-    if (line === null) return;
     context.lineJoin = 'round';
-    context.strokeStyle = 'rgb(127 227 255 / 75%)';
-    context.lineWidth = 1.5;
-    trace(context, line, fit);
-    context.stroke();
+    if (line !== null) stroke(context, line, fit, 'rgb(127 227 255 / 75%)', 1.5);
   }
 
   private drawFlame(): void {
@@ -149,20 +145,14 @@ export class Duet {
     context.clip();
     drawKept(context, kept, fit);
     // The film's background fades in.
-    const soft = context.createLinearGradient(0, foot, 0, foot + 0.14 * fit.scale * tall);
-    soft.addColorStop(0, '#030304');
-    soft.addColorStop(1, 'rgb(3 3 4 / 0%)');
-    context.fillStyle = soft;
+    context.fillStyle = shaded(context.createLinearGradient(0, foot, 0, foot + 0.14 * fit.scale * tall), [[0, '#030304'], [1, 'rgb(3 3 4 / 0%)']]);
     context.fillRect(0, foot, width, height - foot);
     context.restore();
   }
 }
 
 function drawWick(context: CanvasRenderingContext2D, x: number, y: number, height: number): void {
-  const wick = context.createLinearGradient(0, y - 0.05 * height, 0, y + 0.14 * height);
-  wick.addColorStop(0, '#6b4a36');
-  wick.addColorStop(1, 'rgb(50 40 36 / 0%)');
-  context.strokeStyle = wick;
+  context.strokeStyle = shaded(context.createLinearGradient(0, y - 0.05 * height, 0, y + 0.14 * height), [[0, '#6b4a36'], [1, 'rgb(50 40 36 / 0%)']]);
   context.lineWidth = Math.max(2, 0.03 * height);
   context.lineCap = 'round';
   context.beginPath();

@@ -1,9 +1,18 @@
 // Paints a flame: a body from its outline, a bright core, a blue foot, and a glow.
 
-import { trace, WHOLE } from './surface.js';
+import { shaded, trace, WHOLE, type Stops } from './surface.js';
 
 /** Radius of its glow, in heights. */
 const REACH = 1.5;
+/** Colours of the glow from the middle outwards, and of body and core from foot to top. */
+const GLOW: Stops = [[0, 'rgb(255 150 60 / 34%)'], [0.35, 'rgb(255 120 40 / 12%)'], [1, 'rgb(255 110 30 / 0%)']];
+const BODY: Stops = [[0, 'rgb(70 90 200 / 55%)'], [0.12, 'rgb(255 140 60 / 82%)'], [0.4, '#ffc46a'], [1, '#ff9a3c']];
+const CORE: Stops = [
+  [0, 'rgb(255 190 110 / 0%)'],
+  [0.3, 'rgb(255 232 180 / 34%)'],
+  [0.75, 'rgb(255 250 236 / 42%)'],
+  [1, 'rgb(255 224 160 / 0%)'],
+];
 
 /** Paints a flame with an outline in pixels, x and y alternating, from the base's left over the tip to its right. */
 export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array, height: number): void {
@@ -17,32 +26,18 @@ export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array
   if (!(foot - top > 1)) return;
   context.save();
   context.globalCompositeOperation = 'lighter';
-  const glow = context.createRadialGradient(middle, low, 0, middle, low, REACH * height);
-  glow.addColorStop(0, 'rgb(255 150 60 / 34%)');
-  glow.addColorStop(0.35, 'rgb(255 120 40 / 12%)');
-  glow.addColorStop(1, 'rgb(255 110 30 / 0%)');
-  context.fillStyle = glow;
+  context.fillStyle = shaded(context.createRadialGradient(middle, low, 0, middle, low, REACH * height), GLOW);
   context.fillRect(middle - 2 * height, low - 2 * height, 4 * height, 4 * height);
   context.globalCompositeOperation = 'source-over';
-  const body = context.createLinearGradient(0, foot, 0, top);
-  body.addColorStop(0, 'rgb(70 90 200 / 55%)');
-  body.addColorStop(0.12, 'rgb(255 140 60 / 82%)');
-  body.addColorStop(0.4, '#ffc46a');
-  body.addColorStop(1, '#ff9a3c');
   context.shadowColor = 'rgb(255 150 60 / 90%)';
   context.shadowBlur = 0.14 * height;
-  context.fillStyle = body;
+  context.fillStyle = shaded(context.createLinearGradient(0, foot, 0, top), BODY);
   trace(context, line, WHOLE);
   context.closePath();
   context.fill();
   context.shadowColor = 'rgb(255 240 200 / 60%)';
   context.shadowBlur = 0.05 * height;
-  const core = context.createLinearGradient(0, foot, 0, top);
-  core.addColorStop(0, 'rgb(255 190 110 / 0%)');
-  core.addColorStop(0.3, 'rgb(255 232 180 / 34%)');
-  core.addColorStop(0.75, 'rgb(255 250 236 / 42%)');
-  core.addColorStop(1, 'rgb(255 224 160 / 0%)');
-  context.fillStyle = core;
+  context.fillStyle = shaded(context.createLinearGradient(0, foot, 0, top), CORE);
   for (const inset of [0.1, 0.17, 0.24, 0.31]) paintCore(context, line, foot, top, inset);
   context.restore();
 }

@@ -4,7 +4,7 @@ import type { Bank, Instance, Library } from '@wisp/player';
 import { FrameLoop } from '@wisp/player/parts/stage/frame_loop';
 import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
-import { surfaceOf, trace, WHOLE } from './surface.js';
+import { stroke, surfaceOf, WHOLE } from './surface.js';
 
 const POINTS = 64;
 const NANOSECONDS = 1e9;
@@ -41,24 +41,17 @@ export class Invitation {
     bank.advance(seconds * NANOSECONDS);
     const { context, width, height } = surface;
     const unit = HEIGHT * height;
-    const foot = { x: width / 2, y: 0.5 * height + 0.5 * unit };
-    const placed = (values: Float32Array): Float32Array =>
-      values.map((value, k) => (k % 2 === 0 ? foot.x + unit * value : foot.y - unit * value));
+    const foot = 0.5 * height + 0.5 * unit;
+    const placed = (values: Float32Array): Float32Array => values.map((value, k) => (k % 2 === 0 ? width / 2 + unit * value : foot - unit * value));
     context.globalAlpha = 0.34;
     const line = placed(bank.polyline(this.flame));
     paintFlame(context, line, unit);
     context.globalAlpha = 1;
     const points = placed(bank.instanceOutputs(this.flame));
     context.setLineDash([3, 5]);
-    context.strokeStyle = 'rgb(255 240 220 / 22%)';
-    context.lineWidth = 1;
-    trace(context, points, WHOLE);
-    context.stroke();
+    stroke(context, points, WHOLE, 'rgb(255 240 220 / 22%)', 1);
     context.setLineDash([]);
-    context.strokeStyle = '#7fe3ff';
-    context.lineWidth = 2;
-    trace(context, line, WHOLE);
-    context.stroke();
+    stroke(context, line, WHOLE, '#7fe3ff', 2);
     context.fillStyle = '#f3ece2';
     for (let k = 0; k < points.length; k += 2) {
       context.beginPath();

@@ -8,7 +8,7 @@ import { paintFlame } from './flame_paint.js';
 import type { Outlines } from '../outlines.js';
 import { Play } from '../play.js';
 import type { Take } from '../session.js';
-import { drawKept, fitPart, placed, surfaceOf, trace, type Fit } from './surface.js';
+import { drawKept, fitPart, placed, stroke, surfaceOf, type Fit } from './surface.js';
 
 const PICTURES = 9;
 const FEWER = 6;
@@ -43,7 +43,9 @@ export class Strip {
       play.goTo(row);
       const cell = { x: k * each + 1, width: each - 2, height: height / 2 - 1 };
       this.drawRecorded(context, row, { ...cell, y: 0 });
-      this.drawPlayed(context, play, { ...cell, y: height / 2 + 1 });
+      this.inside(context, { ...cell, y: height / 2 + 1 }, (fit) => {
+        if (play.size > 0) paintFlame(context, placed(play.line(), fit), fit.scale * this.outlines.height);
+      });
     });
     context.fillStyle = '#b9b3ac';
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
@@ -77,17 +79,7 @@ export class Strip {
       const kept = this.take.reel.at(row / this.outlines.rate);
       if (kept !== null) drawKept(context, kept, fit);
       const line = this.outlines.line(row);
-      if (line === null) return;
-      trace(context, line, fit);
-      context.strokeStyle = '#7fe3ff';
-      context.lineWidth = 1.2;
-      context.stroke();
-    });
-  }
-
-  private drawPlayed(context: CanvasRenderingContext2D, play: Play, cell: Region): void {
-    this.inside(context, cell, (fit) => {
-      if (play.size > 0) paintFlame(context, placed(play.line(), fit), fit.scale * this.outlines.height);
+      if (line !== null) stroke(context, line, fit, '#7fe3ff', 1.2);
     });
   }
 }

@@ -60,6 +60,21 @@ export function trace(context: CanvasRenderingContext2D, line: ArrayLike<number>
   for (let k = 0; k + 1 < line.length; k += 2) context.lineTo(x + scale * (line[k] as number), y + scale * (line[k + 1] as number));
 }
 
+/** Strokes a line through points, x and y alternating, placed by a fit. */
+export function stroke(context: CanvasRenderingContext2D, line: ArrayLike<number>, fit: Fit, colour: string, width: number): void {
+  trace(context, line, fit);
+  Object.assign(context, { strokeStyle: colour, lineWidth: width });
+  context.stroke();
+}
+
+/** Colours of a gradient, each at a share of the way. */
+export type Stops = readonly (readonly [share: number, colour: string])[];
+
+export function shaded(gradient: CanvasGradient, stops: Stops): CanvasGradient {
+  for (const [share, colour] of stops) gradient.addColorStop(share, colour);
+  return gradient;
+}
+
 /** Draws a kept picture at its position in the film. */
 export function drawKept(context: CanvasRenderingContext2D, { part, bitmap }: Kept, { scale, x, y }: Fit): void {
   context.drawImage(bitmap, x + scale * part.x, y + scale * part.y, scale * part.width, scale * part.height);

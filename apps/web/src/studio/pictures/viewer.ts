@@ -3,7 +3,7 @@
 import type { Region, Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import type { Kept } from '../reel.js';
-import { atRefresh, contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
+import { atRefresh, contain, drawKept, stroke, surfaceOf, type Fit } from './surface.js';
 
 /** Number of past positions drawn behind a moving object. */
 const TRAIL = 40;
@@ -231,21 +231,14 @@ function inside(box: Region, all: { width: number; height: number }): Region {
 /** Draws the detected outline as a bright line with a dark border, visible on the flame and beside it. */
 function drawOutline(context: CanvasRenderingContext2D, outline: Float32Array, fit: Fit): void {
   context.lineJoin = 'round';
-  trace(context, outline, fit);
-  context.strokeStyle = 'rgb(0 0 0 / 60%)';
-  context.lineWidth = 4.5;
-  context.stroke();
-  context.strokeStyle = '#7fe3ff';
-  context.lineWidth = 2;
-  context.stroke();
+  stroke(context, outline, fit, 'rgb(0 0 0 / 60%)', 4.5);
+  stroke(context, outline, fit, '#7fe3ff', 2);
 }
 
 /** Draws a moving object and its past path. */
 function drawMoving(context: CanvasRenderingContext2D, { x, y, width, height }: Region, trail: readonly number[], fit: Fit): void {
   drawOutline(context, Float32Array.from(trail), fit);
   const air = 4;
-  context.strokeStyle = '#7fe3ff';
-  context.lineWidth = 2;
   context.strokeRect(fit.x + fit.scale * x - air, fit.y + fit.scale * y - air, fit.scale * width + 2 * air, fit.scale * height + 2 * air);
 }
 

@@ -34,7 +34,6 @@ void main() {
   lit += kFire * (0.35 * uLight + 0.3 * uOthers.w) * pow(max(0.0, dot(normal, normalize(lamp + vec3(0, 0, 1)))), 36.0);
   lit += uWax * kMoon * (0.004 + 0.03 * pow(max(0.0, dot(normal, vec3(0.85, 0.35, 0.30))), 2.0));
   vec4 all = vec4(lit, 1) * body;
-  // Its wick.
   float wick = smoothstep(0.016 + uPixel, 0.016 - uPixel, abs(vAt.x - 0.05 * vAt.y)) * step(0.0, vAt.y) * smoothstep(uRadius + 0.12 + uPixel, uRadius + 0.12 - uPixel, vAt.y);
   vec3 char = vec3(0.011, 0.009, 0.008) + vec3(1.6, 0.21, 0.012) * uEmber * smoothstep(0.06, 0.16, vAt.y);
   colour = mix(all, vec4(char, 1), wick);
