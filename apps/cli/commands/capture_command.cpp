@@ -128,7 +128,11 @@ Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) 
   if (auto ok = refuse(arguments, {"region", "frames"}, of_clips(path)); !ok) return ok.error();
   auto recording = read_table(path, arguments, {.outputs = {arguments.text("channel")}});
   if (!recording) return recording;
-  Channel light = std::move(recording->channels[*find_channel(*recording, arguments.text("channel"))]);
+  const auto channel = find_channel(*recording, arguments.text("channel"));
+  if (!channel)
+    return Error{path + ": --channel " + arguments.text("channel") + " has several columns; name one, such as " +
+                 arguments.text("channel") + "1"};
+  Channel light = std::move(recording->channels[*channel]);
   if (const std::size_t count = start_up_samples(light.samples, recording->rate_hz); count > 0) {
     std::fill_n(light.samples.begin(), count, std::nan(""));
     terminal.warn(path + ": left out its first " + std::to_string(count) + " samples, in which the light starts up");

@@ -56,11 +56,14 @@ std::vector<Flag> switched_flags() {
 }
 
 Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
-  const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
-  if (!recordings) return recordings.error();
   FlickerRecipe recipe;
   if (auto ok = read_recipe(arguments, recipe); !ok) return ok;
   recipe.name = model_name(arguments);
+  // A plain table states no roles: --channel names its column of light, and without it every column is an output.
+  CsvOptions plain{.every_column = recipe.output.empty()};
+  if (!recipe.output.empty()) plain.outputs = {recipe.output};
+  const auto recordings = read_tables(arguments.positionals(), arguments, terminal, plain);
+  if (!recordings) return recordings.error();
   const auto fit = learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
   return hand_over(*fit, model_path(arguments), terminal);
