@@ -122,6 +122,7 @@ void add_positionals(Wired& wired) {
     const Positional& positional = wired.command->positionals[k];
     CLI::Option* option = positional.many ? wired.app->add_option(positional.name, wired.positionals)
                                           : wired.app->add_option(positional.name, wired.single[k]);
+    option->check([](const std::string& text) { return text.empty() ? "is empty" : std::string(); });
     if (!positional.optional) option->required();
   }
 }
