@@ -195,14 +195,11 @@ std::string markdown() {
       "# The command line\n\n"
       "This page is printed by `wisp manual`; the program's help and parser are made from the same table. `wisp manual "
       "man` prints a man page; `wisp manual bash`, `zsh` and `fish` print what completes commands and flags in a "
-      "shell, "
-      "to be read at its start: `source <(wisp manual bash)`, `source <(wisp manual zsh)`, `wisp manual fish | "
+      "shell, to be read at its start: `source <(wisp manual bash)`, `source <(wisp manual zsh)`, `wisp manual fish | "
       "source`.\n\n"
       "Exit status: 0 done, 1 the data or a file was bad (one line on standard error says which, where, what was "
-      "found, "
-      "what was expected and what to do), 2 wrong usage. Output files appear whole or not at all. Sample and frame "
-      "ranges "
-      "are 1-based and inclusive; indices in JSON are 0-based.\n\n"
+      "found, what was expected and what to do), 2 wrong usage. Output files appear whole or not at all. Sample and "
+      "frame ranges are 1-based and inclusive; indices in JSON are 0-based.\n\n"
       "Every command also takes:\n\n| flag | default | meaning |\n| --- | --- | --- |\n";
   for (const Flag& flag : common_flags()) text += flag_row(flag);
   text += "| `--help` |  | print this command's help |\n\n";

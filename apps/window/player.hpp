@@ -171,8 +171,8 @@ class Player {
   bool closed() const { return closed_; }
 
   /// Return whether the key for the microphone, or for full screen, was pressed since the last call.
-  bool take_microphone_wish() { return std::exchange(microphone_wish_, false); }
-  bool take_full_screen_wish() { return std::exchange(full_screen_wish_, false); }
+  bool take_microphone_request() { return std::exchange(microphone_request_, false); }
+  bool take_full_screen_request() { return std::exchange(full_screen_request_, false); }
 
   PlayerFigures figures() const {
     PlayerFigures figures = figures_;
@@ -280,10 +280,10 @@ class Player {
         std::visit([](auto& scene) { scene.reset(); }, *scene_);
         break;
       case Key::kM:
-        microphone_wish_ = true;
+        microphone_request_ = true;
         break;
       case Key::kF11:
-        full_screen_wish_ = true;
+        full_screen_request_ = true;
         break;
       case Key::kH:
         help_ = !help_;
@@ -381,7 +381,7 @@ class Player {
   bool left_ = false, right_ = false;
   bool noise_ = true;
   bool help_ = false;
-  bool closed_ = false, microphone_wish_ = false, full_screen_wish_ = false;
+  bool closed_ = false, microphone_request_ = false, full_screen_request_ = false;
   std::string notice_;
   double notice_until_ = 0;
   double seconds_ = 0;

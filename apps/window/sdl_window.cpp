@@ -278,8 +278,8 @@ class Window {
   void take_events() {
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) take(event);
-    if (player_.take_full_screen_wish()) toggle_full_screen();
-    if (!player_.take_microphone_wish() || options_.sound) return;
+    if (player_.take_full_screen_request()) toggle_full_screen();
+    if (!player_.take_microphone_request() || options_.sound) return;
     if (microphone_.is_open()) {
       microphone_.close();
       player_.ear().close(EarState::kOff);

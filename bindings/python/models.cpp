@@ -132,7 +132,7 @@ void export_to(const Model& model, const std::filesystem::path& path, double sec
 }  // namespace
 
 void bind_models(py::module_& module) {
-  py::class_<Model>(module, "Model", "What a thing is like: equal where its file is.")
+  py::class_<Model>(module, "Model", "A model of a thing's behaviour; two models are equal if their files are.")
       .def(py::init(&from_bytes), py::arg("bytes"), "From the bytes of a .wisp file.")
       .def_property_readonly(
           "dynamics",

@@ -223,8 +223,6 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_usable(IntPtr fit);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_fit_reason(IntPtr fit);
 
-        internal static int Version { get { return wisp_version(); } }
-
         internal static byte[] Utf8(string text)
         {
             return Encoding.UTF8.GetBytes(text + "\0");
@@ -679,6 +677,7 @@ namespace Wisp
 
         ~WindLevel() { Native.wisp_wind_free(handle); }
     }
+
     /// <summary>The role of a channel.</summary>
     public enum Role { Input = 0, Output = 1, Motion = 2 }
 

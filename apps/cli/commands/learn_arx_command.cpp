@@ -284,8 +284,7 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
   }
-  if (arguments.on("merge")) return recipe;
-  if (arguments.has("search")) return recipe;
+  if (arguments.on("merge") || arguments.has("search")) return recipe;
   if (auto ok = take_orders(arguments, recipe); !ok) return ok.error();
   if (!recipe.nk && arguments.has("partial")) {
     return Error{
@@ -391,8 +390,7 @@ Command learn_arx_command() {
            "--search na=1:10,nb=1:10,nk=0:3 --by validation --validate 501:1000",
            "The orders that predict unseen rows best"},
           {"wisp learn arx long.csv --partial 2.part --part 2/8 --inputs u --outputs y && wisp learn arx --merge "
-           "*.part "
-           "-o long.wisp",
+           "*.part -o long.wisp",
            "One of eight jobs, each with its share of the rows, and what makes one model of all of them"},
       },
       run_learn_arx,

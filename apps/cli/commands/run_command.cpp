@@ -40,7 +40,7 @@ Result<SteerTarget> target_from(const std::string& text) {
   for (float x : target.position) sound &= std::abs(x) < 1e6F;
   if (!sound) {
     return Error{"--steer: found \"" + text +
-                 "\", expected X,Y,Z@S: three numbers in metres and seconds above 0, such as " + "1,0.5,-6@8"};
+                 "\", expected X,Y,Z@S: three numbers in metres and seconds above 0, such as 1,0.5,-6@8"};
   }
   target.in = std::chrono::nanoseconds(std::llround(seconds * 1e9));
   return target;
@@ -374,13 +374,11 @@ Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& pl
   return {};
 }
 
-Result<void> run_loop(const Arguments& arguments, Terminal& terminal) {
-  const auto model = read_model(arguments.positional());
-  return model ? write_loop(*model, arguments, terminal) : model.error();
-}
-
 Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
-  if (arguments.has("loop")) return run_loop(arguments, terminal);
+  if (arguments.has("loop")) {
+    const auto model = read_model(arguments.positional());
+    return model ? write_loop(*model, arguments, terminal) : model.error();
+  }
   auto play = prepare(arguments);
   if (!play) return play.error();
   if (auto ok = watch_film(arguments, terminal, *play); !ok) return ok;
@@ -421,8 +419,7 @@ std::vector<Flag> all_flags() {
       loop_flag(),
       {"input", Kind::kPath, "REC", "",
        "a recording, heard as validate hears it unless its column has the input's own unit, or a sound file of "
-       "blowing: the "
-       "inputs"},
+       "blowing: the inputs"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns of --input that are the model's inputs, in its order, where they have other names"},
       {"own-gain", Kind::kSwitch, "", "",

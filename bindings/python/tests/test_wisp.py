@@ -328,7 +328,6 @@ class EveryModel(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "frames, points, 2"):
             wisp.film_strip({"played": outlines[0]})
 
-
     def test_an_exported_flame_is_bright_inside_and_orange_outside_however_it_is_composited(self):
         shipped = wisp.read_model(root / "apps/web/public/models/flame.wisp")
         with tempfile.TemporaryDirectory() as folder:
