@@ -100,7 +100,7 @@ void add_flag(Wired& wired, const Flag& flag) {
   if (flag.required && flag.unless.empty()) option->required();
 }
 
-// Checks that flags required unless another one is given are present, and that flags have the other flag they need.
+// Checks flags that are required unless another one is given (Flag::unless), and flags that need another (Flag::with).
 void check_required(const Wired& wired) {
   // CLI11's search for an option is noexcept and allocates: where memory is short it would end the program.
   const auto given = [&](const std::string& other) {

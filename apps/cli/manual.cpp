@@ -124,7 +124,7 @@ std::string man_page() {
   return text;
 }
 
-// Words allowed in first place, or in second place after `first`.
+// First words of all commands; if `first` is not empty, the second words of the commands that begin with it.
 std::vector<std::string> next_words(const std::string& first) {
   std::vector<std::string> words;
   for (const Command& command : commands()) {

@@ -47,7 +47,7 @@ inline constexpr int kLeaves = 60;
 inline constexpr double kNoticeSeconds = 6;
 inline constexpr std::size_t kNoticeBytes = 76;  // bytes per line
 
-// Strength of the space bar's puff for a model without a rule of extinction.
+// Strength of the space bar's puff in scenes without candles.
 inline constexpr float kPuff = 2;
 
 inline Point pixel_of(Point share, const Image& image) {
@@ -79,7 +79,7 @@ inline bool is_body(const Model& model) {
 
 class Player {
  public:
-  /// Errors: a model cannot be read; the first has no view for the requested scene.
+  /// Errors: the first model cannot be read, or its view does not fit the requested scene.
   static Result<Player> create(const PlayerOptions& options) {
     Player player(options);
     player.resize(options.width, options.height);

@@ -134,7 +134,7 @@ struct Destroy {
   void operator()(SDL_Texture* texture) const { SDL_DestroyTexture(texture); }
 };
 
-// Shuts SDL down after the members that use it.
+// Shuts SDL down. Declared before the members that use SDL, so that it is destroyed after them.
 struct Session {
   Session() { SDL_SetMainReady(); }
   ~Session() { SDL_Quit(); }

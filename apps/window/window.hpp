@@ -27,7 +27,7 @@ struct PlayOptions {
   std::optional<std::filesystem::path> pictures{};  ///< folder for pictures
   int frames = 0;          ///< without a display: number of frames of 1/60 s; in a window 0: until it is closed
   bool microphone = true;  ///< open it at the window's start
-  const volatile int* interrupted = nullptr;  ///< not 0: end after the current frame
+  const volatile int* interrupted = nullptr;  ///< points to a number; not 0: end after the current frame
 };
 
 struct PlayReport {

@@ -18,7 +18,8 @@
 namespace wisp::cli {
 namespace {
 
-// Whether --output is a folder: with several clips, if it ends in a slash or exists (a wildcard may match one clip).
+// Whether --output is a folder: there are several clips, or its name ends in a slash, or the folder exists. A wildcard
+// may match a single clip.
 bool goes_to_folder(const Arguments& arguments) {
   std::error_code none;
   const std::filesystem::path output(arguments.text("output"));

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A step's report as part of the summary, with its name as prefix.
+// A step's report as part of the summary: the step's name prefixes the ids of its figures and tables.
 Report part_of_whole(const std::string& name, const std::string& line, Report step) {
   step.add("").entries = {{"command", "wisp " + line, "", ""},
                           {"warnings", ReportList(step.warnings.begin(), step.warnings.end()), "", ""}};
@@ -57,7 +57,7 @@ std::string quoted(const std::string& name) {
 
 // A command with its arguments and flags; other flags have their defaults.
 struct Step {
-  std::string name;  // name of its figures in the summary
+  std::string name;  // prefix of its figures in the summary
   Command command;
   std::vector<std::string> files;
   std::vector<std::pair<std::string, std::string>> flags;

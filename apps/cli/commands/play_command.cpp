@@ -26,7 +26,7 @@ using window::PlayOptions;
 using window::PlayReport;
 using window::SceneKind;
 
-// File of the first flame: the one with the default recipe, as on the page.
+// Model that is listed first: a flame learned with the default recipe, as on the page.
 constexpr const char* kFirst = "flame.wisp";
 
 // Rank in the list: the first flame, falling bodies, other outlines, then plain models.

@@ -27,7 +27,7 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kReach = 4;  // standard deviations of free walks beyond which steering finds no successors
+constexpr double kReach = 4;  // maximum reach of steering, in standard deviations of unsteered walks
 
 // Parses a target: X,Y,Z@S.
 Result<SteerTarget> target_from(const std::string& text) {
@@ -93,7 +93,7 @@ struct Play {
   double orbit = 0;                   // seconds per revolution of the camera; 0: fixed
   double toward = 0;                  // wind direction, degrees
   std::vector<std::size_t> relit;     // frames before which all extinguished instances are lit again, ascending
-  std::optional<FilmedFlame> film{};  // the film whose candle it is drawn on
+  std::optional<FilmedFlame> film{};  // film on whose candle the flame is drawn
 };
 
 // Plays a bank frame by frame.
@@ -303,7 +303,8 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// Applies --camera, --orbit, --wind-direction: converts the model to a body. Errors: it cannot be one; bad --camera.
+// Applies --camera, --orbit and --wind-direction: converts the model to a body. Errors: it cannot be one; a bad
+// --camera or --orbit; --wind-direction alone.
 Result<void> go_round(const Arguments& arguments, Play& play) {
   if (arguments.number("orbit") < 0)
     return Error{"--orbit: found " + arguments.text("orbit") + ", expected seconds above 0"};

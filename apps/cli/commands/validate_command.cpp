@@ -73,7 +73,7 @@ constexpr Colour kModeColours[] = {{31, 119, 180}, {214, 96, 20},  {44, 140, 44}
 constexpr Colour kStill{40, 60, 110};
 constexpr Colour kBlown{30, 140, 60};
 
-// Sets the style of a series by the last word of its id.
+// Sets the style of a series by the part of its id after the panel's name.
 void style(std::string_view what, PlotSeries& series) {
   if (what == "events") {
     series.shape = SeriesShape::kPoints;
@@ -179,7 +179,7 @@ Result<void> check_chain_flags(const Arguments& arguments) {
   return arguments.has("film") ? check_film_name(arguments.text("film")) : Result<void>();
 }
 
-// Reads the recording and, for a pair, its calm twin: the second argument, or REC.calm.csv beside REC.csv.
+// Reads the recording and, for a pair, its calm twin: the third argument, or REC.calm.csv beside REC.csv.
 Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
   auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));

@@ -76,8 +76,8 @@ class Depths {
 // Position of a pixel relative to an outline; depths in mean flame heights, positive inside.
 struct FlamePlace {
   float height = 0;        // 0 at the base, 1 at the outline's top
-  float depth = 0;         // by the nearest point of the outline
-  float colour_depth = 0;  // depth; above the outline's top sideways alone, since what leaves a tip stays narrow
+  float depth = 0;         // distance to the nearest point of the outline
+  float colour_depth = 0;  // the same; above the top its horizontal part, as the glow above a tip stays narrow
 };
 
 // Positions of the pixels of one row.
@@ -186,7 +186,7 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
       const FlamePlace place = places.at(x);
       add(still_[pixel], row[x]);
       squares_[pixel] += square(light_of(row[x]));
-      // Weighted by the distance to the flame, with a minimum for pixels that the flame never left.
+      // Weighted by the distance to the flame, with a minimum for pixels that are near it in every frame.
       if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
       if (place.height <= 0 || (place.depth <= kOutside && place.colour_depth > kOutside)) continue;
       const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));

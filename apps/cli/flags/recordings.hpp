@@ -34,7 +34,7 @@ bool is_matlab(const std::filesystem::path& path);
 /// given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
-/// Reads one table with the options of csv_options().
+/// Reads one table with the options of csv_options(), and renames its columns by as_motion().
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise = {});
 

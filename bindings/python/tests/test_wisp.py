@@ -200,7 +200,7 @@ class Playing(unittest.TestCase):
         bank = wisp.Bank(wisp.read_model(flame), 5)
         with self.assertRaisesRegex(ValueError, "expected 1 for all or 1 for each of 5 slots"):
             bank.set_inputs([1, 2, 3])
-        # An array with a row per input instead of per slot would blow on other leaves.
+        # An array with a row per input instead of a row per slot would reach the wrong leaves.
         leaves = wisp.Bank(wisp.read_model(root / "apps/web/public/models/leaf.wisp"), 10)
         leaves.set_inputs(np.zeros((10, 3)))
         leaves.set_inputs([0, 0, 1])
