@@ -132,9 +132,8 @@ typedef struct wisp_channel {
   uint32_t reserved;
   const char* name; /* name and unit live as long as the model */
   const char* unit;
-  double lowest; /* range in training. Inputs, and outputs except a chain's, are clamped to it, extended on either
-                    side by half its width */
-  double highest;
+  double lowest;     /* range in training */
+  double highest;    /* inputs, and outputs except a chain's, are clamped to that range extended by half its width */
   uint32_t even_odd; /* for inputs: 1 if even and odd functions of it are the regressors */
   uint32_t reserved2;
 } wisp_channel;
