@@ -88,6 +88,12 @@ Flag ranged(Flag flag, double lowest, double highest) {
   return flag;
 }
 
+std::vector<Flag> flags_of(std::initializer_list<std::vector<Flag>> lists) {
+  std::vector<Flag> all;
+  for (const std::vector<Flag>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 const std::vector<Flag>& common_flags() {
   static const std::vector<Flag> flags = {
       {"json", Kind::kSwitch, "", "", "print one JSON document on standard output, and nothing else there"},

@@ -50,6 +50,9 @@ struct Flag {
 /// Adds a numeric range to a flag and to its help.
 Flag ranged(Flag flag, double lowest, double highest);
 
+/// All flags of the lists.
+std::vector<Flag> flags_of(std::initializer_list<std::vector<Flag>> lists);
+
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
 /// The flag's help; for a choice with the accepted words, unless the placeholder of its value lists them.

@@ -75,8 +75,7 @@ bool is_command(const std::string& words) {
 }
 
 bool is_group(const std::string& word) {
-  return std::any_of(commands().begin(), commands().end(),
-                     [&](const Command& one) { return one.name.starts_with(word + " "); });
+  return std::ranges::any_of(commands(), [&](const Command& one) { return one.name.starts_with(word + " "); });
 }
 
 // A command registered with CLI11, and the storage for its values.
@@ -146,9 +145,7 @@ void wire(CLI::App& root, Wired& wired) {
 
 Arguments arguments_of(const Wired& wired) {
   Arguments arguments;
-  std::vector<Flag> flags = wired.command->flags;
-  flags.insert(flags.end(), common_flags().begin(), common_flags().end());
-  for (const Flag& flag : flags) {
+  for (const Flag& flag : flags_of({wired.command->flags, common_flags()})) {
     if (flag.kind == Kind::kSwitch) {
       if (wired.switches.at(flag.name)) arguments.set(flag.name, "on");
     } else if (const std::string& given = wired.values.at(flag.name); !given.empty()) {

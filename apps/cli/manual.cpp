@@ -90,8 +90,7 @@ std::string help_of(const Command& command) {
   text = replaced(text, "\n" + std::string(kColumn, ' '), "\n") + "\nUsage: " + usage(command) + "\n";
   for (const Positional& positional : command.positionals) text += entry(positional.name, positional.help);
   text += "\nFlags:\n";
-  for (const Flag& flag : command.flags) text += flag_entry(flag);
-  for (const Flag& flag : common_flags()) text += flag_entry(flag);
+  for (const Flag& flag : flags_of({command.flags, common_flags()})) text += flag_entry(flag);
   text += entry("-h, --help", "print this");
   if (!command.examples.empty()) text += "\nExamples:\n";
   for (const Example& example : command.examples) text += "  " + example.line + "\n      " + example.what + "\n";
@@ -150,8 +149,7 @@ std::string bash_completion() {
   }
   for (const Command& command : commands()) {
     text += "    '" + command.name + " '*) words='";
-    for (const Flag& flag : command.flags) text += "--" + flag.name + " ";
-    for (const Flag& flag : common_flags()) text += "--" + flag.name + " ";
+    for (const Flag& flag : flags_of({command.flags, common_flags()})) text += "--" + flag.name + " ";
     text += "--help' ;;\n";
   }
   text += "  esac\n  if [ \"$COMP_CWORD\" = 1 ]; then words='";
@@ -182,7 +180,7 @@ std::string fish_completion() {
               " -a " + second + " -d " + quoted(command.summary) + "\n";
       seen += "; and __fish_seen_subcommand_from " + second;
     }
-    for (const Flag& flag : command.flags) {
+    for (const Flag& flag : flags_of({command.flags, common_flags()})) {
       text += "complete -c wisp -n " + quoted(seen) + " -l " + flag.name + (flag.kind == Kind::kSwitch ? "" : " -r") +
               " -d " + quoted(flag.help) + "\n";
     }
@@ -286,8 +284,7 @@ std::string wrong_command(std::span<const std::string> words) {
 
 std::string wrong_flag(const Command& command, std::span<const std::string> words) {
   std::vector<std::string> known{"help", "version"};
-  for (const Flag& flag : command.flags) known.push_back(flag.name);
-  for (const Flag& flag : common_flags()) known.push_back(flag.name);
+  for (const Flag& flag : flags_of({command.flags, common_flags()})) known.push_back(flag.name);
   for (const std::string& word : words) {
     if (word == "--") break;
     if (!word.starts_with("--")) continue;

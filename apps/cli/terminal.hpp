@@ -55,7 +55,10 @@ class Terminal {
 
   bool json() const { return options_.json; }
 
-  /// Returns the time since this object was made, seconds; in `wisp demo` that is the start of its first step.
+  /// Starts the clock of seconds(), as the constructor does.
+  void begin() { started_ = std::chrono::steady_clock::now(); }
+
+  /// Returns the time since begin(), seconds.
   double seconds() const;
 
  private:

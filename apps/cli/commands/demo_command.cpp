@@ -81,6 +81,7 @@ Result<void> run(const Step& step, Terminal& terminal) {
   for (const auto& [flag, value] : step.flags) arguments.set(flag, value);
   arguments.set_positionals(step.files);
   Report all = std::exchange(terminal.result(), {});
+  terminal.begin();
   auto outcome = step.command.run(arguments, terminal);
   const auto verdict = terminal.result().verdict;
   all.append(part_of_whole(step.name, line, std::move(terminal.result())));

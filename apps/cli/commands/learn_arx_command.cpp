@@ -346,7 +346,6 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
 }
 
 std::vector<Flag> arx_flags() {
-  std::vector<Flag> all = {output_flag({"partial"})};
   auto of_recipe = recipe_flags(ArxRecipe{});
   flag_named(of_recipe, "outputs").required = true;
   flag_named(of_recipe, "outputs").unless = {"merge"};
@@ -360,16 +359,10 @@ std::vector<Flag> arx_flags() {
        "where learning would take more than this, recordings are read a stretch at a time, which takes 40 (not "
        "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"},
   };
-  for (const auto& more :
-       {of_recipe,
-        order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"}),
-        of_rows}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  for (auto* more : {&search_flags, &arx_part_flags, &recording_flags}) {
-    for (Flag& flag : (*more)()) all.push_back(std::move(flag));
-  }
-  return all;
+  const auto of_orders =
+      order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"});
+  return flags_of(
+      {{output_flag({"partial"})}, of_recipe, of_orders, of_rows, search_flags(), arx_part_flags(), recording_flags()});
 }
 
 }  // namespace

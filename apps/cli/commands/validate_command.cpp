@@ -171,12 +171,9 @@ Result<void> film(const Model& model, const Recording& real, const Arguments& ar
 }
 
 Result<void> check_chain_flags(const Arguments& arguments) {
-  for (const char* flag : {"overlay", "film-strip", "clip"}) {
-    if (arguments.has(flag)) {
-      return Error{"--" + std::string(flag) + " is for outlines; this model is a segment chain (--film films falls)"};
-    }
-  }
-  return arguments.has("film") ? check_film_name(arguments.text("film")) : Result<void>();
+  auto ok = refuse(arguments, {"overlay", "film-strip", "clip"},
+                   "is for outlines; this model is a segment chain (--film films falls)");
+  return ok && arguments.has("film") ? check_film_name(arguments.text("film")) : ok;
 }
 
 // Reads the recording and, for a pair, its calm twin: the third argument, or REC.calm.csv beside REC.csv.

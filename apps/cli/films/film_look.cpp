@@ -152,6 +152,16 @@ void fill_gaps(Sum* line, int count, int stride) {
   }
 }
 
+// Means of a table of sums, row by row, with its gaps filled along rows and then along columns.
+template <class Sum>
+std::vector<Sum> filled_means(const std::vector<Sum>& sums, int rows, int columns) {
+  std::vector<Sum> table(sums.size());
+  std::ranges::transform(sums, table.begin(), [](const Sum& sum) { return mean(sum); });
+  for (int i = 0; i < rows; ++i) fill_gaps(table.data() + static_cast<std::ptrdiff_t>(i) * columns, columns, 1);
+  for (int j = 0; j < columns; ++j) fill_gaps(table.data() + j, rows, columns);
+  return table;
+}
+
 template <class Sum>
 Sum bilinear(const std::vector<Sum>& table, float height, float depth) {
   const int i = std::min(static_cast<int>(height), kHeights - 2), j = std::min(static_cast<int>(depth), kDepths - 2);
@@ -197,25 +207,6 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
   ++frames_;
 }
 
-std::vector<FilmLook::Sum> FilmLook::flame_colours() const {
-  std::vector<Sum> table(flame_.size());
-  std::ranges::transform(flame_, table.begin(), [](const Sum& sum) { return mean(sum); });
-  for (int i = 0; i < kHeights; ++i) fill_gaps(table.data() + static_cast<std::ptrdiff_t>(i) * kDepths, kDepths, 1);
-  for (int j = 0; j < kDepths; ++j) fill_gaps(table.data() + j, kHeights, kDepths);
-  return table;
-}
-
-// Colours of the surroundings. Pixels always behind the flame are interpolated from both sides.
-std::vector<FilmLook::Sum> FilmLook::surroundings() const {
-  std::vector<Sum> plate(around_.size());
-  std::ranges::transform(around_, plate.begin(), [](const Sum& sum) { return mean(sum); });
-  for (int y = 0; y < view_.height; ++y) {
-    fill_gaps(plate.data() + static_cast<std::ptrdiff_t>(y) * view_.width, view_.width, 1);
-  }
-  for (int x = 0; x < view_.width; ++x) fill_gaps(plate.data() + x, view_.height, view_.width);
-  return plate;
-}
-
 // Confidence, 0 to 1, that a pixel shows no moving flame. Height above the base is in mean flame heights.
 float FilmLook::stillness(std::size_t pixel, float height) const {
   const Sum code = mean(still_[pixel]);
@@ -226,8 +217,8 @@ float FilmLook::stillness(std::size_t pixel, float height) const {
 
 void FilmLook::finish() {
   constexpr float kUnlit = 0.25F;  // brightness without the flame, as a share, if no frame shows the room without it
-  colours_ = flame_colours();
-  plate_ = surroundings();
+  colours_ = filled_means(flame_, kHeights, kDepths);
+  plate_ = filled_means(around_, view_.height, view_.width);  // where the flame always is: interpolated
   foot_.resize(plate_.size());
   unlit_.resize(plate_.size());
   over_.resize(plate_.size());

@@ -49,9 +49,6 @@ class FilmLook {
 
   float stillness(std::size_t pixel, float height) const;
 
-  std::vector<Sum> flame_colours() const;
-  std::vector<Sum> surroundings() const;
-
   FilmView view_{};
   int frames_ = 0;
   std::vector<Sum> flame_;      // by height in the flame and depth inside its outline
