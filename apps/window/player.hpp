@@ -22,7 +22,7 @@
 
 namespace wisp::window {
 
-/// The scene, for models that can be shown in several.
+/// A scene, for models that several scenes can show.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
 struct PlayerOptions {

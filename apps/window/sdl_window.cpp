@@ -105,7 +105,7 @@ class Microphone {
 // Larger pictures are drawn at this size and scaled up by the window, so that a frame is ready in time.
 constexpr double kMaxPixels = 1280.0 * 800.0;
 constexpr double kMinPixels = 240'000;
-constexpr double kBudgetMs = 13;  // of a 16.7 ms frame, for step and picture
+constexpr double kBudgetMs = 13;  // time for step and picture, of 16.7 ms per frame
 
 // Interval at which a hidden window checks whether it is shown again.
 constexpr int kHiddenMs = 500;

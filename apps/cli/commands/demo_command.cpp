@@ -122,7 +122,7 @@ Result<void> all_steps(const Places& places, const Clips& clips, const Arguments
   for (const std::string flag : kCaptureFlags) {
     if (!arguments.has(flag)) continue;
     capture.flags.push_back({flag, arguments.text(flag)});
-    if (flag != "points") validate.flags.push_back(capture.flags.back());  // validation takes the number from the model
+    if (flag != "points") validate.flags.push_back(capture.flags.back());  // the model has the number
   }
   if (auto ok = run(capture, terminal); !ok) return ok;
   if (auto ok = run({"learn", learn_flame_command(), {recording}, {{"output", path}}}, terminal); !ok) return ok;

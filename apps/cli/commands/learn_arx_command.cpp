@@ -108,8 +108,8 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
   return part;
 }
 
-// Merges the named part files. Errors, each with the file's name: a file that cannot be read, is not a part, is
-// damaged, or is of another model than the first.
+// Merges the named part files. Errors: a file that cannot be read, is no part, is damaged, or is of another model than
+// the first (each with the file's name); a number of parts other than --expect.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());

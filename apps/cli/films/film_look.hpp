@@ -60,7 +60,7 @@ class FilmLook {
   // Means, computed by finish().
   std::vector<Sum> colours_;
   std::vector<Sum> plate_, foot_, unlit_;  // per pixel: surroundings, wick and wax, and both without the flame's light
-  std::vector<float> over_;                // per pixel: stillness(), by which wick and wax hide the flame
+  std::vector<float> over_;                // per pixel: stillness(), the opacity of wick and wax over the flame
 };
 
 }  // namespace wisp::cli

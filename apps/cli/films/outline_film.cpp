@@ -92,7 +92,7 @@ Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const Ov
 
 Outline of_row(const OutlineRows& rows, std::size_t row) { return row < rows.size() ? rows[row] : Outline(); }
 
-// The space of a strip's view: contains all flames.
+// Space of a strip's view: large enough for all outlines.
 ViewSpace space_of(const StripContent& content) {
   double highest = 1, widest = 0.4;
   for (const OutlineRows* rows : {&content.captured, &content.synthesized}) {
