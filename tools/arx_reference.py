@@ -36,8 +36,8 @@ class Words:
         return total
 
 
-# A set: rows, seed; `missing`: every so many rows the first output has no sample (0: never). `binary`: inputs are -1 or 1,
-# else white. Per output: A[j] (from lag 1 on, with the equation's sign), B[k] (from lag `delay` on), the shock's standard
+# A set: rows, seed; `missing`: the first output lacks each row whose number is a multiple of it (0: none). `binary`: inputs
+# are -1 or 1, else white. Per output: A[j] (from lag 1 on, with the equation's sign), B[k] (from lag `delay` on), the shock's standard
 # deviation, mean and unit.
 SETS = {
     "dryer": dict(rows=1000, seed=11, inputs=1, binary=True, missing=0, outputs=[

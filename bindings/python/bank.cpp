@@ -143,7 +143,7 @@ py::bytes save(const Bank& bank) {
   return bytes;
 }
 
-// Starts a thread per part in each call: pays for many instances, or many steps per call.
+// Starts a thread per part in each call, which is worthwhile for many instances or many steps per call.
 void run_parts(void*, int parts, void (*task)(void*, int), void* of) {
   std::vector<std::thread> threads;
   for (int part = 1; part < parts; ++part) threads.emplace_back(task, of, part);
