@@ -36,9 +36,9 @@ class Words:
         return total
 
 
-# A set: rows, seed; `missing`: every so many rows the first output has no sample (0: never). `binary`: inputs are -1 or 1,
-# else white. Per output: A[j] (from lag 1 on, with the equation's sign), B[k] (from lag `delay` on), the shock's standard
-# deviation, mean and unit.
+# A set: rows, seed; `missing`: the first output lacks each row whose number is a multiple of it (0: none). `binary`:
+# inputs are -1 or 1, else white. Per output: A[j] (from lag 1 on, with the equation's sign), B[k] (from lag `delay` on),
+# the shock's standard deviation, mean and unit.
 SETS = {
     "dryer": dict(rows=1000, seed=11, inputs=1, binary=True, missing=0, outputs=[
         dict(A=[[-1.274, 0.3935]], B=[[0.0666, 0.0445]], delay=3, shock=0.04, mean=4.9, unit=1.0)]),

@@ -4,9 +4,9 @@
     build/release/bin/wisp_verify_wind --features > features.csv
     tools/fit_blowing.py features.csv > src/sound/wind_likeness_weights.hpp
 
-A small network: the features of FEATURES, a layer of rectified sums, a logistic output. A recording weighs as the root of its
-hops, and both classes weigh the same. Steady sounds (STEADY) are left out: the background level rejects them, not these
-features. Needs numpy and scikit-learn.
+A small network: the features of FEATURES, a layer of rectified sums, a logistic output. A recording's weight is the root of
+its number of hops; both classes have the same total weight. Steady sounds (STEADY) are left out: the background level rejects
+them, not these features. Needs numpy and scikit-learn.
 """
 import csv
 import sys

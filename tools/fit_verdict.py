@@ -7,7 +7,7 @@
 WISP and SCENES: the programs wisp and wisp_verify_scenes; FILMS: ../shared/data/flame; STREETS: films without a flame, as those of
 opencv-doc. A line of facts: family/name;flame;right;fact=value;…  Lines of `wisp_verify_scenes fresh SEED facts` are read as they
 are. A fact's curve is linear between five knots and monotone; both models are logistic, their weights not negative, with a penalty
-on their sum. A turned film is no example of a flame; one with a hand in front is an example of neither (its outlines are right). Needs ffmpeg, NumPy and SciPy.
+on their sum. Turned films are not used for the flame's model, films with a hand in front for neither. Needs ffmpeg, NumPy and SciPy.
 """
 
 import json
@@ -21,15 +21,15 @@ from scipy.optimize import minimize
 
 # The knots of each fact, in the order of outline_verdict.cpp: from the worst value to the value above which there is no further
 # improvement. Values of right and of wrong outlines, in films and in rendered scenes, lie between them.
-FACTS = {"movement": (0.003, 0.008, 0.016, 0.03, 0.06), "over_noise": (1, 2, 4, 8, 16),          "wander": (6, 3, 1.5, 0.8, 0.3), "still": (0.6, 0.45, 0.3, 0.15, 0),          "steadiness": (0.48, 0.54, 0.6, 0.7, 0.8), "taper": (0, 0.2, 0.32, 0.42, 0.52), 
-         "light": (0.75, 0.85, 0.9, 0.94, 0.97), "contrast": (10, 25, 50, 80, 120), "width": (1.3, 1, 0.8, 0.65, 0.5),
-         "misfit": (0.35, 0.2, 0.1, 0.04, 0),
-         "lean": (80, 60, 45, 25, 10), "lost": (0.3, 0.15, 0.08, 0.04, 0),
+FACTS = {"movement": (0.003, 0.008, 0.016, 0.03, 0.06), "over_noise": (1, 2, 4, 8, 16),
+         "wander": (6, 3, 1.5, 0.8, 0.3), "still": (0.6, 0.45, 0.3, 0.15, 0), "steadiness": (0.48, 0.54, 0.6, 0.7, 0.8),
+         "taper": (0, 0.2, 0.32, 0.42, 0.52), "light": (0.75, 0.85, 0.9, 0.94, 0.97), "contrast": (10, 25, 50, 80, 120),
+         "width": (1.3, 1, 0.8, 0.65, 0.5), "misfit": (0.35, 0.2, 0.1, 0.04, 0), "lean": (80, 60, 45, 25, 10), "lost": (0.3, 0.15, 0.08, 0.04, 0),
          "repeated": (0.5, 0.35, 0.25, 0.15, 0.05), "elsewhere": (0.4, 0.2, 0.1, 0.05, 0), "missing": (0.2, 0.08, 0.04, 0.02, 0),
-         "jumps": (0.15, 0.06, 0.03, 0.01, 0), "border": (0.4, 0.15, 0.06, 0.03, 0), "height": (6, 9, 12, 18, 30),
-         "tracked": (10, 15, 20, 30, 50)}
+         "jumps": (0.15, 0.06, 0.03, 0.01, 0), "border": (0.4, 0.15, 0.06, 0.03, 0), "height": (6, 9, 12, 18, 30), "tracked": (10, 15, 20, 30, 50)}
 FLAME = list(FACTS)[:11]  # the facts that decide whether it is a flame
-# Facts of which one bad value makes an outline wrong: every sixth right capture is added again as wrong, each at its second knot.
+# Facts of which a single bad value makes an outline wrong. Every sixth right capture is repeated once per fact, as an example of a
+# wrong one, with that fact at its second knot.
 MUST = ["still", "taper", "width", "misfit", "lean", "lost", "repeated", "elsewhere", "missing", "jumps", "border", "height",
         "tracked"]
 KNOTS = 5

@@ -1,5 +1,5 @@
 // Recounts the operations that models need per frame and updates their files where the counts have changed:
-// `wisp_recount_costs MODEL.wisp …`. The page shows the stored counts. The rest of the file does not change.
+// `wisp_recount_costs MODEL.wisp …`. The page shows the stored counts. The rest of a model's file does not change.
 
 #include <cstdio>
 

@@ -88,12 +88,19 @@ Flag ranged(Flag flag, double lowest, double highest) {
   return flag;
 }
 
+std::vector<Flag> flags_of(std::initializer_list<std::vector<Flag>> lists) {
+  std::vector<Flag> all;
+  for (const std::vector<Flag>& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 const std::vector<Flag>& common_flags() {
   static const std::vector<Flag> flags = {
       {"json", Kind::kSwitch, "", "", "print one JSON document on standard output, and nothing else there"},
       {"quiet", Kind::kSwitch, "", "", "no progress bars"},
-      {"unpacked", Kind::kNumber, "GB", "",
-       "of numbers that a packed MATLAB file may hold; 64 times the file and at most 1 otherwise"},
+      ranged({"unpacked", Kind::kNumber, "GB", "",
+              "of numbers that a packed MATLAB file may hold; 64 times the file and at most 1 otherwise"},
+             0, 1000),
   };
   return flags;
 }

@@ -27,7 +27,7 @@ enum class Kind {
   kNumber,         ///< a finite number
   kChoice,         ///< one of the words in `words`
   kIntegerOrWord,  ///< a whole number, or one of the words
-  kNames,          ///< names separated by commas; commas inside quotes or brackets belong to a name
+  kNames,          ///< names separated by commas; commas inside quotes or round brackets belong to a name
   kSamples,        ///< a range A:B of samples, 1-based, inclusive
 };
 
@@ -47,12 +47,15 @@ struct Flag {
   double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
 };
 
-/// A flag with a numeric range, which its help states.
+/// Adds a numeric range to a flag and to its help.
 Flag ranged(Flag flag, double lowest, double highest);
+
+/// All flags of the lists.
+std::vector<Flag> flags_of(std::initializer_list<std::vector<Flag>> lists);
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
-/// The flag's help; for a choice also the accepted words, unless the name of its value lists them.
+/// The flag's help; for a choice with the accepted words, unless the placeholder of its value lists them.
 std::string help_of(const Flag& flag);
 
 struct Positional {
@@ -132,12 +135,11 @@ std::string first_steps();
 /// Help for the command or group of commands with these words, else for the program.
 std::string help(const std::string& words);
 
-/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known,
-/// so that something else is wrong.
+/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known.
 std::string wrong_words(std::span<const std::string> words);
 
-/// Errors: an output or one of its additional files is also an input; its extension is of another kind of file; the
-/// name of a file has a line break in it.
+/// Errors: an output or one of its additional files would overwrite an input; an output's extension belongs to another
+/// kind of file; a file name contains a line break.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -75,8 +75,7 @@ bool is_command(const std::string& words) {
 }
 
 bool is_group(const std::string& word) {
-  return std::any_of(commands().begin(), commands().end(),
-                     [&](const Command& one) { return one.name.starts_with(word + " "); });
+  return std::ranges::any_of(commands(), [&](const Command& one) { return one.name.starts_with(word + " "); });
 }
 
 // A command registered with CLI11, and the storage for its values.
@@ -100,7 +99,7 @@ void add_flag(Wired& wired, const Flag& flag) {
   if (flag.required && flag.unless.empty()) option->required();
 }
 
-// Checks that flags required unless another one is given are present, and that flags have the other flag they need.
+// Checks flags that are required unless another one is given (Flag::unless), and flags that need another (Flag::with).
 void check_required(const Wired& wired) {
   // CLI11's search for an option is noexcept and allocates: where memory is short it would end the program.
   const auto given = [&](const std::string& other) {
@@ -122,6 +121,7 @@ void add_positionals(Wired& wired) {
     const Positional& positional = wired.command->positionals[k];
     CLI::Option* option = positional.many ? wired.app->add_option(positional.name, wired.positionals)
                                           : wired.app->add_option(positional.name, wired.single[k]);
+    option->check([](const std::string& text) { return text.empty() ? "is empty" : std::string(); });
     if (!positional.optional) option->required();
   }
 }
@@ -145,9 +145,7 @@ void wire(CLI::App& root, Wired& wired) {
 
 Arguments arguments_of(const Wired& wired) {
   Arguments arguments;
-  std::vector<Flag> flags = wired.command->flags;
-  flags.insert(flags.end(), common_flags().begin(), common_flags().end());
-  for (const Flag& flag : flags) {
+  for (const Flag& flag : flags_of({wired.command->flags, common_flags()})) {
     if (flag.kind == Kind::kSwitch) {
       if (wired.switches.at(flag.name)) arguments.set(flag.name, "on");
     } else if (const std::string& given = wired.values.at(flag.name); !given.empty()) {

@@ -90,8 +90,7 @@ std::string help_of(const Command& command) {
   text = replaced(text, "\n" + std::string(kColumn, ' '), "\n") + "\nUsage: " + usage(command) + "\n";
   for (const Positional& positional : command.positionals) text += entry(positional.name, positional.help);
   text += "\nFlags:\n";
-  for (const Flag& flag : command.flags) text += flag_entry(flag);
-  for (const Flag& flag : common_flags()) text += flag_entry(flag);
+  for (const Flag& flag : flags_of({command.flags, common_flags()})) text += flag_entry(flag);
   text += entry("-h, --help", "print this");
   if (!command.examples.empty()) text += "\nExamples:\n";
   for (const Example& example : command.examples) text += "  " + example.line + "\n      " + example.what + "\n";
@@ -124,7 +123,7 @@ std::string man_page() {
   return text;
 }
 
-// Words allowed in first place, or in second place after `first`.
+// First words of all commands; if `first` is not empty, the second words of the commands that begin with it.
 std::vector<std::string> next_words(const std::string& first) {
   std::vector<std::string> words;
   for (const Command& command : commands()) {
@@ -150,8 +149,7 @@ std::string bash_completion() {
   }
   for (const Command& command : commands()) {
     text += "    '" + command.name + " '*) words='";
-    for (const Flag& flag : command.flags) text += "--" + flag.name + " ";
-    for (const Flag& flag : common_flags()) text += "--" + flag.name + " ";
+    for (const Flag& flag : flags_of({command.flags, common_flags()})) text += "--" + flag.name + " ";
     text += "--help' ;;\n";
   }
   text += "  esac\n  if [ \"$COMP_CWORD\" = 1 ]; then words='";
@@ -182,7 +180,7 @@ std::string fish_completion() {
               " -a " + second + " -d " + quoted(command.summary) + "\n";
       seen += "; and __fish_seen_subcommand_from " + second;
     }
-    for (const Flag& flag : command.flags) {
+    for (const Flag& flag : flags_of({command.flags, common_flags()})) {
       text += "complete -c wisp -n " + quoted(seen) + " -l " + flag.name + (flag.kind == Kind::kSwitch ? "" : " -r") +
               " -d " + quoted(flag.help) + "\n";
     }
@@ -195,14 +193,11 @@ std::string markdown() {
       "# The command line\n\n"
       "This page is printed by `wisp manual`; the program's help and parser are made from the same table. `wisp manual "
       "man` prints a man page; `wisp manual bash`, `zsh` and `fish` print what completes commands and flags in a "
-      "shell, "
-      "to be read at its start: `source <(wisp manual bash)`, `source <(wisp manual zsh)`, `wisp manual fish | "
+      "shell, to be read at its start: `source <(wisp manual bash)`, `source <(wisp manual zsh)`, `wisp manual fish | "
       "source`.\n\n"
       "Exit status: 0 done, 1 the data or a file was bad (one line on standard error says which, where, what was "
-      "found, "
-      "what was expected and what to do), 2 wrong usage. Output files appear whole or not at all. Sample and frame "
-      "ranges "
-      "are 1-based and inclusive; indices in JSON are 0-based.\n\n"
+      "found, what was expected and what to do), 2 wrong usage. Output files appear whole or not at all. Sample and "
+      "frame ranges are 1-based and inclusive; indices in JSON are 0-based.\n\n"
       "Every command also takes:\n\n| flag | default | meaning |\n| --- | --- | --- |\n";
   for (const Flag& flag : common_flags()) text += flag_row(flag);
   text += "| `--help` |  | print this command's help |\n\n";
@@ -289,8 +284,7 @@ std::string wrong_command(std::span<const std::string> words) {
 
 std::string wrong_flag(const Command& command, std::span<const std::string> words) {
   std::vector<std::string> known{"help", "version"};
-  for (const Flag& flag : command.flags) known.push_back(flag.name);
-  for (const Flag& flag : common_flags()) known.push_back(flag.name);
+  for (const Flag& flag : flags_of({command.flags, common_flags()})) known.push_back(flag.name);
   for (const std::string& word : words) {
     if (word == "--") break;
     if (!word.starts_with("--")) continue;

@@ -107,10 +107,9 @@ void Terminal::finish() {
 void Terminal::fail(std::string_view message) {
   clear_bar();
   std::fprintf(stderr, "wisp: %.*s\n", static_cast<int>(message.size()), message.data());
-  if (!options_.json) return;
   // Results from before the failure are kept: an unstable model is not written, but its report is shown.
-  result_.add("").entries.push_back({"error", std::string(message), "", ""});
-  std::fprintf(stdout, "%s\n", to_json(result_, 1).c_str());
+  add("error", std::string(message));
+  finish();
 }
 
 std::string shown(double value, int digits) { return wisp::shown(ReportValue(value), digits); }

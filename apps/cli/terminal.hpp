@@ -31,7 +31,7 @@ class Terminal {
   /// Adds a figure to the JSON result only.
   void add(std::string id, ReportValue value);
 
-  /// Adds rows to the JSON result only, after those of the same id.
+  /// Adds a table to the JSON result only. If the result has a table of that id, its rows are appended to it.
   void add(ReportTable table);
 
   /// Prints the verdict of an intermediate result, for people.
@@ -43,8 +43,8 @@ class Terminal {
   /// Prints one line of the result for people; silent with --json.
   void say(std::string_view text);
 
-  /// The result so far, which finish() prints as one JSON document with --json. A command of several steps removes each
-  /// step's result and adds the whole.
+  /// The result so far, which finish() prints as one JSON document with --json. `wisp demo` takes out the result of
+  /// each step and puts it back as a part of the whole.
   Report& result() { return result_; }
 
   /// Ends the progress bar, and prints the JSON document with --json.
@@ -55,7 +55,10 @@ class Terminal {
 
   bool json() const { return options_.json; }
 
-  /// Returns the time since the command began.
+  /// Starts the clock of seconds(), as the constructor does.
+  void begin() { started_ = std::chrono::steady_clock::now(); }
+
+  /// Returns the time since begin(), seconds.
   double seconds() const;
 
  private:

@@ -150,7 +150,7 @@ enum class EarState {
   kMissing,  ///< there is no microphone, or it was lost
 };
 
-/// Wind frames per second: twice a screen's, so that waiting for a frame's end takes at most half a screen frame.
+/// Wind frames per second: twice a screen's, so that the newest wind is at most half a screen frame old.
 inline constexpr double kWindRate = 120;
 
 /// Estimates the wind in a stream of sound.

@@ -33,7 +33,7 @@ inline constexpr float kMaxWake = 2.5F;         // metres per second
 inline constexpr float kKicking = 0.55F;        // least wind that lifts a resting leaf, metres per second
 inline constexpr int kMaxKicks = 40;            // leaves lifted per frame, since each searches all segments
 inline constexpr float kMinRest = 1.5F;         // least seconds on the ground before a restart
-inline constexpr float kMoreRest = 4;           // largest random addition to it, seconds
+inline constexpr float kMoreRest = 4;           // largest random addition to kMinRest, seconds
 inline constexpr float kFade = 0.6F;            // seconds of fading out before a restart
 inline constexpr float kCatch = 0.25F;          // seconds of fading in
 
@@ -150,7 +150,7 @@ class LeafScene {
   Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
-  // State of a leaf that the bank does not hold.
+  // State of a leaf in addition to its state in the bank.
   struct Life {
     std::array<float, 3> last{};  // last displayed position
     std::array<float, 4> attitude{1, 0, 0, 0};

@@ -22,7 +22,7 @@
 
 namespace wisp::window {
 
-/// The scene, for models that can be shown in several.
+/// A scene, for models that several scenes can show.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
 struct PlayerOptions {
@@ -47,7 +47,7 @@ inline constexpr int kLeaves = 60;
 inline constexpr double kNoticeSeconds = 6;
 inline constexpr std::size_t kNoticeBytes = 76;  // bytes per line
 
-// Strength of the space bar's puff for a model without a rule of extinction.
+// Strength of the space bar's puff in scenes without candles.
 inline constexpr float kPuff = 2;
 
 inline Point pixel_of(Point share, const Image& image) {
@@ -79,7 +79,7 @@ inline bool is_body(const Model& model) {
 
 class Player {
  public:
-  /// Errors: a model cannot be read; the first has no view for the requested scene.
+  /// Errors: the first model cannot be read, or its view does not fit the requested scene.
   static Result<Player> create(const PlayerOptions& options) {
     Player player(options);
     player.resize(options.width, options.height);
@@ -171,8 +171,8 @@ class Player {
   bool closed() const { return closed_; }
 
   /// Return whether the key for the microphone, or for full screen, was pressed since the last call.
-  bool take_microphone_wish() { return std::exchange(microphone_wish_, false); }
-  bool take_full_screen_wish() { return std::exchange(full_screen_wish_, false); }
+  bool take_microphone_request() { return std::exchange(microphone_request_, false); }
+  bool take_full_screen_request() { return std::exchange(full_screen_request_, false); }
 
   PlayerFigures figures() const {
     PlayerFigures figures = figures_;
@@ -280,10 +280,10 @@ class Player {
         std::visit([](auto& scene) { scene.reset(); }, *scene_);
         break;
       case Key::kM:
-        microphone_wish_ = true;
+        microphone_request_ = true;
         break;
       case Key::kF11:
-        full_screen_wish_ = true;
+        full_screen_request_ = true;
         break;
       case Key::kH:
         help_ = !help_;
@@ -381,7 +381,7 @@ class Player {
   bool left_ = false, right_ = false;
   bool noise_ = true;
   bool help_ = false;
-  bool closed_ = false, microphone_wish_ = false, full_screen_wish_ = false;
+  bool closed_ = false, microphone_request_ = false, full_screen_request_ = false;
   std::string notice_;
   double notice_until_ = 0;
   double seconds_ = 0;

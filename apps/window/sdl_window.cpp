@@ -105,7 +105,7 @@ class Microphone {
 // Larger pictures are drawn at this size and scaled up by the window, so that a frame is ready in time.
 constexpr double kMaxPixels = 1280.0 * 800.0;
 constexpr double kMinPixels = 240'000;
-constexpr double kBudgetMs = 13;  // of a 16.7 ms frame, for step and picture
+constexpr double kBudgetMs = 13;  // time for step and picture, of 16.7 ms per frame
 
 // Interval at which a hidden window checks whether it is shown again.
 constexpr int kHiddenMs = 500;
@@ -134,7 +134,7 @@ struct Destroy {
   void operator()(SDL_Texture* texture) const { SDL_DestroyTexture(texture); }
 };
 
-// Shuts SDL down after the members that use it.
+// Shuts SDL down. Declared before the members that use SDL, so that it is destroyed after them.
 struct Session {
   Session() { SDL_SetMainReady(); }
   ~Session() { SDL_Quit(); }
@@ -278,8 +278,8 @@ class Window {
   void take_events() {
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) take(event);
-    if (player_.take_full_screen_wish()) toggle_full_screen();
-    if (!player_.take_microphone_wish() || options_.sound) return;
+    if (player_.take_full_screen_request()) toggle_full_screen();
+    if (!player_.take_microphone_request() || options_.sound) return;
     if (microphone_.is_open()) {
       microphone_.close();
       player_.ear().close(EarState::kOff);

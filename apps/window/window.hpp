@@ -27,7 +27,7 @@ struct PlayOptions {
   std::optional<std::filesystem::path> pictures{};  ///< folder for pictures
   int frames = 0;          ///< without a display: number of frames of 1/60 s; in a window 0: until it is closed
   bool microphone = true;  ///< open it at the window's start
-  const volatile int* interrupted = nullptr;  ///< not 0: end after the current frame
+  const volatile int* interrupted = nullptr;  ///< not null: end after the current frame once it is not 0
 };
 
 struct PlayReport {
@@ -46,8 +46,7 @@ struct PlayReport {
   }
 };
 
-/// Frames per second of scripts and of pictures without a display, which are equal for equal seeds on every machine of
-/// one kind.
+/// Frames per second of scripts and of play without a display. Equal seeds give equal pictures on machines of one kind.
 inline constexpr int kFrameRate = 60;
 
 /// Samples per microphone block: 11 ms at 48 kHz.

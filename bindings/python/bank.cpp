@@ -143,7 +143,7 @@ py::bytes save(const Bank& bank) {
   return bytes;
 }
 
-// Starts a thread per part in each call: pays for many instances, or many steps per call.
+// Starts a thread per part in each call, which is worthwhile for many instances or many steps per call.
 void run_parts(void*, int parts, void (*task)(void*, int), void* of) {
   std::vector<std::thread> threads;
   for (int part = 1; part < parts; ++part) threads.emplace_back(task, of, part);
@@ -201,7 +201,7 @@ void bind_life(py::class_<Bank>& bank) {
             for (const LitState& state : states_of(self)) sizes.push_back(state.size);
             return py::array_t<float>(static_cast<py::ssize_t>(sizes.size()), sizes.data());
           },
-          "0 to 1, what outlines are already multiplied by: slots.")
+          "Size of each slot's flame, 0 to 1; outlines are already multiplied by it.")
       .def("flame", &flame, py::arg("instance"),
            "lit, size, seconds since_lit and since_out (None: never); relit, went_out: in the last step or advance.")
       .def("light", &light, py::arg("instance"), "position, intensity against rest, and kelvin of a flame.")
@@ -319,8 +319,7 @@ void bind_time(py::class_<Bank>& bank) {
           },
           py::arg("instance"),
           "In the round: rings x 6 from the base to the tip: the middle's x, y, z, the radius, its rise to its rim "
-          "towards "
-          "+x and +z.")
+          "towards +x and +z.")
       .def(
           "mesh",
           [](Bank& self, std::uint64_t instance, int segments) {

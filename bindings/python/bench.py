@@ -2,7 +2,7 @@
 
     WISP_PROGRAM=build/release/bin/wisp WISP_LIBRARY=build/release/src/c/libwisp.so python3 bindings/python/bench.py
 
-Prints the fastest of several runs of each, and their ratio. No time makes it fail.
+Prints the fastest of several runs of each, and their ratio; asserts no time.
 """
 
 import ctypes

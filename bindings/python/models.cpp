@@ -51,7 +51,7 @@ std::vector<ArxModel> arx_of(const Model& model) {
   throw py::attribute_error("the model is a chain of segments, which has no coefficients");
 }
 
-// Dense coefficients [mode, if switched][lag][output][output or regressor].
+// Dense coefficients [mode, if switched][lag][output][column]; the columns are outputs for A, inputs for B.
 py::array_t<double> coefficients(const Model& model, bool of_inputs) {
   const auto modes = arx_of(model);
   const int outputs = modes[0].orders.outputs(), columns = of_inputs ? modes[0].orders.inputs() : outputs;
@@ -132,7 +132,7 @@ void export_to(const Model& model, const std::filesystem::path& path, double sec
 }  // namespace
 
 void bind_models(py::module_& module) {
-  py::class_<Model>(module, "Model", "What a thing is like: equal where its file is.")
+  py::class_<Model>(module, "Model", "A model of a thing's behaviour; two models are equal if their files are.")
       .def(py::init(&from_bytes), py::arg("bytes"), "From the bytes of a .wisp file.")
       .def_property_readonly(
           "dynamics",

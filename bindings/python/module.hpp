@@ -85,7 +85,7 @@ class Watch {
 /// Documentation of a field TYPE.FIELD from the library's headers; "" where there is none. field_docs.py extracts it.
 const char* doc_of(std::string_view type, std::string_view field);
 
-/// Sets each keyword as a field. An unknown keyword or an unsuitable value is a TypeError that names it.
+/// Makes a T with each keyword as a field. An unknown keyword or an unsuitable value is a TypeError that names it.
 template <class T>
 T from_keywords(const py::kwargs& fields) {
   T made;

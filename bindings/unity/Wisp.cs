@@ -223,8 +223,6 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_usable(IntPtr fit);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_fit_reason(IntPtr fit);
 
-        internal static int Version { get { return wisp_version(); } }
-
         internal static byte[] Utf8(string text)
         {
             return Encoding.UTF8.GetBytes(text + "\0");
@@ -311,7 +309,7 @@ namespace Wisp
         public Dynamics Dynamics { get { return (Dynamics)facts.Dynamics; } }
         public string Name { get { return Native.Text(Native.wisp_model_name(Handle)); } }
 
-        /// <summary>Reason of the verdict; program that wrote the model; training recordings.</summary>
+        /// <summary>Reason of the verdict. Program: what wrote the file. Sources: the training recordings.</summary>
         public string Reason { get { return Native.Text(Origin().Reason); } }
         public string Program { get { return Native.Text(Origin().Program); } }
         public string[] Sources()
@@ -437,7 +435,7 @@ namespace Wisp
         public void End(ulong instance) { Native.Check(Native.wisp_bank_end(handle, instance)); }
         public bool IsAlive(ulong instance) { return Native.wisp_bank_alive(handle, instance) != 0; }
 
-        /// <summary>Sets inputs from the next step on: of all slots (slots x inputs), one row for all, or of one.</summary>
+        /// <summary>Sets inputs from the next step on: a row per slot, one row for all slots, or one instance's.</summary>
         public void SetInputs(float[] values) { Native.Check(Native.wisp_bank_set_inputs(handle, values, Native.Count(values))); }
         public void SetCommonInputs(params float[] values) { Native.Check(Native.wisp_bank_set_common_inputs(handle, values, Native.Count(values))); }
         public void SetInputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_set_instance_inputs(handle, instance, values, Native.Count(values))); }
@@ -626,7 +624,7 @@ namespace Wisp
             }
         }
 
-        /// <summary>Uses the coming seconds of sound as gentle breath or as hard blowing.</summary>
+        /// <summary>Calibrates by the coming seconds of sound, taken as gentle breath or as hard blowing.</summary>
         public void Calibrate(bool blowHard, double seconds = 3) { Native.Check(Native.wisp_wind_calibrate(handle, blowHard ? 1u : 0u, seconds)); }
         public bool Calibrating { get { return Native.wisp_wind_calibrating(handle) != 0; } }
         public bool Calibrated { get { return Native.wisp_wind_calibrated(handle) != 0; } }
@@ -679,6 +677,7 @@ namespace Wisp
 
         ~WindLevel() { Native.wisp_wind_free(handle); }
     }
+
     /// <summary>The role of a channel.</summary>
     public enum Role { Input = 0, Output = 1, Motion = 2 }
 

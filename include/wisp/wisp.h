@@ -132,8 +132,8 @@ typedef struct wisp_channel {
   uint32_t reserved;
   const char* name; /* name and unit live as long as the model */
   const char* unit;
-  double lowest; /* range in training; values, but not a chain's, are clamped to it extended by half its width */
-  double highest;
+  double lowest;     /* range in training */
+  double highest;    /* inputs, and outputs except a chain's, are clamped to that range extended by half its width */
   uint32_t even_odd; /* for inputs: 1 if even and odd functions of it are the regressors */
   uint32_t reserved2;
 } wisp_channel;
@@ -223,7 +223,7 @@ WISP_API wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t
 
 typedef struct wisp_bank wisp_bank;
 
-/* Names an instance by value: slot in the lower 32 bits, generation in the upper. Ids of ended ones are not reused. */
+/* Names an instance: slot in the lower 32 bits, generation in the upper. Ids of ended instances are not reused. */
 typedef uint64_t wisp_instance;
 #define WISP_NO_INSTANCE ((wisp_instance)0)
 
@@ -312,7 +312,7 @@ WISP_API wisp_status wisp_bank_step_many(wisp_bank* bank, uint32_t steps, const 
                                          float* outputs, size_t output_count);
 
 /* Callbacks by which threads of the caller step parts of a bank in parallel. `run` calls task(of, part) for every part
- * from 0 below `parts`, each once and on any thread, and returns when all calls have returned. */
+ * from 0 to parts - 1, each once and on any thread, and returns when all calls have returned. */
 typedef void (*wisp_crew_task)(void* of, int32_t part);
 typedef void (*wisp_crew_run)(void* pool, int32_t parts, wisp_crew_task task, void* of);
 
@@ -357,7 +357,7 @@ typedef struct wisp_flame_state {
   int64_t since_out; /* since it was last extinguished */
   float light[3];    /* position: centroid of its outline, x, y, and z of a body */
   float intensity;   /* area relative to that at rest */
-  float kelvin;      /* colour temperature: 1900 at rest, redder below */
+  float kelvin;      /* colour temperature: 1900 at rest, times the 16th root of the intensity */
 } wisp_flame_state;
 
 WISP_API wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state);

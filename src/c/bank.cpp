@@ -60,8 +60,8 @@ std::optional<wisp::LitState> state_of(const wisp_bank* bank, InstanceId id) {
   return bank->bank.valid(id) ? std::optional<wisp::LitState>(wisp::LitState{}) : std::nullopt;
 }
 
-// Calls use(facet) on the result of facet_of(bank), or reports what the model lacks. `use` returns nothing for success,
-// or false for an instance that is not alive.
+// Calls use(facet) on the result of facet_of(bank), or reports what the model lacks. `use` returns nothing (success), a
+// status, or false if the instance is not alive.
 template <class Handle, class FacetOf, class Use>
 wisp_status on_facet(const char* function, Handle* bank, const char* lacks, FacetOf facet_of, Use use) {
   if (!bank) return null_argument(function);

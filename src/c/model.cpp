@@ -67,7 +67,7 @@ wisp_status on_dynamics(const char* function, const wisp_model* model, Use use) 
   return fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not %s", function, arx ? "ARX" : "a chain");
 }
 
-// Fills an array with what take(dynamics) returns.
+// Fills an array with the values that take(dynamics) returns.
 template <class Kind, class Take, class Value>
 wisp_status hand_out_of(const char* function, const wisp_model* model, Value* values, std::size_t count, Take take) {
   return on_dynamics<Kind>(function, model, [&](const Kind& dynamics) {

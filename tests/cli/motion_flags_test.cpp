@@ -62,6 +62,18 @@ TEST_F(MotionFlags, AnotherProgramsNamesAreTakenOver) {
   EXPECT_NEAR(a["fidelity"]["real"]["descent_speed"], b["fidelity"]["real"]["descent_speed"], 1e-6);
 }
 
+TEST_F(MotionFlags, TheUsualNamesMayBeInAnotherOrder) {
+  const auto plain = falls("plain.csv", "episode,pos.x,pos.y,pos.z", [](const std::array<double, 7>& r) {
+    return std::array{r[0], r[1], r[2]};
+  });
+  const auto other = falls("other.csv", "episode,pos.z,pos.y,pos.x", [](const std::array<double, 7>& r) {
+    return std::array{r[0], r[1], r[2]};
+  });
+  const std::string flags = "--rate 60 --event min:horizontal_speed";
+  EXPECT_EQ(learned(other, flags + " --position pos.z,pos.y,pos.x")["fidelity"]["real"],
+            learned(plain, flags)["fidelity"]["real"]);
+}
+
 TEST_F(MotionFlags, UsualNamesInAPlainTableNeedNoFlag) {
   const auto same = [](const std::array<double, 7>& r) { return r; };
   const auto own = falls("own.csv", "episode,y:pos.x[m],y:pos.y[m],y:pos.z[m],y:q.w,y:q.x,y:q.y,y:q.z", same);

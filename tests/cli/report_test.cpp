@@ -61,6 +61,15 @@ TEST_F(ReportPage, HasTheVerdictAndThePlotsOfEachRecordingWithinIt) {
   EXPECT_EQ(pictures(page) % 2, 0U);
 }
 
+TEST_F(ReportPage, OfASwitchedModelHasTheVerdictWithoutPlots) {
+  ASSERT_EQ(wisp("learn switched " + at("made.csv") + " --inputs u --outputs y --rate 10 --modes 2 -o " + at("s.wisp"))
+                .status,
+            0);
+  const Said run = wisp("report " + at("s.wisp") + " " + at("made.csv") + " --rate 10 -o " + at("page.html"));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(file_text(at("page.html")), HasSubstr("On made.csv"));
+}
+
 TEST_F(ReportPage, WhatCannotBeJudgedIsOneSentenceAndNoPage) {
   std::ofstream(at("other.csv")) << "a,b\n1,2\n3,4\n";
   const Said run = wisp("report " + at("m.wisp") + " " + at("other.csv") + " --rate 10 -o " + at("page.html"));

@@ -62,6 +62,63 @@ std::string with_comma(double x) {
   return out;
 }
 
+// An element of a MATLAB file of level 5, padded to eight bytes.
+std::string element(std::uint32_t kind, std::string bytes) {
+  const std::uint32_t tag[] = {kind, static_cast<std::uint32_t>(bytes.size())};
+  bytes.resize((bytes.size() + 7) / 8 * 8);
+  return std::string(reinterpret_cast<const char*>(tag), sizeof tag) + bytes;
+}
+
+template <class Number>
+std::string bytes_of(const std::vector<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
+
+std::string matrix(const std::string& name, int rows, int columns, const std::vector<double>& numbers) {
+  return element(14, element(6, bytes_of<std::uint32_t>({6, 0})) + element(5, bytes_of<std::int32_t>({rows, columns})) +
+                         element(1, name) + element(9, bytes_of(numbers)));
+}
+
+TEST_F(Tables, ColumnsOfAMatrixAreNamedAsTheMessageListsThem) {
+  std::vector<double> u, y;
+  write("rows.csv", "", [&](std::ostream&, int, double a, double b) { u.push_back(a), y.push_back(b); });
+  u.insert(u.end(), y.rbegin(), y.rend());
+  const std::string mat = at("m.mat"), named = " --outputs y --rate 10 --na 1 --nb 1 --json --inputs ";
+  std::ofstream(mat, std::ios::binary) << std::string(124, ' ') << std::string("\0\1IM", 4) << matrix("u", 400, 2, u)
+                                       << matrix("y", 400, 1, y);
+  EXPECT_THAT(wisp("learn arx " + mat + named + "u").err, HasSubstr("it has: u1, u2, y"));
+  const Said columns = wisp("learn arx " + mat + named + "u1,u2 -o " + at("columns.wisp"));
+  ASSERT_EQ(columns.status, 0) << columns.err;
+  EXPECT_EQ(columns.json()["B"], wisp("learn arx " + mat + named + "'u(:,1),u(:,2)'").json()["B"]);
+  EXPECT_EQ(wisp("validate " + at("columns.wisp") + " " + mat).status, 0);
+  EXPECT_THAT(wisp("learn arx " + mat + named + "u3").err, HasSubstr("variable u(:,3): the variable has 2 columns"));
+  EXPECT_EQ(wisp("learn arx " + mat + named + "u1 --unpacked -1").status, 2);
+  EXPECT_THAT(wisp("capture brightness " + mat + " --channel u --rate 10 -o " + at("light.csv")).err,
+              HasSubstr("several columns; name one, such as u1"));
+}
+
+TEST_F(Tables, TheLightOfAPlainTableIsItsOnlyColumnOrTheNamedOne) {
+  std::ofstream one(at("one.csv")), two(at("two.csv"));
+  one << "light\n";
+  two << "light,volts\n";
+  std::mt19937 random(3);
+  double light = 0;
+  for (int t = 0; t < 4000; ++t) {
+    light = 0.9 * light + (t / 60 % 3 == 0 ? 0.08 : 0.008) * (static_cast<double>(random() % 2001) / 1000 - 1);
+    one << 1 + light << '\n';
+    two << 1 + light << ',' << t % 7 << '\n';
+  }
+  one.close();
+  two.close();
+  const Said only = wisp("learn flicker " + at("one.csv") + " --rate 50 --json");
+  ASSERT_EQ(only.status, 0) << only.err;
+  EXPECT_THAT(wisp("learn flicker " + at("two.csv") + " --rate 50 --json").err,
+              HasSubstr("name the one that is light"));
+  const Said named = wisp("learn flicker " + at("two.csv") + " --channel light --rate 50 --json");
+  ASSERT_EQ(named.status, 0) << named.err;
+  EXPECT_EQ(named.json()["modes"], only.json()["modes"]);
+}
+
 TEST_F(Tables, TheSameNumbersGiveTheSameModelHoweverTheyAreWritten) {
   plain();
   write("german.csv", "sep=;\nZeit;\"u, Kraft\";y\ns;N;m\n", [](std::ostream& out, int t, double u, double y) {

@@ -26,6 +26,7 @@ TEST_F(Usage, HelpIsStatus0AndWrongUsageIsStatus2) {
   EXPECT_EQ(wisp("dance").status, 2);
   EXPECT_EQ(wisp("info").status, 2);
   EXPECT_EQ(wisp("info a.wisp --nonsense").status, 2);
+  EXPECT_EQ(wisp("run '' -o a.csv --frames 10").status, 2);
   EXPECT_EQ(wisp("run a.wisp -o a.csv --frames many").status, 2);
   EXPECT_EQ(wisp("run a.wisp -o a.csv --frames 10 --noise loud").status, 2);
   EXPECT_EQ(wisp("learn arx a.csv -o m.wisp --outputs y --range 30:1").status, 2);

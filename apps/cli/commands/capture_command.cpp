@@ -2,7 +2,6 @@
 // each converts a clip to a recording; `brightness` also takes a photodiode's table, and `wind` a sound file.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +10,7 @@
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
+#include "flags/recipe_flags.hpp"
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/record/csv.hpp"
@@ -18,7 +18,8 @@
 namespace wisp::cli {
 namespace {
 
-// Whether --output is a folder: with several clips, if it ends in a slash or exists (a wildcard may match one clip).
+// Whether --output is a folder: there are several clips, or its name ends in a slash, or the folder exists. A wildcard
+// may match a single clip.
 bool goes_to_folder(const Arguments& arguments) {
   std::error_code none;
   const std::filesystem::path output(arguments.text("output"));
@@ -86,7 +87,6 @@ Result<Captured> captured(const ClipCapture& options, const Arguments& arguments
 }
 
 Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
   const auto options = capture_options(arguments);
   if (!options) return options.error();
   if (!arguments.has("angles") && goes_to_folder(arguments)) return run_many(*options, arguments, terminal);
@@ -97,7 +97,7 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   terminal.show(clip->report);
   terminal.say("wrote " + path);
   terminal.add("output", path);
-  terminal.add("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  terminal.add("seconds", terminal.seconds());
   return {};
 }
 
@@ -126,9 +126,12 @@ Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) 
     return capture_brightness(path, *options, terminal.progress());
   }
   if (auto ok = refuse(arguments, {"region", "frames"}, of_clips(path)); !ok) return ok.error();
-  auto recording = read_table(path, arguments, {.outputs = {arguments.text("channel")}});
+  const std::string& name = arguments.text("channel");
+  auto recording = read_table(path, arguments, {.outputs = {name}});
   if (!recording) return recording;
-  Channel light = std::move(recording->channels[*find_channel(*recording, arguments.text("channel"))]);
+  const auto channel = find_channel(*recording, name);
+  if (!channel) return Error{path + ": --channel " + name + " has several columns; name one, such as " + name + "1"};
+  Channel light = std::move(recording->channels[*channel]);
   if (const std::size_t count = start_up_samples(light.samples, recording->rate_hz); count > 0) {
     std::fill_n(light.samples.begin(), count, std::nan(""));
     terminal.warn(path + ": left out its first " + std::to_string(count) + " samples, in which the light starts up");
@@ -197,19 +200,22 @@ Result<void> run_fall(const Arguments& arguments, Terminal& terminal) {
 }
 
 Command capturing(std::string name, const std::string& flame, std::string summary, std::vector<Example> examples) {
-  std::vector<Flag> flags = {{"output",
-                              Kind::kOutput,
-                              "REC.csv",
-                              "",
-                              "where to write the recording; of several clips, and of one where it is there, a folder, "
-                              "in which each has its own name",
-                              {},
-                              true}};
-  for (Flag& flag : capture_flags(flame)) flags.push_back(std::move(flag));
-  flags.push_back(
-      {"skip-bad", Kind::kSwitch, "", "", "of several: leave bad clips out, listing them, instead of stopping"});
-  return {std::move(name),  std::move(summary),  {{"CLIP", "video files, or folders of numbered images", true}},
-          std::move(flags), std::move(examples), run_capture};
+  const Flag output{"output",
+                    Kind::kOutput,
+                    "REC.csv",
+                    "",
+                    "where to write the recording; of several clips, and of one where it is there, a folder, in which "
+                    "each has its own name",
+                    {},
+                    true};
+  const Flag skip{"skip-bad", Kind::kSwitch, "", "",
+                  "of several: leave bad clips out, listing them, instead of stopping"};
+  return {std::move(name),
+          std::move(summary),
+          {{"CLIP", "video files, or folders of numbered images", true}},
+          flags_of({{output}, capture_flags(flame), {skip}}),
+          std::move(examples),
+          run_capture};
 }
 
 }  // namespace
@@ -237,17 +243,16 @@ Command capture_flame_command() {
 }
 
 Command capture_brightness_command() {
-  std::vector<Flag> flags = {
+  const std::vector<Flag> flags = {
       {"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
       {"region", Kind::kText, "X,Y,W,H", "", "of a clip: look only here, in pixels from the top left"},
       {"frames", Kind::kSamples, "A:B", "", "of a clip: only these frames, 1-based and inclusive"},
       {"channel", Kind::kText, "NAME", "brightness", "of a table: the column of light"},
   };
-  for (Flag& flag : table_flags()) flags.push_back(std::move(flag));
   return {"capture brightness",
           "Measures the light of a clip, frame by frame, or takes a photodiode's trace, linear and of mean 1.",
           {{"CLIP_OR_TRACE", "a video file, a folder of numbered images, or a table"}},
-          std::move(flags),
+          flags_of({flags, table_flags()}),
           {{"wisp capture brightness candle.mp4 --region 300,100,200,400 -o light.csv", "A candle's light"},
            {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv",
             "A photodiode's trace"}},
@@ -255,15 +260,13 @@ Command capture_brightness_command() {
 }
 
 Command capture_wind_command() {
-  std::vector<Flag> flags = {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
-                             ranged({"rate", Kind::kNumber, "HZ", "60", "rows a second"}, 1, 1000)};
-  for (Flag& flag : capture_flags("0")) {
-    if (flag.name == "wind-measure") flags.push_back(std::move(flag));
-  }
+  std::vector<Flag> of_clips = capture_flags("0");
   return {"capture wind",
           "Hears the wind in a sound file, or in a film's sound, and writes it as a recording.",
           {{"SOUND", "a sound file, or a film with sound"}},
-          std::move(flags),
+          {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
+           ranged({"rate", Kind::kNumber, "HZ", "60", "rows a second"}, 1, 1000),
+           flag_named(of_clips, "wind-measure")},
           {{"wisp capture wind breath.wav -o wind.csv", "The wind of a breath, 60 rows a second"}},
           run_wind};
 }

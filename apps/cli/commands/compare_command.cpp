@@ -19,14 +19,12 @@ constexpr std::size_t kMaxPlots = 4;
 // Reads models and names each by its file's name, or by its whole path if an earlier model has that name.
 Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& paths) {
   std::vector<NamedModel> models;
-  std::vector<std::string> names;
   for (const std::string& path : paths) {
     auto model = read_model(path);
     if (!model) return model.error();
     const std::string stem = std::filesystem::path(path).stem().string();
-    const bool taken = std::find(names.begin(), names.end(), stem) != names.end();
-    names.push_back(taken ? path : stem);
-    models.push_back({names.back(), std::move(*model)});
+    const bool taken = std::ranges::find(models, stem, &NamedModel::name) != models.end();
+    models.push_back({taken ? path : stem, std::move(*model)});
   }
   return models;
 }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A step's report as part of the summary, with its name as prefix.
+// A step's report as part of the summary: the step's name prefixes the ids of its figures and tables.
 Report part_of_whole(const std::string& name, const std::string& line, Report step) {
   step.add("").entries = {{"command", "wisp " + line, "", ""},
                           {"warnings", ReportList(step.warnings.begin(), step.warnings.end()), "", ""}};
@@ -57,7 +57,7 @@ std::string quoted(const std::string& name) {
 
 // A command with its arguments and flags; other flags have their defaults.
 struct Step {
-  std::string name;  // name of its figures in the summary
+  std::string name;  // prefix of its figures in the summary
   Command command;
   std::vector<std::string> files;
   std::vector<std::pair<std::string, std::string>> flags;
@@ -81,6 +81,7 @@ Result<void> run(const Step& step, Terminal& terminal) {
   for (const auto& [flag, value] : step.flags) arguments.set(flag, value);
   arguments.set_positionals(step.files);
   Report all = std::exchange(terminal.result(), {});
+  terminal.begin();
   auto outcome = step.command.run(arguments, terminal);
   const auto verdict = terminal.result().verdict;
   all.append(part_of_whole(step.name, line, std::move(terminal.result())));
@@ -121,7 +122,7 @@ Result<void> all_steps(const Places& places, const Clips& clips, const Arguments
   for (const std::string flag : kCaptureFlags) {
     if (!arguments.has(flag)) continue;
     capture.flags.push_back({flag, arguments.text(flag)});
-    if (flag != "points") validate.flags.push_back(capture.flags.back());  // validation takes the number from the model
+    if (flag != "points") validate.flags.push_back(capture.flags.back());  // the model has the number
   }
   if (auto ok = run(capture, terminal); !ok) return ok;
   if (auto ok = run({"learn", learn_flame_command(), {recording}, {{"output", path}}}, terminal); !ok) return ok;

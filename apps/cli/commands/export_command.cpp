@@ -45,7 +45,7 @@ struct Pages {
   int height = 0, width = 0;        // size of a frame; width 0: the maximum width of flame and halo
 };
 
-// Errors: the model is no flame; the height is not 16 to 2048.
+// Draws frames of a take. Errors: the model is no flame; the height is not 16 to 2048.
 Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Pages& pages) {
   const int height = pages.height;
   constexpr int kPoints = 96;
@@ -176,8 +176,8 @@ Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> lan
                       terminal);
 }
 
-// Language of a linear system by the file's extension. None for .c or .json unless the model is a plant: an ARX model
-// with inputs. Other models become a lamp's .c or an animation's .json.
+// Language of a linear system by the file's extension. None for .c or .json unless the model is a plant, an ARX model
+// with inputs and plain outputs: other models become a lamp's .c or an animation's .json.
 std::optional<PlantLanguage> plant_language(const Model& model, const std::string& extension) {
   const bool plant = std::holds_alternative<ArxModel>(model.dynamics) && !model.inputs.empty() &&
                      std::holds_alternative<PlainView>(model.view);

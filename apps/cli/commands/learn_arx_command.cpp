@@ -108,8 +108,8 @@ Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argumen
   return part;
 }
 
-// Merges the named part files. Errors, each with the file's name: a file that cannot be read, is not a part, is
-// damaged, or is of another model than the first.
+// Merges the named part files. Errors: a file that cannot be read, is no part, is damaged, or is of another model than
+// the first (each with the file's name); a number of parts other than --expect.
 Result<ArxPart> merged_parts(const Arguments& arguments) {
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());
@@ -284,8 +284,7 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
   }
-  if (arguments.on("merge")) return recipe;
-  if (arguments.has("search")) return recipe;
+  if (arguments.on("merge") || arguments.has("search")) return recipe;
   if (auto ok = take_orders(arguments, recipe); !ok) return ok.error();
   if (!recipe.nk && arguments.has("partial")) {
     return Error{
@@ -347,7 +346,6 @@ Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
 }
 
 std::vector<Flag> arx_flags() {
-  std::vector<Flag> all = {output_flag({"partial"})};
   auto of_recipe = recipe_flags(ArxRecipe{});
   flag_named(of_recipe, "outputs").required = true;
   flag_named(of_recipe, "outputs").unless = {"merge"};
@@ -361,16 +359,10 @@ std::vector<Flag> arx_flags() {
        "where learning would take more than this, recordings are read a stretch at a time, which takes 40 (not "
        "with --search, --prepare, --nk auto or --focus simulation); held-out rows and residuals are not judged then"},
   };
-  for (const auto& more :
-       {of_recipe,
-        order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"}),
-        of_rows}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  for (auto* more : {&search_flags, &arx_part_flags, &recording_flags}) {
-    for (Flag& flag : (*more)()) all.push_back(std::move(flag));
-  }
-  return all;
+  const auto of_orders =
+      order_flags({"4", "", "; auto finds every input's delay to every output, auto:N those up to N samples"});
+  return flags_of(
+      {{output_flag({"partial"})}, of_recipe, of_orders, of_rows, search_flags(), arx_part_flags(), recording_flags()});
 }
 
 }  // namespace
@@ -391,8 +383,7 @@ Command learn_arx_command() {
            "--search na=1:10,nb=1:10,nk=0:3 --by validation --validate 501:1000",
            "The orders that predict unseen rows best"},
           {"wisp learn arx long.csv --partial 2.part --part 2/8 --inputs u --outputs y && wisp learn arx --merge "
-           "*.part "
-           "-o long.wisp",
+           "*.part -o long.wisp",
            "One of eight jobs, each with its share of the rows, and what makes one model of all of them"},
       },
       run_learn_arx,

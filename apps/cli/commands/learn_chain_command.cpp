@@ -50,16 +50,12 @@ Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
 }
 
 std::vector<Flag> flags(const ChainRecipe& defaults) {
-  std::vector<Flag> all = {output_flag()};
   const std::vector<Flag> of_tables = {
       {"range", Kind::kSamples, "A:B", "", "rows to learn falls from, 1-based and inclusive"},
       {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
   };
-  for (const auto& more : {recipe_flags(defaults), of_tables, motion_flags(), recording_flags()}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  return all;
+  return flags_of({{output_flag()}, recipe_flags(defaults), of_tables, motion_flags(), recording_flags()});
 }
 
 constexpr const char* kRecordings =

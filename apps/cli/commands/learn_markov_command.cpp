@@ -43,24 +43,21 @@ Result<void> run_learn_switched(const Arguments& arguments, Terminal& terminal) 
 }
 
 std::vector<Flag> switched_flags() {
-  std::vector<Flag> all = {
-      output_flag(),
-      {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
-  };
+  const Flag range{"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"};
   auto of_recipe = recipe_flags(SwitchedRecipe{});
   flag_named(of_recipe, "outputs").required = true;
-  for (const auto& more : {of_recipe, order_flags({"2", " in every mode"}), recording_flags()}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  return all;
+  return flags_of({{output_flag(), range}, of_recipe, order_flags({"2", " in every mode"}), recording_flags()});
 }
 
 Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
-  const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
-  if (!recordings) return recordings.error();
   FlickerRecipe recipe;
   if (auto ok = read_recipe(arguments, recipe); !ok) return ok;
   recipe.name = model_name(arguments);
+  // A plain table states no roles: --channel names its column of light, and without it every column is an output.
+  CsvOptions plain{.every_column = recipe.output.empty()};
+  if (!recipe.output.empty()) plain.outputs = {recipe.output};
+  const auto recordings = read_tables(arguments.positionals(), arguments, terminal, plain);
+  if (!recordings) return recordings.error();
   const auto fit = learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
   return hand_over(*fit, model_path(arguments), terminal);
@@ -83,15 +80,11 @@ Command learn_switched_command() {
 }
 
 Command learn_flicker_command() {
-  std::vector<Flag> flags = {output_flag()};
-  for (const auto& more : {recipe_flags(FlickerRecipe{}), recording_flags()}) {
-    flags.insert(flags.end(), more.begin(), more.end());
-  }
   return {
       "learn flicker",
       "Learns the light of a flame, calm and restless by turns, for a lamp to play.",
       {{"REC", "recordings of brightness, from `capture brightness`", true}},
-      std::move(flags),
+      flags_of({{output_flag()}, recipe_flags(FlickerRecipe{}), recording_flags()}),
       {{"wisp capture brightness candle.mp4 -o light.csv && wisp learn flicker light.csv -o light.wisp",
         "From a clip of a candle"},
        {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv && "

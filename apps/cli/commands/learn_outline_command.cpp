@@ -51,19 +51,19 @@ struct Preset {
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
-  std::vector<Flag> flags = {
+  const std::vector<Flag> flags = {
       output_flag(),
       {"blow-out", Kind::kText, "auto|off|LEVEL,SECONDS", preset.extinction,
        "what wind puts it out: learned where the recordings have it and else twice the strong wind of training "
        "(auto), nothing (off), or any wind of LEVEL (1: the 95th percentile of training) for SECONDS"},
       {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
-  for (const std::vector<Flag>& more : {recipe_flags(OutlineRecipe{}), capture_flags(preset.flame)}) {
-    flags.insert(flags.end(), more.begin(), more.end());
-  }
-  return {
-      std::move(name),  std::move(summary),  {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv)", true}},
-      std::move(flags), std::move(examples), run_learn_outline};
+  return {std::move(name),
+          std::move(summary),
+          {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv)", true}},
+          flags_of({flags, recipe_flags(OutlineRecipe{}), capture_flags(preset.flame)}),
+          std::move(examples),
+          run_learn_outline};
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using window::PlayOptions;
 using window::PlayReport;
 using window::SceneKind;
 
-// File of the first flame: the one with the default recipe, as on the page.
+// Model that is listed first: a flame learned with the default recipe, as on the page.
 constexpr const char* kFirst = "flame.wisp";
 
 // Rank in the list: the first flame, falling bodies, other outlines, then plain models.
@@ -37,12 +37,11 @@ int rank(const fs::path& path, const View& view) {
 }
 
 std::vector<fs::path> models_in(const fs::path& folder) {
-  std::vector<std::pair<std::pair<int, fs::path>, fs::path>> found;
+  std::vector<std::pair<int, fs::path>> found;
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {
     if (entry.path().extension() != ".wisp") continue;
-    if (const auto model = read_model(entry.path()))
-      found.push_back({{rank(entry.path(), model->view), entry.path()}, entry.path()});
+    if (const auto model = read_model(entry.path())) found.push_back({rank(entry.path(), model->view), entry.path()});
   }
   std::sort(found.begin(), found.end());
   std::vector<fs::path> paths;

@@ -12,7 +12,7 @@
 namespace wisp::cli {
 namespace {
 
-// The recording with the model's channels; those of an outline need no flags for their names.
+// Reads the recording with the model's channels. An outline's channels have fixed names, which need no flags.
 Result<Recording> recording_for(const Model& model, const std::string& path, const Arguments& arguments) {
   if (!std::holds_alternative<OutlineView>(model.view)) return table_for(model, path, arguments);
   auto whole = read_table(path, arguments, {.rate_hz = model.rate_hz});

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <random>
 #include <span>
 #include <system_error>
 
@@ -13,13 +14,6 @@
 #include "wisp/describe/text.hpp"
 #include "wisp/learn/model_report.hpp"
 #include "wisp/model/file.hpp"
-
-#ifdef _WIN32
-#include <process.h>
-#define getpid _getpid
-#else
-#include <unistd.h>
-#endif
 
 namespace wisp::cli {
 namespace {
@@ -91,7 +85,7 @@ namespace fs = std::filesystem;
 // A temporary folder for pictures, removed at the end.
 class Scratch {
  public:
-  Scratch() : path_(fs::temp_directory_path() / ("wisp-report-" + std::to_string(::getpid()))) {}
+  Scratch() : path_(fs::temp_directory_path() / ("wisp-report-" + std::to_string(std::random_device{}()))) {}
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   ~Scratch() {
@@ -123,7 +117,7 @@ Result<PagePart> judged(const Model& model, const std::string& recording, const 
                         const Arguments& arguments) {
   Arguments asked = arguments;
   asked.set_positionals({arguments.positional(), recording});
-  asked.set("figures", folder.string());
+  if (!std::holds_alternative<SwitchedArxModel>(model.dynamics)) asked.set("figures", folder.string());
   if (std::holds_alternative<OutlineView>(model.view)) asked.set("film-strip", (folder / "a-film-strip.png").string());
   std::error_code error;
   fs::create_directories(folder, error);

@@ -27,7 +27,7 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kReach = 4;  // standard deviations of free walks beyond which steering finds no successors
+constexpr double kReach = 4;  // maximum reach of steering, in standard deviations of unsteered walks
 
 // Parses a target: X,Y,Z@S.
 Result<SteerTarget> target_from(const std::string& text) {
@@ -40,7 +40,7 @@ Result<SteerTarget> target_from(const std::string& text) {
   for (float x : target.position) sound &= std::abs(x) < 1e6F;
   if (!sound) {
     return Error{"--steer: found \"" + text +
-                 "\", expected X,Y,Z@S: three numbers in metres and seconds above 0, such as " + "1,0.5,-6@8"};
+                 "\", expected X,Y,Z@S: three numbers in metres and seconds above 0, such as 1,0.5,-6@8"};
   }
   target.in = std::chrono::nanoseconds(std::llround(seconds * 1e9));
   return target;
@@ -93,7 +93,7 @@ struct Play {
   double orbit = 0;                   // seconds per revolution of the camera; 0: fixed
   double toward = 0;                  // wind direction, degrees
   std::vector<std::size_t> relit;     // frames before which all extinguished instances are lit again, ascending
-  std::optional<FilmedFlame> film{};  // the film whose candle it is drawn on
+  std::optional<FilmedFlame> film{};  // film on whose candle the flame is drawn
 };
 
 // Plays a bank frame by frame.
@@ -303,7 +303,8 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// Applies --camera, --orbit, --wind-direction: converts the model to a body. Errors: it cannot be one; bad --camera.
+// Applies --camera, --orbit and --wind-direction: converts the model to a body. Errors: it cannot be one; a bad
+// --camera or --orbit; --wind-direction alone.
 Result<void> go_round(const Arguments& arguments, Play& play) {
   if (arguments.number("orbit") < 0)
     return Error{"--orbit: found " + arguments.text("orbit") + ", expected seconds above 0"};
@@ -374,13 +375,11 @@ Result<void> watch_film(const Arguments& arguments, Terminal& terminal, Play& pl
   return {};
 }
 
-Result<void> run_loop(const Arguments& arguments, Terminal& terminal) {
-  const auto model = read_model(arguments.positional());
-  return model ? write_loop(*model, arguments, terminal) : model.error();
-}
-
 Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
-  if (arguments.has("loop")) return run_loop(arguments, terminal);
+  if (arguments.has("loop")) {
+    const auto model = read_model(arguments.positional());
+    return model ? write_loop(*model, arguments, terminal) : model.error();
+  }
   auto play = prepare(arguments);
   if (!play) return play.error();
   if (auto ok = watch_film(arguments, terminal, *play); !ok) return ok;
@@ -421,8 +420,7 @@ std::vector<Flag> all_flags() {
       loop_flag(),
       {"input", Kind::kPath, "REC", "",
        "a recording, heard as validate hears it unless its column has the input's own unit, or a sound file of "
-       "blowing: the "
-       "inputs"},
+       "blowing: the inputs"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns of --input that are the model's inputs, in its order, where they have other names"},
       {"own-gain", Kind::kSwitch, "", "",

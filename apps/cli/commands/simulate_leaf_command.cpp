@@ -15,8 +15,8 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, ± a fifth, and part of the gust
-constexpr double kMaxJitter = 0.01;      // maximum deviation of a time step of the wind, as a share of it
+constexpr double kMinPairSeconds = 0.7;  // a gust's onset is at 0.5 s ± 20 %, and part of the gust is recorded
+constexpr double kMaxJitter = 0.01;      // maximum deviation of the wind's time steps, as a share of a step
 
 // Checks that a wind's time column, if there is one, has equal steps, as rows are taken at the recording's rate.
 Result<void> check_time(const Recording& recording) {
@@ -36,7 +36,7 @@ Result<void> check_time(const Recording& recording) {
   return {};
 }
 
-// Wind from a recording: those of wind.x, wind.y and wind.z that it has, or its only input, which blows along x.
+// Reads wind from a recording: channels wind.x, wind.y and wind.z (a missing one is 0), or its only input, along x.
 Result<MeasuredWind> track_from(const std::string& path) {
   const auto recording = read_csv(path, {});
   if (!recording) return recording.error();

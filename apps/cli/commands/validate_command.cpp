@@ -73,7 +73,7 @@ constexpr Colour kModeColours[] = {{31, 119, 180}, {214, 96, 20},  {44, 140, 44}
 constexpr Colour kStill{40, 60, 110};
 constexpr Colour kBlown{30, 140, 60};
 
-// Sets the style of a series by the last word of its id.
+// Sets the style of a series by the part of its id after the panel's name.
 void style(std::string_view what, PlotSeries& series) {
   if (what == "events") {
     series.shape = SeriesShape::kPoints;
@@ -171,15 +171,12 @@ Result<void> film(const Model& model, const Recording& real, const Arguments& ar
 }
 
 Result<void> check_chain_flags(const Arguments& arguments) {
-  for (const char* flag : {"overlay", "film-strip", "clip"}) {
-    if (arguments.has(flag)) {
-      return Error{"--" + std::string(flag) + " is for outlines; this model is a segment chain (--film films falls)"};
-    }
-  }
-  return arguments.has("film") ? check_film_name(arguments.text("film")) : Result<void>();
+  auto ok = refuse(arguments, {"overlay", "film-strip", "clip"},
+                   "is for outlines; this model is a segment chain (--film films falls)");
+  return ok && arguments.has("film") ? check_film_name(arguments.text("film")) : ok;
 }
 
-// Reads the recording and, for a pair, its calm twin: the second argument, or REC.calm.csv beside REC.csv.
+// Reads the recording and, for a pair, its calm twin: the third argument, or REC.calm.csv beside REC.csv.
 Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
   auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));

@@ -76,8 +76,8 @@ class Depths {
 // Position of a pixel relative to an outline; depths in mean flame heights, positive inside.
 struct FlamePlace {
   float height = 0;        // 0 at the base, 1 at the outline's top
-  float depth = 0;         // by the nearest point of the outline
-  float colour_depth = 0;  // depth; above the outline's top sideways alone, since what leaves a tip stays narrow
+  float depth = 0;         // distance to the nearest point of the outline
+  float colour_depth = 0;  // the same; above the top its horizontal part, as the glow above a tip stays narrow
 };
 
 // Positions of the pixels of one row.
@@ -152,6 +152,16 @@ void fill_gaps(Sum* line, int count, int stride) {
   }
 }
 
+// Means of a table of sums, row by row, with its gaps filled along rows and then along columns.
+template <class Sum>
+std::vector<Sum> filled_means(const std::vector<Sum>& sums, int rows, int columns) {
+  std::vector<Sum> table(sums.size());
+  std::ranges::transform(sums, table.begin(), [](const Sum& sum) { return mean(sum); });
+  for (int i = 0; i < rows; ++i) fill_gaps(table.data() + static_cast<std::ptrdiff_t>(i) * columns, columns, 1);
+  for (int j = 0; j < columns; ++j) fill_gaps(table.data() + j, rows, columns);
+  return table;
+}
+
 template <class Sum>
 Sum bilinear(const std::vector<Sum>& table, float height, float depth) {
   const int i = std::min(static_cast<int>(height), kHeights - 2), j = std::min(static_cast<int>(depth), kDepths - 2);
@@ -186,7 +196,7 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
       const FlamePlace place = places.at(x);
       add(still_[pixel], row[x]);
       squares_[pixel] += square(light_of(row[x]));
-      // Weighted by the distance to the flame, with a minimum for pixels that the flame never left.
+      // Weighted by the distance to the flame, with a minimum for pixels that are near it in every frame.
       if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
       if (place.height <= 0 || (place.depth <= kOutside && place.colour_depth > kOutside)) continue;
       const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));
@@ -195,25 +205,6 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
     }
   }
   ++frames_;
-}
-
-std::vector<FilmLook::Sum> FilmLook::flame_colours() const {
-  std::vector<Sum> table(flame_.size());
-  std::ranges::transform(flame_, table.begin(), [](const Sum& sum) { return mean(sum); });
-  for (int i = 0; i < kHeights; ++i) fill_gaps(table.data() + static_cast<std::ptrdiff_t>(i) * kDepths, kDepths, 1);
-  for (int j = 0; j < kDepths; ++j) fill_gaps(table.data() + j, kHeights, kDepths);
-  return table;
-}
-
-// Colours of the surroundings. Pixels always behind the flame are interpolated from both sides.
-std::vector<FilmLook::Sum> FilmLook::surroundings() const {
-  std::vector<Sum> plate(around_.size());
-  std::ranges::transform(around_, plate.begin(), [](const Sum& sum) { return mean(sum); });
-  for (int y = 0; y < view_.height; ++y) {
-    fill_gaps(plate.data() + static_cast<std::ptrdiff_t>(y) * view_.width, view_.width, 1);
-  }
-  for (int x = 0; x < view_.width; ++x) fill_gaps(plate.data() + x, view_.height, view_.width);
-  return plate;
 }
 
 // Confidence, 0 to 1, that a pixel shows no moving flame. Height above the base is in mean flame heights.
@@ -226,8 +217,8 @@ float FilmLook::stillness(std::size_t pixel, float height) const {
 
 void FilmLook::finish() {
   constexpr float kUnlit = 0.25F;  // brightness without the flame, as a share, if no frame shows the room without it
-  colours_ = flame_colours();
-  plate_ = surroundings();
+  colours_ = filled_means(flame_, kHeights, kDepths);
+  plate_ = filled_means(around_, view_.height, view_.width);  // where the flame always is: interpolated
   foot_.resize(plate_.size());
   unlit_.resize(plate_.size());
   over_.resize(plate_.size());

@@ -49,9 +49,6 @@ class FilmLook {
 
   float stillness(std::size_t pixel, float height) const;
 
-  std::vector<Sum> flame_colours() const;
-  std::vector<Sum> surroundings() const;
-
   FilmView view_{};
   int frames_ = 0;
   std::vector<Sum> flame_;      // by height in the flame and depth inside its outline
@@ -63,7 +60,7 @@ class FilmLook {
   // Means, computed by finish().
   std::vector<Sum> colours_;
   std::vector<Sum> plate_, foot_, unlit_;  // per pixel: surroundings, wick and wax, and both without the flame's light
-  std::vector<float> over_;                // per pixel: stillness(), by which wick and wax hide the flame
+  std::vector<float> over_;                // per pixel: stillness(), the opacity of wick and wax over the flame
 };
 
 }  // namespace wisp::cli

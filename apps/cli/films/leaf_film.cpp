@@ -20,7 +20,7 @@ constexpr double kRestSeconds = 2.2;     // time at rest on the floor
 constexpr double kFadeSeconds = 0.6;     // fade at the end of that time
 constexpr double kSettleSeconds = 0.12;  // transition from the landing pose to lying flat
 constexpr double kTrailSeconds = 0.9;
-constexpr double kRounding = 1e-6;        // rows: tolerance for rounding
+constexpr double kRounding = 1e-6;        // tolerance for rounding, rows
 constexpr float kShownLarger = 1.8F;      // magnification: a leaf in a room is only a few pixels
 constexpr double kStaggerSeconds = 0.45;  // delay between the first falls of two leaves
 
@@ -95,7 +95,7 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
   return falls;
 }
 
-constexpr float kSideways = 0.38F;  // metres: sideways extent of most falls
+constexpr float kSideways = 0.38F;  // sideways extent of most falls, metres
 
 // Maximum distance of a start from the middle that keeps most falls in the picture.
 float reach_of(const LeafFilmOptions& options) {

@@ -18,7 +18,7 @@ constexpr int kStripCellHeight = 220;  // cell height on the strip, pixels; fram
 constexpr int kMinOverlayHeight = 480;
 int enlargement(int height) { return std::max(1, (kMinOverlayHeight + height - 1) / height); }
 
-// Converts from capture, where pixel centres are at integers, to drawing, where they are at halves.
+// Enlarges an outline, and moves it from capture (pixel centres at integers) to drawing (pixel centres at halves).
 std::vector<Point> enlarged(const Outline& outline, int times) {
   std::vector<Point> points;
   for (const auto& [x, y] : outline) {
@@ -92,7 +92,7 @@ Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const Ov
 
 Outline of_row(const OutlineRows& rows, std::size_t row) { return row < rows.size() ? rows[row] : Outline(); }
 
-// The space of a strip's view: contains all flames.
+// Space of a strip's view: large enough for all outlines.
 ViewSpace space_of(const StripContent& content) {
   double highest = 1, widest = 0.4;
   for (const OutlineRows* rows : {&content.captured, &content.synthesized}) {

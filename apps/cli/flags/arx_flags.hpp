@@ -1,5 +1,5 @@
 #pragma once
-// Flags --na, --nb and --nk as in recipes; number of steps ahead, and start of a free run.
+// Flags --na, --nb, --nk, --steps and --initial, and their values.
 
 #include <string>
 #include <vector>

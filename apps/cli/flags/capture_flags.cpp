@@ -100,18 +100,11 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
     terminal.verdict(path, clip->report);
     return std::move(clip->recording);
   };
-  std::vector<Recording> recordings;
-  for (const std::string& path : paths) {
+  return read_all(paths, arguments, terminal, [&](const std::string& path) {
     auto recording = recording_of(path);
-    if (recording) {
-      if (!options->curve) options->curve = curve_of(*recording);
-      recordings.push_back(*std::move(recording));
-    } else if (!leave_out(path, recording.error(), arguments, terminal)) {
-      return recording.error();
-    }
-  }
-  if (recordings.empty()) return Error{"none of the recordings can be used"};
-  return recordings;
+    if (recording && !options->curve) options->curve = curve_of(*recording);
+    return recording;
+  });
 }
 
 }  // namespace wisp::cli

@@ -18,11 +18,14 @@ Result<void> rename(const Arguments& arguments, const char* flag, const std::arr
                     Recording& recording) {
   if (!arguments.has(flag)) return {};
   const auto columns = arguments.names(flag);
+  std::array<std::size_t, kSize> found{};
   for (std::size_t k = 0; k < kSize; ++k) {
     const auto channel = find_channel(recording, columns[k]);
     if (!channel) return Error{recording.source + ": has no column " + columns[k] + ", which --" + flag + " names"};
-    recording.channels[*channel].name = names[k];
+    found[k] = *channel;
   }
+  // Only now, as the columns may have these names in another order.
+  for (std::size_t k = 0; k < kSize; ++k) recording.channels[found[k]].name = names[k];
   return {};
 }
 

@@ -2,6 +2,7 @@
 // Reads recordings named by commands, by their kind of file.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ bool is_matlab(const std::filesystem::path& path);
 /// given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
-/// Reads one table with the options of csv_options().
+/// Reads one table with the options of csv_options(), and renames its columns by as_motion().
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise = {});
 
@@ -41,8 +42,13 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
 /// Returns whether it is skipped.
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal);
 
-/// Reads all tables. A bad one is an error or, with --skip-bad, a warning and an entry of `skipped` in the result.
-/// Errors: also where none remains.
+/// Reads every path by `read`. A bad recording is an error, or handled by leave_out().
+/// Errors: those of `read`; no recording remains.
+Result<std::vector<Recording>> read_all(const std::vector<std::string>& paths, const Arguments& arguments,
+                                        Terminal& terminal,
+                                        const std::function<Result<Recording>(const std::string&)>& read);
+
+/// read_all() by read_table().
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
                                            Terminal& terminal, const CsvOptions& otherwise = {});
 

@@ -191,14 +191,11 @@ Plot correlation_plot(const ReportSeries& correlations, const ReportSeries& boun
 PlotSheet residual_sheet(const Figures& figures) {
   PlotSheet sheet{.columns = static_cast<int>(1 + figures.inputs()), .plot_width = 420, .plot_height = 260};
   for (std::size_t i = 0; i < figures.outputs(); ++i) {
-    std::vector<std::string> ids{"residual." + std::to_string(i) + ".white"};
-    for (std::size_t k = 0; k < figures.inputs(); ++k) {
-      ids.push_back("residual." + std::to_string(i) + "." + std::to_string(k));
-    }
-    for (const std::string& id : ids) {
-      const ReportSeries* found = figures.find(id);
-      const ReportSeries* bound = figures.find(id + ".bound");
-      if (found && bound) sheet.plots.push_back(correlation_plot(*found, *bound));
+    std::vector<const ReportSeries*> all{figures.find("residual." + std::to_string(i) + ".white")};
+    for (std::size_t k = 0; k < figures.inputs(); ++k) all.push_back(figures.find("residual", i, k));
+    for (const ReportSeries* found : all) {
+      const ReportSeries* bound = found ? figures.find(found->id + ".bound") : nullptr;
+      if (bound) sheet.plots.push_back(correlation_plot(*found, *bound));
     }
   }
   return sheet;

@@ -14,8 +14,7 @@ Flag output_flag(std::vector<std::string> unless) {
           Kind::kOutput,
           "M.wisp",
           "",
-          "where to write the model; with --json not needed: then there is "
-          "the report alone",
+          "where to write the model; with --json not needed: then there is the report alone",
           {},
           true,
           std::move(unless)};

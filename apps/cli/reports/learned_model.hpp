@@ -14,7 +14,7 @@ namespace wisp::cli {
 /// `-o` of a command that learns: required unless one of these flags or --json is given.
 Flag output_flag(std::vector<std::string> unless = {});
 
-/// Path of the model (empty: none) and name of the model.
+/// Path of the model, empty if it is not written; and the model's name, which is the file's stem.
 std::string model_path(const Arguments& arguments);
 std::string model_name(const Arguments& arguments);
 

@@ -47,10 +47,10 @@ class Dask(unittest.TestCase):
         found.loader.exec_module(module)
         return module
 
-    def test_a_worker_that_dies_half_way_changes_no_byte(self):
+    def test_a_worker_that_dies_half_way_changes_no_byte_of_an_arx_model(self):
         self.spread_with_a_death("arx", "tip.wisp", flags)
 
-    def test_nor_of_a_flame(self):
+    def test_a_worker_that_dies_half_way_changes_no_byte_of_a_flame(self):
         self.spread_with_a_death("flame", "flame.wisp", [])
 
     def spread_with_a_death(self, kind, name, more):

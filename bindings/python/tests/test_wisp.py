@@ -200,7 +200,7 @@ class Playing(unittest.TestCase):
         bank = wisp.Bank(wisp.read_model(flame), 5)
         with self.assertRaisesRegex(ValueError, "expected 1 for all or 1 for each of 5 slots"):
             bank.set_inputs([1, 2, 3])
-        # An array with a row per input instead of per slot would blow on other leaves.
+        # An array with a row per input instead of a row per slot would reach the wrong leaves.
         leaves = wisp.Bank(wisp.read_model(root / "apps/web/public/models/leaf.wisp"), 10)
         leaves.set_inputs(np.zeros((10, 3)))
         leaves.set_inputs([0, 0, 1])
@@ -327,7 +327,6 @@ class EveryModel(unittest.TestCase):
         self.assertEqual(figure.axes[6].texts[0].get_text(), "0.10 s")
         with self.assertRaisesRegex(ValueError, "frames, points, 2"):
             wisp.film_strip({"played": outlines[0]})
-
 
     def test_an_exported_flame_is_bright_inside_and_orange_outside_however_it_is_composited(self):
         shipped = wisp.read_model(root / "apps/web/public/models/flame.wisp")

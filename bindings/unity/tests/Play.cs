@@ -27,7 +27,7 @@ internal static class Play
                 bank.Step();
                 bank.Outputs(outputs);
                 string[] cells = row.Split(',');
-                Expect(cells.Length > outputs.Length, "a row of " + cells.Length);  // the wind comes before, whether each burns after
+                Expect(cells.Length > outputs.Length, "a row of " + cells.Length);  // columns: the wind, the outputs, the lit flags
                 for (int k = 0; k < outputs.Length; ++k)
                     Expect((float)double.Parse(cells[k + 1], CultureInfo.InvariantCulture) == outputs[k], "frame " + frames + ": " + outputs[k] + ", wisp run has " + cells[k + 1]);
                 ++frames;
