@@ -21,19 +21,22 @@
 namespace wisp {
 namespace {
 
-Result<void> check_frames(const std::filesystem::path& path, const std::optional<FrameRange>& frames,
-                          std::size_t rows) {
-  const auto last = frames ? frames->first - 1 + static_cast<std::int64_t>(rows) : 0;
-  if (!frames || last >= frames->last) return {};
-  return Error{path.string() + ": frames " + std::to_string(frames->first) + ":" + std::to_string(frames->last) +
-               " reach beyond its end, frame " + std::to_string(last)};
-}
-
-ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
+ClipTimes times_of(const VideoReader& reader, const std::optional<FrameRange>& frames) {
   ClipTimes times = reader.times();
-  const auto skipped = static_cast<std::size_t>(options.frames ? options.frames->first - 1 : 0);
+  const auto skipped = static_cast<std::size_t>(frames ? frames->first - 1 : 0);
   times.offsets = times.offsets.subspan(std::min(skipped, times.offsets.size()));
   return times;
+}
+
+// Refuses a range that reaches beyond what was read of a film; a folder of images is checked when it is opened. The
+// last frames of the range may be lost: then the times go on beyond the rows.
+Result<void> check_frames(const std::filesystem::path& path, const std::optional<FrameRange>& frames,
+                          const VideoReader& reader, std::size_t rows) {
+  const std::size_t read = std::max(rows, times_of(reader, frames).offsets.size());
+  const auto last = frames ? frames->first - 1 + static_cast<std::int64_t>(read) : 0;
+  if (!frames || reader.info().images || last >= frames->last) return {};
+  return Error{path.string() + ": frames " + std::to_string(frames->first) + ":" + std::to_string(frames->last) +
+               " reach beyond its end, frame " + std::to_string(last)};
 }
 
 // Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty without a sound track.
@@ -79,12 +82,10 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
     });
     if (!heard) return heard.error();
   }
-  const ClipTimes times = times_of(*reader, options);
+  const ClipTimes times = times_of(*reader, options.frames);
   auto captured = live->finish(times);
   if (!captured) return captured;
-  // The last frames of the range may be lost: then the times go on beyond the rows.
-  const std::size_t rows = std::max(captured->recording.rows(), times.offsets.size());
-  if (auto ok = check_frames(path, options.frames, rows); !ok) return ok.error();
+  if (auto ok = check_frames(path, options.frames, *reader, captured->recording.rows()); !ok) return ok.error();
   if (options.frames) {
     captured->recording.attributes.push_back({"first_frame", std::to_string(options.frames->first)});
   }
@@ -285,6 +286,7 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     const double done = static_cast<double>(channel.samples.size()) / frames;
     if (!go_on(progress, "measuring", std::min(1.0, done))) return Error{std::string(kStopped)};
   }
+  if (auto ok = check_frames(path, options.frames, *reader, channel.samples.size()); !ok) return ok.error();
   const double usual = mean(present(channel.samples));
   if (!(usual > 0)) return Error{path.string() + ": is black throughout, there is no light to measure"};
   for (double& value : channel.samples) value /= usual;
@@ -300,6 +302,7 @@ Result<Captured> capture_falls(const std::filesystem::path& path, const FallOpti
   auto capture = FallCapture::create({path.string(), reader->info().rate_hz, reader->info().images}, options);
   if (!capture) return capture.error();
   if (auto read = read_into(*reader, *capture, options.frames, progress); !read) return read.error();
+  if (auto ok = check_frames(path, options.frames, *reader, 0); !ok) return ok.error();
   auto captured = capture->finish();
   if (!captured) return captured;
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));

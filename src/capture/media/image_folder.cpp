@@ -149,9 +149,10 @@ Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const V
   folder.place(folder.images_);
   if (options.frames) {
     const std::int64_t last = folder.images_.back().index + 1;
-    if (options.frames->first > last) {
-      return Error{path.string() + ": found " + std::to_string(last) + " frames, expected frame " +
-                   std::to_string(options.frames->first) + " as the first; give a range inside the clip"};
+    const auto [first_wanted, last_wanted] = *options.frames;
+    if (last_wanted > last) {
+      return Error{path.string() + ": found " + std::to_string(last) + " frames, expected frames " +
+                   std::to_string(first_wanted) + ":" + std::to_string(last_wanted) + "; give a range inside the clip"};
     }
     std::erase_if(folder.images_, [&](const NumberedImage& image) {
       return image.index + 1 < options.frames->first || image.index + 1 > options.frames->last;

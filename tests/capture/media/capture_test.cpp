@@ -63,6 +63,19 @@ TEST_F(Capture, ARangeMayBeginWithALostFrame) {
   EXPECT_TRUE(std::isnan(clip.recording.channels.front().samples.front()));
 }
 
+TEST_F(Capture, ARangeOfImagesMayEndWithALostFrame) {
+  std::filesystem::remove(folder_ / "129.pgm");
+  EXPECT_EQ(captured({.frames = FrameRange{1, 30}, .rate_hz = 50}).recording.rows(), 29u);
+}
+
+TEST_F(Capture, ARangeBeyondTheEndIsRefusedByBrightnessAndFallsToo) {
+  const FrameRange beyond{11, 41};
+  EXPECT_THAT(capture_brightness(folder_.path(), {.frames = beyond, .rate_hz = 50}).error().message,
+              HasSubstr("found 40 frames, expected frames 11:41"));
+  EXPECT_THAT(capture_falls(folder_.path(), {.frames = beyond, .rate_hz = 50}).error().message,
+              HasSubstr("found 40 frames, expected frames 11:41"));
+}
+
 TEST_F(Capture, BrightnessOfARangeHasTheRowsOfTheRange) {
   const auto light = capture_brightness(folder_.path(), {.frames = FrameRange{11, 40}, .rate_hz = 50});
   ASSERT_TRUE(light) << light.error().message;
