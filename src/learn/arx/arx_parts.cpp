@@ -237,8 +237,10 @@ Result<ArxPart> ArxPart::create(const ArxRecipe& recipe) {
 }
 
 Result<void> ArxPart::add(const Recording& recording, const TableShare& share) {
-  const std::size_t end = share.rows == arx::kAllRows ? recording.rows() : share.first + share.rows;
-  if (share.first >= recording.rows() || end > recording.rows()) return arx::beyond(recording.source, share);
+  const std::size_t left = recording.rows() - std::min(share.first, recording.rows());
+  const std::size_t rows = share.rows == arx::kAllRows ? left : share.rows;
+  if (left == 0 || rows > left) return arx::beyond(recording.source, share);
+  const std::size_t end = share.first + rows;
   PartState own(state_->names, state_->orders);
   const RowPart part = arx::share_of(end - share.first, share);
   if (auto ok = arx::take_rows(slice(recording, share.first, end), part, own); !ok) return ok;

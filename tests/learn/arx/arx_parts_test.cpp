@@ -68,6 +68,14 @@ TEST(ArxParts, SharesThroughBytesMakeTheModelOfAllRows) {
   EXPECT_FALSE(fit->model.training.program.empty());
 }
 
+TEST(ArxParts, ARangeWhoseEndIsNoNumberReachesBeyondTheEnd) {
+  auto part = ArxPart::create(recipe_of_made());
+  ASSERT_TRUE(part);
+  const auto added = part->add(record_system(made_system(), 100, 1), {.first = 5, .rows = SIZE_MAX - 3});
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().message, HasSubstr("reach beyond its end"));
+}
+
 TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRangeAndSimulatesIt) {
   const Recording recording = record_system(made_system(), 3000, 1);
   const auto path = std::filesystem::path(testing::TempDir()) / ("parts." + std::to_string(getpid()) + ".csv");
