@@ -19,6 +19,7 @@ constexpr int kSettlingRounds = 60;  // iterations until visit shares are statio
 constexpr std::size_t kAnyOf = 8;    // maximum successors considered in a mode whose segments are equally probable
 constexpr double kMaxStored = 32767;
 constexpr double kMinSpread = 1e-9;
+constexpr double kMinLead = 1e-6;  // metres: smaller leads are rounding errors
 
 using Complex = std::complex<double>;
 
@@ -177,7 +178,7 @@ ChainDrift drift_of(const ChainModel& chain, double rate_hz) {
   }
   out.spread_ground = std::max(ground / 2 / seconds, kMinSpread);
   out.spread_height = std::max(height / seconds, kMinSpread);
-  out.lead_scale = most > 0 ? most / kMaxStored : 1 / kMaxStored;
+  out.lead_scale = std::max(most, kMinLead) / kMaxStored;
   for (const Way& one : lead) {
     for (double x : {one.ground.real(), one.ground.imag(), one.height}) {
       out.lead.push_back(static_cast<std::int16_t>(std::lround(x / out.lead_scale)));
