@@ -127,9 +127,9 @@ void add_series(std::span<const NamedModel> models, const Recording& recording, 
   }
 }
 
-constexpr double kBadlyFitted = 30;  // percentage points of fit below the median over recordings
+constexpr double kBadlyFitted = 30;  // percentage points: a fit this far below the median fit gets a warning
 
-// Joins the same table of several reports, with the recording's name first in each row.
+// Joins the first tables of the reports, with the recording's name first in each row.
 ReportTable joined(const std::vector<Report>& reports, std::span<const Recording> recordings) {
   ReportTable all = reports.front().sections.front().tables.front();
   all.columns.insert(all.columns.begin(), {"recording", "recording"});
@@ -263,7 +263,7 @@ Result<Report> validate(const Model& model, std::span<const Recording> recording
 }
 
 Result<void> check_rate(const Model& model, const Recording& recording) {
-  constexpr double kSame = 1e-3;  // clocks and rounded periods differ by less
+  constexpr double kSame = 1e-3;  // maximum relative difference; errors of clocks and rounded periods are smaller
   if (std::abs(recording.rate_hz - model.rate_hz) <= kSame * model.rate_hz) return {};
   return Error{recording.source + ": has " + number_text(recording.rate_hz, 6) + " samples a second, the model " +
                number_text(model.rate_hz, 6) + ": resample the recording, or learn the model at that rate"};

@@ -23,7 +23,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const bool apart = coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
-  const auto& levels = fit.model.constant;  // the focus may choose a kernel, which estimates constants
+  const auto& levels = fit.model.constant;  // non-zero also without recipe.offset, if the focus chose a kernel
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
   notes.push_back({"offset", std::string(word_of(level ? ArxOffset::kEstimate : recipe.offset))});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
@@ -105,7 +105,7 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 namespace {
 
-// Recordings prepared for learning. With offset kMean, several recordings are each shifted to their common means.
+// Recordings prepared for learning. With offset kMean, each of several is shifted to the means over all recordings.
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;

@@ -66,7 +66,7 @@ struct ArxSummary : Criteria, RowCounts {
   std::vector<double> row_fpe;           ///< V·(1 + d/n)/(1 − d/n) per output row with d of that row
   std::vector<double> fit_percent;       ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) one step ahead, per output
   std::vector<double> free_run_fit_percent;  ///< fit_percent of free simulation from the input; empty: not simulated
-  std::vector<double> played_fit_percent;    ///< fit_percent of free simulation in single precision, as it is played
+  std::vector<double> played_fit_percent;    ///< fit_percent of free simulation in single precision, as in play
   std::vector<double> condition;             ///< 2-norm condition number of each output row's regressors, data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;
