@@ -42,7 +42,7 @@ Result<std::vector<Said>> all_said(std::span<const NamedModel> models, const Rec
   return out;
 }
 
-// Rows of an output that are measured, and predicted by every model that has the output.
+// Rows of an output that are measured, and predicted `steps` ahead by every model that has the output.
 std::vector<std::size_t> common_rows(const std::vector<double>& measured, const std::vector<Said>& said,
                                      const std::string& output, int steps) {
   std::vector<std::size_t> rows;

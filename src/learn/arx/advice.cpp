@@ -116,7 +116,7 @@ std::vector<std::size_t> outliers_in(const Series& all) {
   for (std::size_t k = 0; k < apart.size(); ++k) {
     if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 2);
   }
-  if (rows.size() * 20 > all.size()) rows.clear();  // too many for outliers: the channel jumps by nature
+  if (rows.size() * 20 > all.size()) rows.clear();  // more than 5 % are no outliers: the channel jumps by nature
   return rows;
 }
 
@@ -178,7 +178,7 @@ Line line_of(const Series& x, const Series& y) {
 // Adds a remark where `later` is a linear function of `earlier`, `lag` samples before; returns whether it is.
 bool repeats(const Subject& subject, const std::string& later, const std::string& earlier, int lag,
              std::vector<Remark>& out) {
-  constexpr double kSame = 1e-5;  // maximum residual RMS / deviation of a repeated channel; above float rounding
+  constexpr double kSame = 1e-5;  // maximum residual RMS / deviation of a repeated channel; covers float rounding
   const Series y = subject.all_of(later, lag), x = subject.all_of(earlier, 0, lag);
   const Line line = line_of(x, y);
   if (!(line.size > 0) || line.slope == 0) return false;
@@ -274,7 +274,7 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
 // The first recording without the output's linear trend; `drift` receives the change of that trend over all rows. Empty
 // where the trend is small, an input has a trend too, or there are fewer than 50 rows.
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
-  constexpr double kMuch = 0.6, kLittle = 0.1;  // of variance due to a trend: minimum in outputs, maximum in inputs
+  constexpr double kMuch = 0.6, kLittle = 0.1;  // share of variance by a trend: minimum in outputs, maximum in inputs
   Recording recording = subject.recordings.front();
   Series time(recording.rows());
   for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);

@@ -111,7 +111,7 @@ Result<void> take_rows(const Recording& recording, const RowPart& part, PartStat
 
 // Adds rows of a table, counted from the reader's position, chunk by chunk. Returns the number of rows.
 Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState& state) {
-  // Keeps one row more than the history: otherwise the rest of a continuing episode would count as a too short one.
+  // Keeps one row more than the history: otherwise the rest of a continuing episode would count as skipped.
   const auto kept = static_cast<std::size_t>(state.orders.history()) + 1;
   const std::size_t before = std::min(kept, part.begin);
   Recording window = reader.header();

@@ -1,5 +1,5 @@
-// Sources: C. Granger, Econometrica 37 (1969): a cause improves the prediction by the output's own past. C. Granger and
-// P. Newbold, J. Econometrics 2 (1974): channels that only drift alike explain each other.
+// Sources: C. Granger, Econometrica 37 (1969): a cause improves on the prediction from the output's own past. C.
+// Granger and P. Newbold, J. Econometrics 2 (1974): channels that only drift alike explain each other.
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@
 
 namespace wisp::arx {
 
-/// Rows [begin, end), from 0, of a recording that one part covers. All its parts together cover [first, last).
+/// Rows [begin, end), from 0, of a recording that one part covers. All parts of the recording cover [first, last).
 struct SeenRows {
   std::string source;
   std::uint64_t hash = 0;  ///< hash of the recording's contents, independent of its name

@@ -27,7 +27,8 @@ struct Sources {
   bool own_levels = false;  ///< whether each recording was centred on its own means
 };
 
-/// Errors: a range below 1e-120 but not 0, or a magnitude above 1e120: squares come near double precision's limits.
+/// Checks the samples of a channel. Errors: a range below 1e-120 but not 0, or a magnitude above 1e120: squares come
+/// near the limits of double precision.
 Result<void> check_size(const std::string& name, const ChannelSpan& span);
 
 /// Sources of recordings in memory. Errors: as find_signals() and check_size().

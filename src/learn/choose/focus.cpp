@@ -89,7 +89,7 @@ void append(const MatrixXd& more, MatrixXd& to) {
   to.bottomRows(more.rows()) = more;
 }
 
-// One block of coupled outputs with the candidates' errors; unset where a fold has too few rows for a candidate.
+// One block of coupled outputs, and the errors of each candidate (unset where a fold has too few rows for it).
 struct Block {
   FocusChoice choice;
   std::vector<std::optional<Errors>> errors{};

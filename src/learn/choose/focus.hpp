@@ -49,9 +49,10 @@ struct FocusedFit {
 /// Chooses, for each block of coupled outputs, between least squares at the given orders and each of kKernelLags under
 /// the TC kernel, with the given coupling or decoupled outputs, by the sum of squared errors of held-out free runs from
 /// fitted and from measured initial states. A candidate must lower the sum by 2 %. With kAuto it must also be
-/// surely_better() than least squares, from fitted states and in the sum, and 30 lags need a kernel chosen before.
-/// Returns `plain` with the reason for kPrediction, without inputs or feedback, without stabilisation, where the data
-/// do not determine all coefficients, or where too few rows can be held out. Errors: as fit_arx, kStopped.
+/// surely_better() than least squares, from fitted states and in the sum; 30 lags are tried only where a kernel is
+/// already chosen. Returns `plain` with the reason for kPrediction, without inputs or feedback, without stabilisation,
+/// where the data do not determine all coefficients, or where too few rows can be held out. Errors: as fit_arx,
+/// kStopped.
 ///
 /// Precondition: `plain` is fit_arx() of the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,

@@ -18,7 +18,7 @@ namespace wisp {
 
 struct DependentColumn {
   int column = 0;       ///< index among the regressors
-  std::vector<int> of;  ///< positions of the regressors that it depends on; empty: the column is zero
+  std::vector<int> of;  ///< regressors that the column depends on, as indices; empty: the column is zero
 };
 
 /// The least-squares solution for output rows that share the regressors X, in scaled units.

@@ -71,7 +71,7 @@ GroupThetas thetas_of(const FitFacts& facts, const ArxDesign& design, const ArxM
   return all;
 }
 
-// (XᵀX)⁻¹ of every output row, with the signs of A applied.
+// (XᵀX)⁻¹ of every output row, for coefficients with the signs of the model.
 std::vector<Eigen::MatrixXd> inverses(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate) {
   std::vector<Eigen::MatrixXd> all(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {

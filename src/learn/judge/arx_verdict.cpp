@@ -57,7 +57,7 @@ std::string acts_at_once(const VerdictEvidence& evidence, const ArxSummary& summ
   return "";
 }
 
-// Whether a remark explains a poor simulation: not where the model already accounts for the remark.
+// Whether a remark explains a poor simulation. It does not where the model's lags or integrators already cover it.
 bool explains(const Remark& remark, const VerdictEvidence& evidence) {
   if (remark.kind >= RemarkKind::kClock) return false;
   const auto place = [&](const std::vector<std::string>& names) {
@@ -76,7 +76,7 @@ bool explains(const Remark& remark, const VerdictEvidence& evidence) {
   return true;
 }
 
-// The cause of a poor simulation that the recordings show, and its remedy.
+// Text of the first remark that explains a poor simulation, with its remedy.
 std::string cause_in(const VerdictEvidence& evidence) {
   if (evidence.remarks) {
     for (const Remark& one : evidence.remarks()) {
@@ -111,7 +111,7 @@ std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& s
   return "";
 }
 
-// Inputs that carry the same information share their coefficients arbitrarily, however well the model fits.
+// Reports redundant inputs: least squares divides coefficients arbitrarily between them, however well the model fits.
 std::string is_redundant(const VerdictEvidence& evidence, const ArxSummary&) {
   return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }

@@ -269,7 +269,7 @@ class Runner {
 
   std::size_t memory() const { return memory_; }
 
-  /// Takes inputs before `row` as resting at the operating point.
+  /// Treats inputs before `row` as constant at the operating point.
   void rest_until(std::size_t row) { rest_until_ = row; }
 
   std::size_t outputs() const { return feedback_.size(); }

@@ -89,8 +89,8 @@ double variance_of(const Signals& signals, int channel) {
   return std::pow(deviation(present(std::move(all))), 2);
 }
 
-// Degrees of freedom that the fit takes from an output's autocorrelations. Each lag of output j in its row takes the
-// share of j's variance that the residual causes: 1 without inputs, small where an input drives j.
+// Degrees of freedom that the fit takes from an output's autocorrelations. Each lag of output j takes the share of j's
+// variance that the residual causes: 1 without inputs, small where an input drives j.
 double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
   constexpr int kSteps = 400;
   VectorXd driven = VectorXd::Zero(signals.outputs);
