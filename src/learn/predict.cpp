@@ -17,8 +17,8 @@ namespace {
 
 using Series = std::vector<std::vector<double>>;  // one series per output
 
-// Half width of the 95 % interval of every prediction. The initial state of a free run is taken as known, so after n
-// steps its uncertainty is that of an n-step prediction.
+// Half width of the 95 % interval of every prediction. The initial state of a free run is taken as known, so row n of
+// the run has the interval of an n-step prediction.
 Series half_widths(const Series& sd, const Recording& recording, const Series& predicted, int steps) {
   Series widths(predicted.size(), std::vector<double>(recording.rows(), kMissing));
   for (std::size_t i = 0; i < predicted.size(); ++i) {

@@ -42,7 +42,7 @@ Result<std::vector<Said>> all_said(std::span<const NamedModel> models, const Rec
   return out;
 }
 
-// Rows of an output that are measured, and predicted by every model that has the output.
+// Rows of an output that are measured, and predicted `steps` ahead by every model that has the output.
 std::vector<std::size_t> common_rows(const std::vector<double>& measured, const std::vector<Said>& said,
                                      const std::string& output, int steps) {
   std::vector<std::size_t> rows;
@@ -127,9 +127,9 @@ void add_series(std::span<const NamedModel> models, const Recording& recording, 
   }
 }
 
-constexpr double kBadlyFitted = 30;  // percentage points of fit below the median over recordings
+constexpr double kBadlyFitted = 30;  // percentage points: a fit this far below the median fit gets a warning
 
-// Joins the same table of several reports, with the recording's name first in each row.
+// Joins the first tables of the reports, with the recording's name first in each row.
 ReportTable joined(const std::vector<Report>& reports, std::span<const Recording> recordings) {
   ReportTable all = reports.front().sections.front().tables.front();
   all.columns.insert(all.columns.begin(), {"recording", "recording"});
@@ -263,7 +263,7 @@ Result<Report> validate(const Model& model, std::span<const Recording> recording
 }
 
 Result<void> check_rate(const Model& model, const Recording& recording) {
-  constexpr double kSame = 1e-3;  // clocks and rounded periods differ by less
+  constexpr double kSame = 1e-3;  // maximum relative difference; errors of clocks and rounded periods are smaller
   if (std::abs(recording.rate_hz - model.rate_hz) <= kSame * model.rate_hz) return {};
   return Error{recording.source + ": has " + number_text(recording.rate_hz, 6) + " samples a second, the model " +
                number_text(model.rate_hz, 6) + ": resample the recording, or learn the model at that rate"};

@@ -22,7 +22,7 @@ namespace {
 
 using Series = std::vector<double>;
 
-constexpr std::size_t kManyRows = 8192;  // maximum number of rows searched for feedback, delays and redundant channels
+constexpr std::size_t kManyRows = 8192;  // rows used at most by redundant_channels() and to find feedback and delays
 constexpr std::size_t kFewRows = 50;
 constexpr const char* kRoles[] = {"input", "output", "motion"};  // role names, indexed by Role
 
@@ -102,7 +102,7 @@ void look_for_sentinel(const std::string& name, const Series& all, std::vector<R
   }
 }
 
-// Rows, from 0, of samples far from the median of the five around them.
+// Indices of samples far from the median of the five samples centred on them.
 std::vector<std::size_t> outliers_in(const Series& all) {
   constexpr double kFar = 12;
   std::vector<std::size_t> rows;
@@ -116,7 +116,7 @@ std::vector<std::size_t> outliers_in(const Series& all) {
   for (std::size_t k = 0; k < apart.size(); ++k) {
     if (apart[k] > kFar * usual && apart[k] > 0.5 * spread) rows.push_back(k + 2);
   }
-  if (rows.size() * 20 > all.size()) rows.clear();  // too many for outliers: the channel jumps by nature
+  if (rows.size() * 20 > all.size()) rows.clear();  // more than 5 % are no outliers: the channel jumps by nature
   return rows;
 }
 
@@ -178,7 +178,7 @@ Line line_of(const Series& x, const Series& y) {
 // Adds a remark where `later` is a linear function of `earlier`, `lag` samples before; returns whether it is.
 bool repeats(const Subject& subject, const std::string& later, const std::string& earlier, int lag,
              std::vector<Remark>& out) {
-  constexpr double kSame = 1e-5;  // residual RMS over deviation: about what single precision leaves
+  constexpr double kSame = 1e-5;  // maximum residual RMS / deviation of a repeated channel; covers float rounding
   const Series y = subject.all_of(later, lag), x = subject.all_of(earlier, 0, lag);
   const Line line = line_of(x, y);
   if (!(line.size > 0) || line.slope == 0) return false;
@@ -195,7 +195,7 @@ bool repeats(const Subject& subject, const std::string& later, const std::string
   return true;
 }
 
-// Inputs are also compared at lags: where the lags of two inputs overlap, a model would have the same regressor twice.
+// Finds channels that are linear functions of others; inputs also at lags, where a model would repeat a regressor.
 void look_for_redundancy(const Subject& subject, int lags, std::vector<Remark>& out) {
   const auto names = subject.names();
   for (std::size_t l = 1; l < names.size(); ++l) {
@@ -274,7 +274,7 @@ void look_for_delays(const Subject& subject, std::vector<Remark>& out) {
 // The first recording without the output's linear trend; `drift` receives the change of that trend over all rows. Empty
 // where the trend is small, an input has a trend too, or there are fewer than 50 rows.
 std::optional<Recording> without_drift(const Subject& subject, const std::string& output, double& drift) {
-  constexpr double kMuch = 0.6, kLittle = 0.1;  // shares of variance that a trend explains
+  constexpr double kMuch = 0.6, kLittle = 0.1;  // share of variance by a trend: minimum in outputs, maximum in inputs
   Recording recording = subject.recordings.front();
   Series time(recording.rows());
   for (std::size_t t = 0; t < time.size(); ++t) time[t] = double(t);
@@ -292,7 +292,7 @@ std::optional<Recording> without_drift(const Subject& subject, const std::string
   return recording;
 }
 
-// An output that integrates still does so after detrending; one that only drifts does not.
+// Adds remarks on outputs that integrate or drift. After detrending, only the former still have poles at 1.
 void look_for_wandering(const Subject& subject, std::vector<Remark>& out) {
   for (const std::string& output : subject.outputs) {
     double drift = 0;

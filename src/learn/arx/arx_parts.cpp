@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kAllRows = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kRowsAtATime = 65536;  // rows of a table held in memory at a time
 
-// A CSV file of which all rows, or a range of rows, were taken in.
+// A CSV file, and the range of its rows (by default all) that a part reads.
 struct Table {
   std::filesystem::path path;
   CsvOptions options;
@@ -33,7 +33,7 @@ struct Table {
   std::string name() const { return path.string(); }
 };
 
-// A CSV file being read; the reader is at the first row of the file's range.
+// An open CSV file. open_table() leaves the reader at the first row of the table's range.
 struct OpenTable {
   std::unique_ptr<std::ifstream> stream;  // on the heap, so that the reader's pointer to it survives moves
   std::unique_ptr<CsvReader> reader;
@@ -56,7 +56,7 @@ Error beyond(const std::string& name, const TableShare& share) {
           " were requested, which reach beyond its end"};
 }
 
-// Rows of part share.index of share.count: `rows` divided into equal parts.
+// Returns the rows of part share.index where `rows` rows are divided into share.count nearly equal parts.
 RowPart share_of(std::size_t rows, const TableShare& share) {
   const auto start = [&](std::size_t k) { return k * (rows / share.count) + std::min(k, rows % share.count); };
   return {start(share.index), start(share.index + 1), share.index + 1 == share.count};
@@ -111,7 +111,7 @@ Result<void> take_rows(const Recording& recording, const RowPart& part, PartStat
 
 // Adds rows of a table, counted from the reader's position, chunk by chunk. Returns the number of rows.
 Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState& state) {
-  // One row more than the history: otherwise the rest of a continuing episode would count as one that is too short.
+  // Keeps one row more than the history: otherwise the rest of a continuing episode would count as skipped.
   const auto kept = static_cast<std::size_t>(state.orders.history()) + 1;
   const std::size_t before = std::min(kept, part.begin);
   Recording window = reader.header();
@@ -131,7 +131,7 @@ Result<std::size_t> take_table(CsvReader& reader, const RowPart& part, PartState
   }
 }
 
-// Operating point and scales, as in gather_signals(). Errors: a channel without samples; as check_size().
+// Computes operating point and scales as gather_signals() does. Errors: a channel without samples; as check_size().
 Result<FitFacts> facts_of(const PartState& state, const ArxOptions& options) {
   FitFacts facts;
   facts.options = options;
@@ -181,8 +181,8 @@ Result<void> simulate(const std::vector<Table>& tables, const PartState& state, 
   return {};
 }
 
-// The fit of all rows in the part. Departures from fit_arx(): the poles of an unstable estimate are moved only as far
-// as stability needs, and free simulation is judged in double precision over `tables`, if any.
+// Fits all rows in the part. Departures from fit_arx(): the poles of an unstable estimate are moved only as far as
+// stability needs, and free simulation is judged in double precision over `tables`, if any.
 Result<ArxFit> fit_of(const PartState& state, const ArxOptions& options, const std::vector<Table>& tables,
                       const Progress& progress) {
   if (auto ok = check_options(options, state.names); !ok) return ok.error();

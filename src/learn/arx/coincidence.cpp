@@ -1,5 +1,5 @@
-// Sources: C. Granger, Econometrica 37 (1969): a cause improves the prediction by the output's own past. C. Granger and
-// P. Newbold, J. Econometrics 2 (1974): channels that only drift alike explain each other.
+// Sources: C. Granger, Econometrica 37 (1969): a cause improves on the prediction from the output's own past. C.
+// Granger and P. Newbold, J. Econometrics 2 (1974): channels that only drift alike explain each other.
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ std::optional<Remark> coincidence(std::span<const Recording> recordings, const C
                                   const ArxOrders& orders) {
   constexpr int kShifts = 10, kMinBehind = 8, kMinShift = 40, kLags = 2;
   constexpr double kChance = 1e-3, kExact = 1e-9;
-  const std::vector<Recording> some = middles_of(recordings, 8192);  // more would not change the answer
+  const std::vector<Recording> some = middles_of(recordings, 8192);  // more rows would not change the answer
   const std::size_t longest = some.empty() ? 0 : std::ranges::max_element(some, {}, &Recording::rows)->rows();
   const int last = int(longest / 4), first = std::min(kMinShift, last / 2), own_lags = std::min(20, last / 5);
   for (int i = 0; i < orders.outputs(); ++i) {

@@ -52,8 +52,8 @@ std::vector<int> find_integrators(std::span<const Recording> recordings, const C
       open[i] = statistic <= kDickeyFuller || held->summary.fit_percent[i] > kExact;
       before[i] = held->summary.loss[i];
     }
-    // Free simulation is judged on the stabilised model, as it would be played: stabilisation moves estimated poles,
-    // and then the second of two integrators is lost.
+    // Compares free simulations of stabilised models, as they are played. Stabilisation moves estimated poles near 1
+    // inwards and may so lose an integrator; poles fixed below 1 stay.
     ArxOptions played = options;
     const auto kept = fit_integrators(recordings, channels, tried.integrators, played);
     for (std::size_t i = 0; kept && i < open.size(); ++i) {

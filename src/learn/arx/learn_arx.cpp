@@ -23,7 +23,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit) {
   const bool apart = coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
-  const auto& levels = fit.model.constant;  // non-zero also where a kernel chosen by the focus estimated them
+  const auto& levels = fit.model.constant;  // non-zero also without recipe.offset, if the focus chose a kernel
   const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
   notes.push_back({"offset", std::string(word_of(level ? ArxOffset::kEstimate : recipe.offset))});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
@@ -105,7 +105,7 @@ Fit finish(const ArxFit& fit, const ArxRecipe& recipe, const ChannelChoice& chan
 
 namespace {
 
-// Recordings prepared for learning. With offset kMean, several recordings are each shifted to their common means.
+// Recordings prepared for learning. With offset kMean, each of several is shifted to the means over all recordings.
 struct Prepared {
   std::vector<Recording> moved{};
   std::span<const Recording> seen;
@@ -131,7 +131,7 @@ Result<Prepared> prepare(std::span<const Recording> recordings, const ArxRecipe&
   return out;
 }
 
-// The estimate by least squares or with the requested kernel; outputs that integrate get fixed poles next to 1.
+// Fits by least squares or with the requested kernel. Outputs that integrate get poles fixed next to 1.
 Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Report& chosen) {
   ArxOptions& options = prepared.options;
   auto plain = fit_arx(prepared.seen, channels, options);
@@ -146,7 +146,7 @@ Result<ArxFit> first_fit(Prepared& prepared, const ChannelChoice& channels, Repo
   return fit_integrators(prepared.seen, channels, integrators, options);
 }
 
-// Judges the learned model by held-out rows and by remarks on the recordings.
+// Sets the summary's verdict from held-out rows, residual tests and remarks on the recordings.
 void judge_fit(const Prepared& prepared, const ChannelChoice& channels, const ArxOptions& options,
                const ResidualTests* tests, ArxSummary& summary) {
   VerdictEvidence evidence{channels, options.orders, persistence_errors(prepared.judged, channels), tests};

@@ -15,15 +15,15 @@
 
 namespace wisp {
 
-/// Learns by the recipe, after a search of orders if `search` is set, or an estimate of delays if `nk` is unset. A
-/// model that cannot be played (unstable, with stabilisation off) is returned too, with a verdict that says so. Errors:
-/// no recordings, channels missing from them, settings out of range, too few rows, kStopped.
+/// Learns an ARX model: searches orders if recipe.search is set, otherwise estimates delays if recipe.nk is unset. An
+/// unstable model (stabilisation off) is returned too, with a verdict that says so. Errors: no recordings, channels
+/// missing from them, settings out of range, a kernel with another focus than prediction, too few rows, kStopped.
 Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& recipe, const Progress& progress = {});
 
-/// Reports predictions, free simulation and residuals of a plain ARX model on a recording, and shares of rows in its
-/// 95 % intervals. Series of output I: `measured.I`, `simulated.I`, `predicted.I` (at most 15 steps ahead) with `.low`
-/// and `.high`, over seconds; residual tests; if requested `error.I` and `error.I.model` over steps, `error.I.inf` and
-/// responses. Errors: the recording lacks the model's channels or is too short, steps out of range, kStopped.
+/// Reports accuracy of predictions and free simulation, shares of rows in 95 % intervals and residual tests of a plain
+/// ARX model. Series of output I over seconds: `measured.I`, `simulated.I`, `predicted.I` (at most 15 steps ahead) with
+/// `.low` and `.high`. options.responses adds errors over steps (`error.I`, `error.I.model`, `error.I.inf`) and
+/// responses. Errors: the recording lacks channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are an ArxModel.
 Result<Report> validate_arx(const Model& model, const Recording& recording, const ValidationOptions& options = {},
@@ -33,24 +33,24 @@ namespace arx {
 
 ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders);
 
-/// Returns the number of poles at 1 per output, 0 to 2; empty where no output has any. Coupled outputs have none. A
-/// pole counts if fixing it at 1 raises the squared error by no more than the Dickey–Fuller test allows (5 %), or
-/// leaves a one-step fit above 99.9 %, and if it improves the fit of free simulation by over 2 percentage points.
-/// `plain`: fit_arx() with the same options.
+/// Returns the number of poles at 1 per output, 0 to 2; empty where no output has any, or without inputs. Outputs
+/// coupled to others have none. A pole counts if it improves the free-run fit by over 2 percentage points and if fixing
+/// it at 1 either passes the Dickey–Fuller test (5 %) or leaves a one-step fit above 99.9 %. `plain`: fit_arx() with
+/// the same options.
 std::vector<int> find_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOptions& options, const ArxFit& plain);
 
-/// Fits with an estimated constant and with poles fixed at 1 − d: the smallest d of 1e-5 to 1e-3 that leaves the model
-/// stable in single precision. `options` receives these settings. Errors: as fit_arx.
+/// Fits with an estimated constant and with poles fixed at 1 − d. Of d = 1e-5, 1e-4, 2⁻¹² takes the first whose model
+/// is stable in single precision, otherwise 1e-3. `options` receives these settings. Errors: as fit_arx.
 Result<ArxFit> fit_integrators(std::span<const Recording> recordings, const ChannelChoice& channels,
                                const std::vector<int>& integrators, ArxOptions& options);
 
-/// Number of poles at 1 of one output under a model with these inputs and orders 4; 0 where it cannot be fitted.
+/// Returns find_integrators() of one output, for na = nb = 4 and nk = 1; 0 where that model cannot be fitted.
 int integrators_in(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
                    const std::string& output);
 
-/// Sums of squares of one output over the same `rows`: `size` about its mean, `own` of what its own past leaves, `both`
-/// of what its own past and each set of the inputs' lags leave. percent(): share of `own` that the first set explains.
+/// Sums of squared residuals of one output over `rows` rows: `size` after regression on a constant, `own` also on its
+/// own past, `both` also on one set of lagged inputs. percent(): percentage of `own` that the first set explains.
 struct PastEffect {
   double rows = 0, size = 0, own = 0;
   std::vector<double> both{};
@@ -58,13 +58,13 @@ struct PastEffect {
   double percent() const { return own > 0 ? 100 * (1 - both.front() / own) : 0; }
 };
 
-/// Regressions of channels.outputs[0]. Channel 1 + k of a set is input k. Empty where a channel is missing or has no
-/// sample, and where there are too few rows.
+/// Regresses channels.outputs[0] on its last `own_lags` samples, alone and with each set of lagged inputs, in which
+/// input 0 is channel 1. Empty where gather_signals() fails, and where there are too few rows.
 std::optional<PastEffect> effect_of_past(std::span<const Recording> recordings, const ChannelChoice& channels,
                                          const std::vector<std::vector<LaggedChannel>>& sets, int own_lags = 20);
 
-/// A remark on the first output that its inputs explain, beside its own past, no better than the same inputs shifted
-/// far into the past do. A ramp or a sine looks alike at every shift, so no recording shows whether it drives anything.
+/// Returns a remark on the first output that at least 3 of 10 far delayed copies of the inputs explain about as well as
+/// the inputs do. Ramps and sines fit at every delay: no recording shows whether they are the cause.
 std::optional<Remark> coincidence(std::span<const Recording> recordings, const ChannelChoice& channels,
                                   const ArxOrders& orders);
 

@@ -30,7 +30,7 @@ class Archive {
   bool at_end() const { return fine_ && left_.empty(); }
   std::vector<std::byte> take() { return std::move(bytes_); }
 
-  /// Whether `count` more numbers can follow; checked before memory is allocated for them.
+  /// Whether `count` more numbers can be read; if not, sets the error flag. Called before memory is allocated.
   bool has_room(std::size_t count) { return fine_ = fine_ && (!reading_ || count <= left_.size() / 8); }
 
   void number(std::uint64_t& value) {

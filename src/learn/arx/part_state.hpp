@@ -20,8 +20,7 @@
 
 namespace wisp::arx {
 
-/// Rows [begin, end) that this part covers, of a recording whose rows [first, last) are covered by this part and its
-/// siblings together; 0-based.
+/// Rows [begin, end), from 0, of a recording that one part covers. All parts of the recording cover [first, last).
 struct SeenRows {
   std::string source;
   std::uint64_t hash = 0;  ///< hash of the recording's contents, independent of its name
@@ -42,7 +41,7 @@ struct PartChannel {
 struct PartState {
   ChannelChoice names;
   ArxOrders orders;
-  double rate_hz = 0;                 ///< sampling rate; 0: nothing was taken in
+  double rate_hz = 0;                 ///< sampling rate; 0 before rows were added
   std::vector<PartChannel> channels;  ///< outputs, then inputs
   Eigen::MatrixXd triangle;           ///< QR factor R of all columns of the design's layout
   std::uint64_t rows = 0, episodes_used = 0, episodes_skipped = 0, rows_left_out = 0;
@@ -67,8 +66,7 @@ struct PartState {
 void shift_columns(const ArxOrders& orders, const std::vector<double>& shift, const std::vector<double>& scale,
                    Eigen::MatrixXd& triangle);
 
-/// Rows covered by the parts, one entry per recording. Errors: a recording with rows between its first and last that
-/// are in no part.
+/// Joins rows covered by parts to one entry per recording. Errors: rows of [first, last) that no part covers.
 Result<std::vector<SeenRows>> covered(std::vector<SeenRows> seen);
 
 /// Text of a row range, such as "1:500", counted from 1.

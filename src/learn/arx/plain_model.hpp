@@ -1,5 +1,5 @@
 #pragma once
-// Builds a model without shape, whose outputs are the channels themselves, around learned dynamics.
+// Models whose outputs are recorded channels, without an outline: their channels, sources, centring and orders.
 
 #include <span>
 #include <string>
@@ -27,17 +27,18 @@ struct Sources {
   bool own_levels = false;  ///< whether each recording was centred on its own means
 };
 
-/// Errors: a range below 1e-120 but not 0, or a magnitude above 1e120, whose fourth powers leave double precision.
+/// Checks the samples of a channel. Errors: a range below 1e-120 but not 0, or a magnitude above 1e120: squares come
+/// near the limits of double precision.
 Result<void> check_size(const std::string& name, const ChannelSpan& span);
 
 /// Sources of recordings in memory. Errors: as find_signals() and check_size().
 Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels);
 
-/// A model without dynamics: name, rate, channels with units and ranges, and sources, in the recordings' units.
+/// Returns a model without dynamics: name, rate, channels with units and ranges, and sources, in the recordings' units.
 Model plain_model(const std::string& name, const ChannelChoice& channels, const Sources& sources);
 
-/// Recordings shifted so that each channel has the mean `means` (outputs, then inputs) or, where that is empty, its
-/// mean over all recordings: MATLAB's detrend(z, 0) for several experiments.
+/// Returns the recordings, each shifted so that the means of its channels are `means` (outputs, then inputs) or, if
+/// `means` is empty, the means over all recordings; like MATLAB's detrend(z, 0) for several experiments.
 std::vector<Recording> about_own_levels(std::span<const Recording> recordings, const ChannelChoice& channels,
                                         std::vector<double> means = {});
 
@@ -45,14 +46,14 @@ std::vector<Recording> about_own_levels(std::span<const Recording> recordings, c
 /// `moved`, if not null, receives the shift added to each output.
 Recording seen_by(const Model& model, const Recording& recording, std::vector<double>* moved = nullptr);
 
-/// The channels that a model was learned from.
+/// Names of the model's inputs and outputs.
 ChannelChoice channels_of(const Model& model);
 
 /// Order matrices from a recipe, na 0 between uncoupled outputs. Errors: no output, wrong shapes, orders out of range.
 Result<ArxOrders> orders_of(const OrderChoice& na, const OrderChoice& nb, const OrderChoice& nk, Coupling coupling,
                             const ChannelChoice& channels);
 
-/// Notes of the settings that were decided: na, nb, nk and coupling.
+/// Notes for the training record: na, nb, nk and coupling.
 std::vector<Note> order_notes(const ArxOrders& orders, Coupling coupling);
 
 }  // namespace wisp::arx

@@ -17,7 +17,7 @@ namespace wisp {
 namespace arx {
 namespace {
 
-constexpr int kMaxPlottedSteps = 15;  // above this, a prediction is practically a simulation
+constexpr int kMaxPlottedSteps = 15;  // maximum plotted horizon; longer predictions are practically simulations
 constexpr int kErrorSteps = 20;       // number of steps in the plot of errors over steps
 
 // Model, recording and options under validation.
@@ -44,7 +44,7 @@ struct Judged {
   std::optional<ResidualTests> tests{};  // empty where the recording is too short
 };
 
-// Standard deviations of prediction errors up to the longest horizon; for free simulation, until they settle.
+// Standard deviations of prediction errors up to the longest horizon; free simulation counts as kSettledSteps.
 std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector<int>& steps) {
   int longest = *std::max_element(steps.begin(), steps.end());
   if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettledSteps);
@@ -142,8 +142,8 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
   }
 }
 
-// Error against the number of steps (the paper's figure of prediction), with the error that the model itself expects.
-// Omitted where the recording is shorter than twenty steps.
+// Adds the RMS error over the number of steps, as measured and as expected from the model's noise, and that of free
+// simulation. Adds nothing where no stretch of the recording is long enough for twenty steps.
 void add_error_growth(const Subject& subject, ReportSection& section) {
   FigureOptions options;
   options.steps.clear();

@@ -100,9 +100,9 @@ Result<Delays> estimate_delays(std::span<const Recording> recordings, const Chan
   std::size_t rows = 0;
   for (const Recording& one : recordings) rows += one.rows();
   auto delays = delays_up_to(options.most.value_or(kFirst), *signals, options);
-  // Ends where two doublings change no delay, and all are supported: a short delay may be supported by chance, or
-  // because the input resembles its own past. A doubling needs kRowsALag rows per lag, and kRowsACoefficient more per
-  // lag of each further input, since all lags of the other inputs enter.
+  // Ends where two doublings in a row change no delay and all delays are supported: a short delay may be supported by
+  // chance, or because the input resembles its own past. A doubling needs kRowsALag rows per lag, and kRowsACoefficient
+  // more per lag of each further input, since all lags of the other inputs enter.
   for (int most = 2 * kFirst, unchanged = 0;
        delays && !options.most && most * std::max(1, signals->inputs) <= kLast &&
        rows >= static_cast<std::size_t>(most) *

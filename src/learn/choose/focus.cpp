@@ -89,7 +89,7 @@ void append(const MatrixXd& more, MatrixXd& to) {
   to.bottomRows(more.rows()) = more;
 }
 
-// One block of coupled outputs with the candidates' errors; unset where a fold has too few rows for a candidate.
+// One block of coupled outputs, and the errors of each candidate (unset where a fold has too few rows for it).
 struct Block {
   FocusChoice choice;
   std::vector<std::optional<Errors>> errors{};
@@ -129,8 +129,8 @@ class Chooser {
     return {};
   }
 
-  /// Chooses a candidate per block: one surely better than least squares or, with `leave_least_squares`, just better.
-  /// Returns whether any block could be judged.
+  /// Chooses a candidate per block: one surely better than least squares or, with `leave_least_squares`, better by
+  /// kWorthIt. Returns whether any block could be judged.
   bool choose(bool leave_least_squares) {
     bool judged = false;
     for (Block& block : blocks_) {
@@ -176,7 +176,7 @@ class Chooser {
  private:
   const std::vector<FocusCandidate>& candidates() const { return blocks_.front().choice.candidates; }
 
-  // Whether to try a kernel: the mean episode of every recording is long compared with its lags, and the number of
+  // Whether to try a kernel: the mean episode of every recording is long compared with the lags, and the number of
   // coefficients keeps the computation affordable.
   bool has_kernel(std::span<const Recording> recordings, const ArxOrders& orders, int lags) const {
     double work = 0;

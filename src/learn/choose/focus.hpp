@@ -16,22 +16,22 @@
 
 namespace wisp::arx {
 
-/// Numbers of lags of every channel under the kernel, where the orders have fewer. 15 cover two damped resonances and
-/// intermediate cases, 30 cover slow responses.
+/// Numbers of lags of every channel under the kernel; larger orders are kept. 15 lags cover two damped resonances per
+/// output, 30 cover slow responses.
 inline constexpr int kKernelLags[] = {15, 30};
 
 /// One candidate for a block of coupled outputs, with its errors over held-out free runs.
 struct FocusCandidate {
   int kernel_lags = 0;         ///< number of lags under the TC kernel; 0: least squares at the given orders
   bool decoupled = false;      ///< without feedback between outputs
-  double estimated_error = 0;  ///< RMS divided by the outputs' standard deviation, from the best initial state
-  double measured_error = 0;   ///< the same ratio, from measured initial samples
+  double estimated_error = 0;  ///< RMS error / standard deviation of the outputs, from fitted initial states
+  double measured_error = 0;   ///< RMS error / standard deviation, from measured initial samples
 };
 
 struct FocusChoice {
   std::vector<int> outputs;
   std::size_t chosen = 0;
-  std::vector<FocusCandidate> candidates{};  ///< least squares at the given orders first; empty: it was not judged
+  std::vector<FocusCandidate> candidates{};  ///< first: least squares at the given orders; empty: too few rows to judge
 };
 
 struct FocusOutcome {
@@ -47,11 +47,12 @@ struct FocusedFit {
 };
 
 /// Chooses, for each block of coupled outputs, between least squares at the given orders and each of kKernelLags under
-/// the TC kernel, both with the given coupling and with decoupled outputs, by free simulation of held-out rows, from
-/// fitted and from measured initial states. A candidate must lower the squared error by 2 %; with kAuto it must also be
-/// surely_better() than least squares, from fitted states and over both. Returns `plain` with the reason for
-/// kPrediction, without inputs or feedback, without stabilisation, where the data do not determine all coefficients, or
-/// where too few rows can be held out. Errors: as fit_arx, kStopped.
+/// the TC kernel, with the given coupling or decoupled outputs, by the sum of squared errors of held-out free runs from
+/// fitted and from measured initial states. A candidate must lower the sum by 2 %. With kAuto it must also be
+/// surely_better() than least squares, from fitted states and in the sum; 30 lags are tried only where a kernel is
+/// already chosen. Returns `plain` with the reason for kPrediction, without inputs or feedback, without stabilisation,
+/// where the data do not determine all coefficients, or where too few rows can be held out. Errors: as fit_arx,
+/// kStopped.
 ///
 /// Precondition: `plain` is fit_arx() of the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,

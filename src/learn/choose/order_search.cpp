@@ -83,7 +83,7 @@ class Search {
   }
 
  private:
-  // Layout with the columns of all candidates: that of a model with the smallest delay and every lag up to the largest.
+  // Layout of a model with the smallest delay and every lag up to the largest: it has the columns of all candidates.
   LagLayout layout() const {
     const int lags = options_.nb.last > 0 ? options_.nb.last + options_.nk.last - options_.nk.first : 0;
     const ArxOrders all = make_orders({.outputs = signals_.outputs,
@@ -175,7 +175,7 @@ class Search {
   std::optional<SearchWindows> validation_;
 };
 
-// Criteria that are sums over rows are divided by their number, since candidates may have different windows.
+// Criteria that are sums over rows are divided by the number of rows, which may differ between candidates.
 double value_of(const Criteria& criteria, OrderCriterion by, std::size_t rows) {
   constexpr double Criteria::*kFigures[] = {&Criteria::fpe, &Criteria::aic, &Criteria::aicc, &Criteria::bic};
   const double value = criteria.*kFigures[static_cast<std::size_t>(by)];

@@ -27,7 +27,7 @@ struct SearchOptions {
   Coupling coupling = Coupling::kFull;
   OrderCriterion by = OrderCriterion::kFpe;
   int steps = 1;                        ///< for validation: steps ahead, or kFreeRun for free simulation
-  ArxOffset offset = ArxOffset::kMean;  ///< kMean subtracts each set's own means
+  ArxOffset offset = ArxOffset::kMean;  ///< kMean: validation recordings are centred on their own means
 };
 
 /// A candidate and its figures. Fits are as estimated, without stabilisation.
@@ -62,8 +62,8 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
 std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriterion by, std::size_t count);
 
 struct DelayOptions {
-  std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled until two doublings
-                              ///< change none and all are supported, as rows allow, up to 640 / inputs
+  std::optional<int> most{};  ///< largest delay tried, in samples, 0 to 4096; unset: 20, doubled as rows allow, up to
+                              ///< 640 / inputs, until two doublings in a row change no delay and all are supported
   int na = 2;                 ///< lags of the outputs in each candidate
   int nb = 2;                 ///< lags of the input, beginning at the delay
   ArxOffset offset = ArxOffset::kMean;

@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-// Maximum rounding error of residual products, as a share of a residual's square: small differences of large numbers.
+// Maximum relative rounding error of squared residuals from the Gram matrix; above it the triangle is used.
 constexpr double kMaxRounding = 1e-10;
 
 // Minimum pivot, as a share of a column's square: below it the column is nearly a combination of the columns before it,

@@ -10,12 +10,12 @@
 
 namespace wisp {
 
-/// Gram matrices of a layout over windows, one per first sample from `earliest` to `latest`. A window that starts a row
-/// earlier adds that row's products. Columns with a lag above the first sample are 0 in that row: a window's products
-/// of such columns must not be used.
+/// Gram matrices of a layout, one per window. The window of a first sample from `earliest` to `latest` has the rows of
+/// every episode from that sample on. Columns are 0 in rows before their lag: in windows that begin before a column's
+/// lag its products must not be used.
 class SearchWindows {
  public:
-  /// Preconditions: `signals` and `layout` outlive it; layout.history() <= latest; 0 <= earliest <= latest.
+  /// Preconditions: `signals` and `layout` outlive the windows; layout.history() <= latest; 0 <= earliest <= latest.
   SearchWindows(const Signals& signals, const LagLayout& layout, int earliest, int latest);
 
   std::size_t rows(int first_sample) const { return rows_[index(first_sample)]; }
@@ -39,8 +39,8 @@ class SearchWindows {
 };
 
 struct CandidateFit {
-  /// One column per output over all columns of the layout: −θ at the regressors, 1 at the target. A row of data times
-  /// it is the residual.
+  /// One column per output, one row per column of the layout: −θ at the regressors, 1 at the target. A row of data
+  /// times this matrix is a row of residuals.
   Eigen::MatrixXd annihilator;
   Eigen::MatrixXd residual_gram;  ///< ny × ny: Σ r_i r_j over the window
   bool determined = true;

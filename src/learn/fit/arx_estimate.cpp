@@ -20,7 +20,7 @@ constexpr double kMaxConditionForGram = 2e3;
 // accurate to 1e-16, and rounding over the rows loses some digits.
 constexpr double kNothingLeft = 1e-12;
 
-// Minimum share of a dependent column's norm from which another column is named as its cause.
+// Minimum weight (columns have norm 1) of a column that is named as a cause of a dependent column.
 constexpr double kPartOfDependence = 1e-6;
 
 DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>& kept, int column) {
@@ -71,7 +71,7 @@ SharedSolution finish(const SharedProblem& problem, const Eigen::MatrixXd& facto
   return solution;
 }
 
-// Householder reduction, column by column, so that a dependent column depends only on those before it and can be named.
+// Householder reduction, column by column, so that a dependent column depends only on earlier ones and can be named.
 struct Reduction {
   Eigen::MatrixXd matrix;
   std::vector<int> kept;
@@ -231,8 +231,8 @@ ResidualProducts residual_products(const Signals& signals, const RowPlan& plan, 
   return products;
 }
 
-// Adds the refinement step to the coefficients, and its effect within groups to `products`. Returns the step's relative
-// size.
+// Adds the refinement step to the coefficients, and its effect on products of residuals within groups to `products`.
+// Returns the step's relative size.
 double refine(const ArxDesign& design, const std::vector<SharedProblem>& problems, ResidualProducts& products,
               ArxEstimate& estimate) {
   double largest = 0;

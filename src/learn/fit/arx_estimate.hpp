@@ -17,13 +17,13 @@
 namespace wisp {
 
 struct DependentColumn {
-  int column = 0;       ///< index among the rows' regressors
-  std::vector<int> of;  ///< positions of the regressors that it depends on; empty: the column is zero
+  int column = 0;       ///< index among the regressors
+  std::vector<int> of;  ///< regressors that the column depends on, as indices; empty: the column is zero
 };
 
 /// The least-squares solution for output rows that share the regressors X, in scaled units.
 struct SharedSolution {
-  Eigen::MatrixXd theta;    ///< one column per output row, without A's sign; 0 for dependent regressors
+  Eigen::MatrixXd theta;    ///< one column per output row, with prediction signs (−A); 0 for dependent regressors
   Eigen::MatrixXd inverse;  ///< (XᵀX + FᵀF)⁻¹; 0 in rows and columns of dependent regressors
   std::vector<DependentColumn> dependent;
   double condition = 1;         ///< condition number of [X; F] in the data's units, without dependent columns
@@ -41,7 +41,7 @@ struct SharedProblem {
 /// Solves the problem from the triangle R of the whole regression; RᵀR is the Gram matrix.
 SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
 
-/// Coefficients of every group of rows: regressors × rows, in scaled units, without A's sign.
+/// Coefficients of every group of rows: regressors × rows, in scaled units, with prediction signs (A's are negated).
 using GroupThetas = std::vector<Eigen::MatrixXd>;
 
 struct ArxEstimate {

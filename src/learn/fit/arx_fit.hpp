@@ -38,14 +38,14 @@ struct RankProblem {
   int row = 0;          ///< output row
   std::string channel;  ///< channel of its regressor, or "constant"
   int lag = 0;
-  std::string reason;  ///< one sentence that names the channels and lags it depends on
+  std::string reason;  ///< one sentence that names the channels and lags that the regressor depends on
 };
 
 struct ArxStability {
   double radius = 0;       ///< spectral radius of the returned model, rounded to single precision
   bool changed = false;    ///< whether the estimate had to be changed
   double estimated = 0;    ///< spectral radius of the unconstrained estimate
-  double loss_factor = 1;  ///< geometric mean over outputs of one-step loss with the change / loss without it
+  double loss_factor = 1;  ///< loss after stabilisation / loss before, geometric mean over outputs
   double moved = 0;        ///< largest change of a coefficient by stabilisation alone, in its standard errors
 };
 
@@ -66,7 +66,7 @@ struct ArxSummary : Criteria, RowCounts {
   std::vector<double> row_fpe;           ///< V·(1 + d/n)/(1 − d/n) per output row with d of that row
   std::vector<double> fit_percent;       ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) one step ahead, per output
   std::vector<double> free_run_fit_percent;  ///< fit_percent of free simulation from the input; empty: not simulated
-  std::vector<double> played_fit_percent;    ///< fit_percent of free simulation in single precision, as it is played
+  std::vector<double> played_fit_percent;    ///< fit_percent of free simulation in single precision, as in play
   std::vector<double> condition;             ///< 2-norm condition number of each output row's regressors, data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;

@@ -71,7 +71,7 @@ GroupThetas thetas_of(const FitFacts& facts, const ArxDesign& design, const ArxM
   return all;
 }
 
-// (XᵀX)⁻¹ of every output row, with the signs of A applied.
+// (XᵀX)⁻¹ of every output row, for coefficients with the signs of the model.
 std::vector<Eigen::MatrixXd> inverses(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate) {
   std::vector<Eigen::MatrixXd> all(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
@@ -171,7 +171,7 @@ void write_noise(const FitFacts& facts, const ArxSummary& summary, ArxModel& mod
   }
 }
 
-// Factors from scaled coefficients without A's sign to the model's coefficients.
+// Factors that convert coefficients in scaled units, with prediction signs, to the model's coefficients.
 Eigen::VectorXd factors(const FitFacts& facts, const ArxDesign& design, const SharedRows& rows, int output,
                         Eigen::Index size) {
   Eigen::VectorXd out(size);
@@ -300,7 +300,7 @@ double loss_factor(const Eigen::MatrixXd& with, const Eigen::MatrixXd& without) 
   return std::exp(log);
 }
 
-// Fits in percent: a one-step fit of at least kPromise hides the failure of a free-run fit below kKept.
+// Percent: an output with at least kPromise one step ahead, but less than kKept in free simulation, gets a warning.
 constexpr double kPromise = 80, kKept = 60;
 
 // Warns of outputs with a good one-step fit but a poor free-run fit, where both are known.

@@ -1,5 +1,5 @@
-// Prior for impulse responses: they decay and are smooth. Marginal likelihood chooses the decay and the scale from the
-// data.
+// Prior for the coefficients of a channel: over the lags they decay and are smooth. Marginal likelihood chooses the
+// decay and the scale from the data.
 //
 // Source: T. Chen, H. Ohlsson, L. Ljung, Automatica 48 (2012), the TC kernel; G. Pillonetto et al., Automatica 50
 // (2014), section 4.4 (empirical Bayes). With the kernel c·λ^max(i, j) the differences of neighbouring coefficients are
@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 constexpr double kFirstStep = 2;
 constexpr double kLastStep = 0.1;
 
-// Lower bound of a difference's variance, as a share of the first coefficient's: below it, digits are lost.
+// Lower bound of a difference's variance, as a share of the first coefficient's variance: below it, digits are lost.
 constexpr double kMinShare = 1e-10;
 
 // Hyperparameters of a channel: ln(variance of the first coefficient / noise variance), and ln(λ/(1 − λ)).

@@ -11,16 +11,16 @@ namespace wisp::arx {
 namespace {
 
 constexpr double kMinSimulationFit = 40;     // percent of fit in free simulation, for models with inputs
-constexpr double kMinSkill = 5;              // percent by which the squared error is less than that of persistence
-                                             // and of the mean, for models without inputs
+constexpr double kMinSkill = 5;              // minimum percent by which the squared error is below those of
+                                             // persistence and of the mean, for models without inputs
 constexpr double kMinRowsACoefficient = 10;  // rows per coefficient of an output
-constexpr double kMaxMoved = 10;             // standard errors by which stabilisation may move a coefficient
+constexpr double kMaxMoved = 10;             // maximum standard errors by which stabilisation moves a coefficient
 constexpr double kSameSample = 0.25;         // correlation above which an input counts as acting without delay
 constexpr double kTrace = 1e-4;              // share of the output's variance below which an effect may be rounding
 constexpr double kSetByOutput = 95;  // percent of an input explained by an output, above which its response is in doubt
 constexpr double kMaxLostInPlay = 1;  // percentage points of fit that single precision may lose
 
-// A residual's correlation with the input of its own sample counts above this multiple of its 95 % bound.
+// Above this multiple of its 95 % bound, a residual's correlation with the input of the same sample counts.
 constexpr double kTimesBound = 2.5;
 
 std::string too_few_rows(const VerdictEvidence&, const ArxSummary& summary) {
@@ -57,7 +57,7 @@ std::string acts_at_once(const VerdictEvidence& evidence, const ArxSummary& summ
   return "";
 }
 
-// Whether a remark explains a poor simulation: not where the model already accounts for the remark.
+// Whether a remark explains a poor simulation. It does not where the model's lags or integrators already cover it.
 bool explains(const Remark& remark, const VerdictEvidence& evidence) {
   if (remark.kind >= RemarkKind::kClock) return false;
   const auto place = [&](const std::vector<std::string>& names) {
@@ -76,7 +76,7 @@ bool explains(const Remark& remark, const VerdictEvidence& evidence) {
   return true;
 }
 
-// The cause of a poor simulation that the recordings show, and its remedy.
+// Text of the first remark that explains a poor simulation, with its remedy.
 std::string cause_in(const VerdictEvidence& evidence) {
   if (evidence.remarks) {
     for (const Remark& one : evidence.remarks()) {
@@ -99,7 +99,7 @@ std::string simulates_badly(const VerdictEvidence& evidence, const ArxSummary& s
          ", and at least " + number_text(kMinSimulationFit, 3) + " % is needed" + cause_in(evidence);
 }
 
-// The stored model is played in single precision; where coefficients cancel it loses accuracy against double.
+// Finds an output whose fit falls in single precision, in which the model is played: large coefficients cancel.
 std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& summary) {
   for (std::size_t i = 0; i < summary.played_fit_percent.size(); ++i) {
     const double lost = summary.free_run_fit_percent[i] - summary.played_fit_percent[i];
@@ -111,7 +111,7 @@ std::string plays_otherwise(const VerdictEvidence& evidence, const ArxSummary& s
   return "";
 }
 
-// Inputs that carry the same information share their coefficients arbitrarily, however well the model fits.
+// Reports redundant inputs: least squares divides coefficients arbitrarily between them, however well the model fits.
 std::string is_redundant(const VerdictEvidence& evidence, const ArxSummary&) {
   return evidence.redundant.empty() ? "" : evidence.redundant.front().cause + "; " + evidence.redundant.front().cure;
 }

@@ -21,7 +21,7 @@ struct Series {
 
 // Standard deviation; 0 where the variation is rounding. Samples are normalised first, so squares never underflow.
 double deviation_of(std::vector<double> measured) {
-  constexpr double kStill = 1e-9;  // share of the mean
+  constexpr double kStill = 1e-9;  // as a share of the mean: a smaller maximum deviation is rounding
   measured = present(std::move(measured));
   const double level = mean(measured);
   double most = 0;

@@ -17,8 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Least squares under the constraint Cθ = d, by Lagrange multipliers: θ − P Cᵀ(C P Cᵀ)⁻¹(Cθ − d). The first row of C
-// makes A_ii zero at the pole, the second its derivative.
+// Imposes the constraint Cθ = d on least squares by Lagrange multipliers: θ − P Cᵀ(C P Cᵀ)⁻¹(Cθ − d). The first row of
+// C makes A_ii zero at the pole, the second row makes the derivative of A_ii zero there.
 void hold_integrators(const ArxOptions& options, const ArxDesign& design, ArxEstimate& estimate) {
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     const SharedRows& rows = design.groups[g];
@@ -49,11 +49,11 @@ std::vector<double> free_run_fits(const ArxModel& model, const Signals& signals,
   return free_run_tally(model, signals, start).figures(kFreeRun).fit_percent;
 }
 
-// For an unstable estimate: moves the poles further inwards than stability needs, by the one of five shares with the
-// best free simulation of the judged rows. The effect of an error in a pole near the stability limit decays slowly.
+// Moves the poles of an unstable estimate further inwards, to the best of five shares, where that improves free
+// simulation of the judged rows: the effect of an error in a pole near the stability limit decays slowly.
 ArxFit drawn_in(FitFacts facts, const ArxDesign& design, const ArxEstimate& estimate, const Signals& judged,
                 ArxFit fit) {
-  constexpr double kNothing = -100, kGain = 1;  // percent: floor of one output's fit, and minimum gain of the sum
+  constexpr double kNothing = -100, kGain = 1;  // percent: floor of an output's fit; minimum gain of the sum of fits
   const auto sum = [&](const ArxFit& one) {
     double all = 0;
     for (double percent : free_run_fits(one.model, judged, false)) all += std::max(percent, kNothing);

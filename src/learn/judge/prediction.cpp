@@ -262,14 +262,14 @@ class Runner {
           feedback_[i].push_back({-back, -a[l]});
         }
       }
-      // The latest sample comes last: the processor can add the others while it is still being computed.
+      // The latest sample comes last: the processor can add the others while the latest is still being computed.
       std::sort(feedback_[i].begin(), feedback_[i].end(), [](const Tap& a, const Tap& b) { return a.back < b.back; });
     }
   }
 
   std::size_t memory() const { return memory_; }
 
-  /// Takes inputs before `row` as resting at the operating point.
+  /// Treats inputs before `row` as constant at the operating point.
   void rest_until(std::size_t row) { rest_until_ = row; }
 
   std::size_t outputs() const { return feedback_.size(); }
@@ -278,7 +278,7 @@ class Runner {
     return signals_.samples[recording_][channel][row] - signals_.offset[channel];
   }
 
-  /// Writes the contribution of inputs and constant to rows [begin, begin + count), after the first `memory()` rows.
+  /// Writes the contribution of inputs and constant to rows [begin, begin + count), behind `memory()` rows of the past.
   template <class Number>
   void force(std::size_t begin, std::size_t count, Series& series) const {
     const std::size_t ny = outputs();
@@ -291,7 +291,7 @@ class Runner {
     }
   }
 
-  /// Adds the contribution of the outputs' own past to rows that hold the forced part.
+  /// Adds the contribution of the outputs' own past to the rows written by force().
   template <class Number>
   void feed_back(Series& series) const {
     const std::size_t ny = outputs();
@@ -374,8 +374,8 @@ std::size_t first_row(const Runner& runner, std::size_t begin, std::size_t end, 
   return begin;
 }
 
-// A simulation from rest starts `first_sample` rows before `run`, in general the episode's first row, unless an input
-// is missing there.
+// Returns the first row of a simulation from rest: `first_sample` rows before `run`, in general the episode's first
+// row, or the run's first row where an input is missing between.
 std::size_t rested_begin(const Signals& signals, const RowRun& run, int first_sample) {
   std::size_t begin = run.begin;
   const auto present = [&](std::size_t row) {

@@ -44,11 +44,11 @@ struct PredictOptions {
 };
 
 /// Predicts all rows of a recording; history never crosses episodes.
-/// Returns one series per output, in its own unit, as long as the recording; NaN in an episode's first rows (longest
-/// lag + steps − 1 rows; for kFreeRun the longest lag, or none with kZero), and where a sample of the last `steps`
-/// rows, this one included, or a sample at their lags is missing. A free simulation needs only inputs after its start,
-/// and restarts after a gap in them. Errors: a channel missing from the recording, channels that do not fit the model,
-/// steps out of range.
+/// Returns one series per output, in its own unit, as long as the recording. NaN in an episode's first rows (longest
+/// lag + steps − 1 rows; for kFreeRun the longest lag, or none with kZero), and where this row, one of the steps − 1
+/// rows before, or a sample at their lags is missing. A free simulation needs only inputs after its start, and restarts
+/// after a gap in them. Errors: a channel missing from the recording, channels that do not fit the model, steps out of
+/// range.
 Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Recording& recording,
                                                  const ChannelChoice& channels, const PredictOptions& options = {});
 
@@ -57,7 +57,7 @@ struct PredictionFigures {
   int steps = 1;                    ///< steps ahead, or kFreeRun
   std::size_t rows = 0;             ///< number of rows predicted and measured
   std::vector<double> mean_square;  ///< mean squared error per output, its unit²
-  std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over those rows, per output; 0 where y is constant
+  std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖) over these rows, per output; 0 where y is constant
   std::vector<double> j;  ///< J_k: mean absolute error per output, its unit
 };
 
@@ -83,7 +83,7 @@ inline constexpr int kSettledSteps = 2000;
 /// Precondition: steps >= 1.
 std::vector<std::vector<double>> prediction_sd(const ArxModel& model, int steps);
 
-/// Errors: an empty list, or a number of steps that is neither 1 to 100000 nor kFreeRun.
+/// Checks numbers of steps. Errors: an empty list, or a number that is neither 1 to 100000 nor kFreeRun.
 Result<void> check_steps(std::span<const int> all);
 
 /// Sums of errors over the rows for one number of steps.

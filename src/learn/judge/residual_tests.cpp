@@ -89,8 +89,8 @@ double variance_of(const Signals& signals, int channel) {
   return std::pow(deviation(present(std::move(all))), 2);
 }
 
-// Degrees of freedom that the fit takes from an output's autocorrelations: every lag of an output takes the share of
-// that output's variance that the residual causes: 1 without inputs, small where an input drives the output.
+// Degrees of freedom that the fit takes from an output's autocorrelations. Each lag of output j takes the share of j's
+// variance that the residual causes: 1 without inputs, small where an input drives j.
 double taken_by_fit(const ArxModel& model, const Signals& signals, int output, double residual_variance) {
   constexpr int kSteps = 400;
   VectorXd driven = VectorXd::Zero(signals.outputs);

@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Learns by the recipe. Errors: no recordings, missing channels, settings out of range, too few rows, kStopped.
+/// Learns a switched model. Errors: no recordings, missing channels, settings out of range, too few rows, kStopped.
 Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
                            const Progress& progress = {});
 

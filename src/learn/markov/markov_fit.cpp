@@ -21,12 +21,12 @@ constexpr int kFirstRounds = 25;         // iterations of expectation–maximisa
 constexpr int kMaxRounds = 300;          // iterations of the best start
 constexpr double kHoldout = 0.3;         // share at the end of every stretch that is held out
 constexpr double kSureGain = 2;          // minimum gain of a further mode on held-out rows, in standard errors
-constexpr double kSmallResidual = 0.01;  // minimum residual, as a share of the single model's
-constexpr double kGain = 1e-6;           // nats per row: iterations end where one gains less
-constexpr double kUnseenSteps = 0.1;     // added to each transition count, so that none is impossible
+constexpr double kSmallResidual = 0.01;  // minimum RMS residual of a mode, as a share of the single model's
+constexpr double kGain = 1e-6;           // nats per row: iterations end at the first with a smaller gain
+constexpr double kUnseenSteps = 0.1;     // added to counts of initial modes and transitions, so that none is impossible
 constexpr double kMaxRadius = 0.9999;    // maximum spectral radius of a mode after stabilisation
 constexpr double kUsableFit = 10;        // minimum fit one step ahead of a usable model, percent
-constexpr double kDifferent = 3;         // standard errors by which coefficients differ; chance exceeds it once in 370
+constexpr double kDifferent = 3;  // standard errors by which coefficients of modes must differ; by chance 1 in 370
 
 struct State {
   Chain chain;
@@ -154,7 +154,7 @@ struct Choice {
 };
 
 // Fits each number of modes on the first part of each stretch and judges it on the rest. A number is taken where its
-// gain over the last one taken is significant.
+// gain over the last one taken is significant, or where the options request it.
 Result<Choice> choose(const Rows& rows, const FitOptions& options, const Progress& progress) {
   const Rows learned = share_of(rows, 0, 1 - kHoldout), unseen = share_of(rows, 1 - kHoldout, 1);
   Choice out;

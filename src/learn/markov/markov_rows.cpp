@@ -68,8 +68,8 @@ class Predictor {
   }
 
  private:
-  // Mean of row t, which replaces the measured row; NaN where a sample is missing, and the measured row then stays.
-  // `chance`: probabilities of the modes at the row before; receives those at row t.
+  // Returns the mean of row t over the modes, stored in series_ for later rows; NaN, not stored, where a sample is
+  // missing. `chance`: probabilities of the modes at row t − 1, unused if `first`; receives the probabilities at row t.
   RowVectorXd step(std::size_t t, bool first, RowVectorXd& chance) {
     const Index known = belief_row_[t];
     chance = !first       ? RowVectorXd(chance * chain_.transitions)
@@ -104,7 +104,7 @@ class Predictor {
   Eigen::MatrixXd given_past_;
 };
 
-constexpr double kRidge = 1e-9;  // added to the Gram matrix of scaled columns: one that is always 0 gets coefficient 0
+constexpr double kRidge = 1e-9;  // added to the Gram matrix of scaled columns: gives columns of zeros the coefficient 0
 
 std::vector<double> means_of(const Signals& signals) {
   std::vector<double> means;

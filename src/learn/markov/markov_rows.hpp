@@ -31,7 +31,7 @@ struct Rows {
   };
 
   ArxOrders orders;
-  ArxDesign design;             ///< one group per output, whose columns are indices of phi's; the constant's is last
+  ArxDesign design;             ///< one group per output; columns are indices in phi, the constant's is last
   std::vector<double> offset;   ///< the operating point: outputs, then inputs
   Eigen::MatrixXd phi;          ///< rows × columns of the layout
   Eigen::MatrixXd y;            ///< rows × outputs
@@ -79,7 +79,7 @@ bool limit_radius(double max_radius, const Rows& rows, const Eigen::VectorXd& we
 struct Belief {
   Eigen::MatrixXd given_all;       ///< rows × modes, given all rows of the run
   Eigen::MatrixXd given_past;      ///< rows × modes, given the rows before
-  Eigen::MatrixXd steps;           ///< modes × modes: expected number of transitions
+  Eigen::MatrixXd steps;           ///< expected numbers of transitions, [from, to]
   Eigen::VectorXd log_likelihood;  ///< of each row, given the rows before
 
   std::vector<int> likeliest() const;  ///< likeliest mode of every row, given all rows of its run

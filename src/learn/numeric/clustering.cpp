@@ -137,7 +137,7 @@ double move_centroids(const Rows& rows, KMeans& found) {
   return moved;
 }
 
-// Alternates both steps until the squared movements of the centroids sum to at most `least`.
+// Alternates assign() and move_centroids() until the squared movements sum to at most `least`, or for kMaxRounds.
 void alternate(const Rows& rows, double least, KMeans& found) {
   while (found.rounds < kMaxRounds) {
     ++found.rounds;

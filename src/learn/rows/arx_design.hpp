@@ -11,11 +11,11 @@
 
 namespace wisp {
 
-/// Equal orders for all entries that the coupling leaves non-zero.
+/// Equal orders for all entries of the order matrices that the coupling leaves non-zero.
 struct UniformOrders {
   int outputs = 1;
   int inputs = 0;
-  int na = 4;  ///< lags of outputs, 0 to 4096; 4 allows two damped resonances per output, as in the paper
+  int na = 4;  ///< lags of outputs, 0 to 4096; 4 allows two damped resonances per output
   int nb = 4;  ///< lags of inputs, 0 to 4096
   int nk = 1;  ///< delay of inputs in samples, 0 to 4096; 1: an input acts on the next sample
   Coupling coupling = Coupling::kFull;

@@ -99,7 +99,7 @@ struct RowRun {
 
 struct RowCounts {
   std::size_t rows = 0;  ///< n: rows in the regression
-  int first_sample = 0;  ///< first row of an episode that is predicted, 0-based
+  int first_sample = 0;  ///< first predicted row of every episode, 0-based
   std::size_t episodes_used = 0;
   std::size_t episodes_skipped = 0;  ///< episodes without a row to predict: too short, or incomplete
   std::size_t rows_left_out = 0;     ///< rows skipped because a sample in them or in their history is missing
@@ -115,7 +115,7 @@ Result<Signals> find_signals(std::span<const Recording> recordings, const Channe
 /// Finds channels, offsets and scales. Errors: as find_signals; a channel without samples, or whose squares overflow.
 Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset);
 
-/// Maximum number of rows that figures are computed from; more would not change them noticeably.
+/// Maximum number of rows that a model is judged on; more would not change the figures noticeably.
 inline constexpr std::size_t kJudgedRows = std::size_t{1} << 18;
 
 /// The central part of every recording, at most `most` rows in total. The result's spans view the samples of `signals`.
@@ -133,8 +133,8 @@ struct RowPart {
   bool last = true;
 };
 
-/// plan_rows for one part. The part with an episode's first target row counts the episode as used, even if samples are
-/// missing. The part with the row after its end counts an episode without target rows as skipped.
+/// Plans the rows of one part. An episode counts as used in the part with its first target row, even if samples are
+/// missing. An episode too short for a target row counts as skipped in the part with the row after its end.
 RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
 
 /// Rows of one recording whose inputs are all present, whether or not outputs are missing.

@@ -48,8 +48,8 @@ class GramBuilder {
     sums_(0, 0) += static_cast<double>(block_.rows());
   }
 
-  /// Adds the end corrections of a run. The samples of a column one lag shorter begin and end one row later, so
-  /// products gain those of the row at the run's begin and lose those of the row at its end.
+  /// Adds the end corrections of a run: a sum of products at lags l and l′ is the sum at l − 1 and l′ − 1, plus the
+  /// product in row run.begin, minus the product in row run.end.
   void add_ends(const RowRun& run) {
     block_.load({run.recording, run.begin, run.begin});
     ends_.selfadjointView<Eigen::Upper>().rankUpdate(row_at_load(), 1.0);
