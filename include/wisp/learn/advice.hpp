@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Defects of a recording, the commonest cause of bad models first.
+/// Kinds of defects of a recording, from the most to the least common cause of bad models.
 enum class RemarkKind {
   kSentinel,    ///< a number that stands for a missing sample, such as −999
   kOutliers,    ///< single samples far from their neighbours
@@ -34,8 +34,8 @@ struct Remark {
   std::string channel;
   std::string cause;
   std::string cure;
-  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the variance left by the input's own past that
-                    ///< the output's past explains
+  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the input's variance, unexplained by its own
+                    ///< past, that the output's past explains
 };
 
 /// Returns remarks on recordings, in the order of RemarkKind. Only outputs are tested for outliers, drift and
@@ -59,8 +59,9 @@ Report advise(const Recording& recording);
 
 /// Describes the motion of outlines: mean and deviation of height, area and lean; the flicker frequency of √area with
 /// its half-power bandwidth, and its spectrum as a series. For outlines filmed simultaneously, also the phase by
-/// which each lags the first one at that one's flicker frequency, −180 to 180 degrees, with the coherence.
-/// Errors: fewer than two rows with an outline; a rate or number of rows that differs from the first recording's.
+/// which each other outline lags the first, at the first one's flicker frequency, −180 to 180 degrees, and coherence.
+/// Errors: no outline; fewer than two rows with an outline; a rate or number of rows that differs from the first
+/// recording's.
 Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

@@ -22,8 +22,8 @@ struct ValidationOptions {
   InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX model's free simulation; a switched
                                                    ///< model starts from measured samples
   bool responses = false;  ///< ARX: also series of poles, zeros, responses and errors by horizon; outlines: of poles
-  double pixels_per_unit = 0;    ///< outlines: 0: the recording's own calm height
-  bool own_input_scale = false;  ///< outlines: input 1 is this recording's 95th percentile instead of the training's,
+  double pixels_per_unit = 0;    ///< outlines: pixels per model unit; 0: the recording's own calm height
+  bool own_input_scale = false;  ///< outlines: an input of 1 is this recording's 95th percentile, not the training's,
                                  ///< for another microphone or gain
   bool align = true;             ///< outlines: advance inputs that lag behind the motion they cause
   double play_seconds = 60;      ///< outlines: duration of free play for the fidelity figures, 0.001 to 86400
@@ -59,10 +59,10 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
 
 /// Returns a recording whose channels `names`, one per input of the model, are converted to the units of those inputs,
 /// as in validate() and predict(): to the sensitivity of the training's microphone, if training and recording state the
-/// sound level at value 1, then divided by the training's scale. `own_gain`: for a model of an outline, divided instead
-/// by the recording's own 95th percentile while it blows, for another microphone. Channels already in an input's unit,
-/// as played by a model, stay unchanged. Errors, naming the recording: a missing channel; a stated sound level that is
-/// not a positive number.
+/// sound level at value 1, then divided by the training's scale. `own_gain`, for another microphone: a model of an
+/// outline divides instead by the 95th percentile of the recording's windy rows, another model by 1. Channels in an
+/// input's unit already, as played by a model, stay unchanged. Errors, naming the recording: a missing channel; a
+/// stated sound level that is not a positive number.
 ///
 /// Precondition: as many names as inputs.
 Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
@@ -92,7 +92,7 @@ using OutlineRows = std::vector<std::vector<std::array<double, 2>>>;
 /// Returns the outlines of a recording. Errors: it is not a recording of an outline.
 Result<OutlineRows> outline_rows(const Recording& recording);
 
-/// The report, and the outlines for its pictures.
+/// Result of validate_outline(): the report, and the outlines for its pictures.
 struct ValidatedOutline {
   Report report;
   OutlineRows captured;

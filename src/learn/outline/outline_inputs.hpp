@@ -1,9 +1,9 @@
 #pragma once
 // Inputs of an outline: conversion to the model's units, and the regressors made from them.
 //
-// A wind of 1 is the 95th percentile of the training wind while it blows. Its size and its signed value are separate
-// regressors, each also as square root and square, because a linear model of the signed wind alone would answer
-// opposite gusts with opposite changes of height.
+// A wind of 1 is the 95th percentile of the training wind, calm rows excluded. The wind's size and its signed value are
+// separate regressors, each also as square root and square, because a linear model of the signed wind alone would
+// answer opposite gusts with opposite changes of height.
 
 #include <cstdint>
 #include <span>
@@ -17,8 +17,8 @@
 
 namespace wisp {
 
-/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, the largest of their
-/// own. An input stays unchanged if any recording does not state its loudness. Errors: as one_rms().
+/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, the largest that one
+/// of them states. An input stays unchanged if any recording does not state its loudness. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
 /// Factors by which at_common_gain() scales the first audio input of each recording; empty if a recording does not
