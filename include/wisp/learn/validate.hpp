@@ -68,7 +68,6 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
 Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
                                  bool own_gain = false);
 
-/// A model and its name in a comparison.
 struct NamedModel {
   std::string name;
   Model model;

@@ -20,12 +20,12 @@ namespace {
 
 using arx::add;
 
-constexpr double kPercentile = 0.99;
+constexpr double kPercentile = 0.99;      // of all rows' deviations, above which a join counts as a jump
 constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
 constexpr std::size_t kMaxWindows = 500;  // maximum number on each side
 constexpr int kSynthesizedPerReal = 2;    // synthesized falls per recorded fall
 constexpr double kLongWindowSeconds = 2;
-constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // limits of visibility
+constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // smaller motion is invisible
 
 struct Jumps {
   std::vector<double> position;
@@ -81,7 +81,7 @@ JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, co
 }
 
 constexpr std::size_t kTiltColumn = 3;  // column of tilt in the series of poses
-constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°, the limit of the eye: noise of this size enters every tilt figure
+constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°, the limit of the eye: noise of this size is added to tilt
 constexpr double kMinSpeed = 0.05;      // m/s: below this speed heading is undefined
 
 void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, double segment_seconds,

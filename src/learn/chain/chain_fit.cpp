@@ -22,15 +22,15 @@ constexpr double kMinSpread = 1e-9;
 
 using Complex = std::complex<double>;
 
-struct Way {
-  Complex ground;
+struct Way {       // a displacement in metres
+  Complex ground;  // x + iy
   double height = 0;
 };
 
 struct Next {
   std::size_t segment;
   double probability;
-  Complex turn;  // rotation applied when it is placed
+  Complex turn;  // unit number: rotation about z that joins the segment
 };
 
 class Walk {
@@ -120,10 +120,11 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Expected displacement after each segment in excess of `drift`; `memory`: receives the seconds until half is reached.
+// Expected displacement after each segment beyond `drift`. `memory`: receives the seconds until half its RMS over
+// ground.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
-  std::vector<double> size;  // root mean square after each iteration
+  std::vector<double> size;  // root mean square over ground after each iteration
   double mean_seconds = 0;
   for (std::size_t s = 0; s < walk.size(); ++s) mean_seconds += visits[s] * walk.seconds(s);
   for (int round = 0; round < kRounds; ++round) {
@@ -273,8 +274,9 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// If no number of modes is requested: one where orientation is known, since the next segment is chosen by its join.
-// Without orientation, the best-joining successors are too often short ones; modes preserve the mean duration.
+// Sorts segments into modes, by default 1 with orientation, as joins select the successors, else
+// kModesWithoutOrientation: there the best-joining successors are too often short segments, while modes preserve the
+// mean duration.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {

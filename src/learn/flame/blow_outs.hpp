@@ -29,8 +29,8 @@ std::size_t rows_of(double seconds, double rate_hz);
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
 /// Removes misdetected outlines: stretches shorter than half a second between two jumps, or between a jump and an end
-/// of the recording. A jump is a step longer than a fifth of the outline's height and than 20 times the 90th percentile
-/// of steps. Does nothing if more than a twentieth of all rows would be removed. Returns the number of rows removed.
+/// of the recording. A jump is a step above a fifth of the outline's median height and above 20 times the 90th
+/// percentile of steps. Does nothing if more than a twentieth of all rows would be removed. Returns the number removed.
 std::size_t remove_jumps(Recording& recording);
 
 /// The recording with all channels set missing during decay, extinction and re-ignition, so that only a burning flame

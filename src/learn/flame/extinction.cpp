@@ -30,10 +30,11 @@ struct FlameLife {
 };
 
 constexpr double kWatchedBefore = 0.5;  // seconds by which a rule's extinction may precede the recorded one
-constexpr double kWatchedAfter = 0.5;   // seconds by which it may follow: capture loses a decaying flame early
-constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
-constexpr double kGustShare = 0.5;      // least wind of a gust, as a share of the weakest that extinguished
-constexpr double kOneGust = 0.15;       // seconds: shorter lulls do not divide a gust
+constexpr double kWatchedAfter =
+    0.5;  // seconds that a rule's extinction may be late: capture loses a decaying flame early
+constexpr double kAveraged = 0.15;  // seconds over which wind is averaged
+constexpr double kGustShare = 0.5;  // least wind of a gust, as a share of the weakest extinguishing wind
+constexpr double kOneGust = 0.15;   // seconds: shorter lulls do not divide a gust
 
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   std::vector<double> out;
@@ -137,7 +138,7 @@ constexpr double kLongest = 4;
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
 constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // decrease of harm per second below the level
 
-// Costs of errors: 1 for a gust judged wrongly; 0.3 (t / 0.1 s)², at most 1, for an extinction early or late by t.
+// Costs of errors: 1 for a gust or an extinction judged wrongly; at most 1, 0.3 (t / 0.1 s)², for a time wrong by t.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
 // Rules are equally good if they cost at most kAsWell more than the best one, plus kAsWellEach per gust and extinction:
@@ -207,7 +208,7 @@ double cost_of(const Harms& harms, double seconds) {
   return cost;
 }
 
-// Weak prior on rules, small against the cost of one error.
+// Returns a weak prior's penalty of a rule, small against the cost of one error.
 double remarkable(const Shape& shape, double middle) {
   const Extinction usual;
   const auto square = [](double x) { return x * x; };
@@ -257,7 +258,7 @@ Extinction rule_of(const Trial& trial) {
   return rule;
 }
 
-// Harm after the next row under a complete rule.
+// Returns the harm after one more row under a complete rule, as a share of the harm that extinguishes.
 double harmed(const Extinction& rule, double harm, double wind, double step) {
   const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
   constexpr double kMaxHarm = 0.5;  // maximum harm per step, as in Bank

@@ -58,7 +58,7 @@ ReportSection tip_series(const ValidatedOutline& out, const std::vector<double>&
   return section;
 }
 
-// A unit of 1 is not printed: wind from sound is given as a share of a strong gust.
+// Series of an input. The unit "1" of wind from sound is labelled as a strong gust.
 ReportSection input_series(const Channel& input, const std::vector<double>& seconds) {
   const std::string unit = input.unit == "1" ? "1: a strong gust" : input.unit;
   return {input.name, {}, {}, {{"input." + input.name, "", "seconds", unit, seconds, input.samples}}};

@@ -1,5 +1,6 @@
 #pragma once
-// The dynamics of an outline: ARX over components of its shape, or over its control points as in the paper.
+// The dynamics of an outline: ARX over components of its shape, or over its control points as in Reissell and Pai
+// (2001).
 //
 // A flame is nearly mirror-symmetric. The principal components of its shape coordinates are therefore symmetric
 // (height, width, bulge) or antisymmetric (lean, bend), and a system that commutes with the mirror has two blocks:

@@ -2,10 +2,10 @@
 // Response of a fall to wind, learned from falls that differ only in their wind (gust_response.cpp), and its play: a
 // bank is placed at each calm fall's state at the gust's onset and exposed to the gust.
 //
-// Source: section 4.4 of the paper, v_windy − v_calm = F(w, x), whose figure 8 shows one response. Falls are chaotic: a
-// windy fall and its calm twin drift apart for reasons other than the wind. So each gust is repeated over clones with
-// slightly different starts, and the response is learned and judged on the clones' means. It has one lag: a leaf is so
-// light that further lags add nothing.
+// Source: L.-M. Reissell and D. K. Pai (2001), section 4.4: v_windy − v_calm = F(w, x), whose figure 8 shows one
+// response. Falls are chaotic: a windy fall and its calm twin drift apart for reasons other than the wind. So each gust
+// is repeated over clones with slightly different starts, and the response is learned and judged on the clones' means.
+// It has one lag: a leaf is so light that further lags add nothing.
 
 #include <array>
 #include <cstddef>
@@ -48,14 +48,14 @@ GustSpan span_of(const GustPairs& pairs, std::size_t gust);
 
 /// Means over clones, one row per row since the onset.
 struct GustEnsemble {
-  std::vector<Triple> change;        ///< change of velocity
-  std::vector<Triple> displacement;  ///< displacement since the onset
+  std::vector<Triple> change;        ///< change of velocity by the wind
+  std::vector<Triple> displacement;  ///< displacement by the wind since the onset
   std::vector<Triple> wind;
   std::vector<std::array<Triple, 3>> normal;  ///< projection n nᵀ onto the body's normal
   double displacement_error = 0;              ///< standard error of the mean horizontal displacement at the end, metres
 };
 
-/// Means over the clones first, first + stride, …
+/// Returns the means over the clones first, first + stride, …
 GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, std::size_t first = 0,
                          std::size_t stride = 1);
 
