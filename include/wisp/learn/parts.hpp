@@ -47,8 +47,8 @@ class ArxPart {
   ~ArxPart();
 
   /// Adds a share of a recording; after an error the part is unchanged.
-  /// Errors: a missing channel, a rate that differs from the previous one, infinite samples, rows beyond its end, rows
-  /// that were added before.
+  /// Errors: a missing channel, a rate that differs from the previous one, infinite samples, rows beyond the
+  /// recording's end, rows that were added before.
   Result<void> add(const Recording& recording, const TableShare& share = {});
 
   /// Adds a share of a CSV file, read in blocks, in memory that does not grow with its length.

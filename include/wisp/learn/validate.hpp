@@ -16,7 +16,7 @@
 
 namespace wisp {
 
-/// Options of validation. Each kind of model uses those that concern it.
+/// Options of validation. A kind of model ignores options that do not concern it.
 struct ValidationOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};      ///< prediction horizons, 1 to 100000 steps, or kFreeRun
   InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX model's free simulation; a switched
@@ -32,7 +32,7 @@ struct ValidationOptions {
 };
 
 /// Validates a model on a recording; a plain ARX model also on several, in one table, with warnings that name the badly
-/// fitted ones; a chain also on several, or on a windy recording and its calm twin.
+/// fitted ones; a chain also on several, or on a windy and a calm recording with one attribute `pair`.
 /// The report has the fields of `wisp validate --json` for that kind of model, and the series of its plots.
 /// Errors, naming the recording: missing channels, a rate or number of control points that differs from the model's,
 /// too few rows, options out of range; kStopped.
@@ -49,7 +49,7 @@ struct PredictionOptions {
   InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX free run; else kMeasured only
 };
 
-/// Predicts a recording row by row. Returns a recording with its inputs, and for every output the measured channel
+/// Predicts a recording row by row. Returns the recording's inputs, and for every output the measured channel
 /// NAME, NAME.predicted and, except for switched models, NAME.low and NAME.high: the 95 % interval by the model's own
 /// noise. NaN where there is no prediction: at the beginning of an episode, and after missing samples. Outlines are in
 /// the recording's pixels.
@@ -99,7 +99,7 @@ struct ValidatedOutline {
                           ///< at most five frames ahead, since nothing drives a simulation
   std::string simulated_label;  ///< "simulated from the input alone", "predicted 5 frames ahead"
   OutlineRows played;           ///< play of the model with noise along the recording's inputs
-  double pixels_per_unit = 1;   ///< scale of the model's unit in this clip
+  double pixels_per_unit = 1;   ///< pixels of this clip per unit of the model
 };
 
 /// Validates an outline model on a recording of an outline in pixels. The input is converted to the training's scale of

@@ -96,7 +96,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 /// Copies the figures that a model stores to its training record.
 void add_figures(const ChainFidelity& fidelity, Training& training);
 
-/// Names of the measures that the recorded falls suffice for, and of those for which they are too few or too short.
+/// Names of measures: `judged`, for which the recorded falls suffice; `unjudged`, for which they are too few or short.
 struct Judged {
   std::string judged;
   std::string unjudged;

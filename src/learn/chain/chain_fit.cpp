@@ -120,8 +120,7 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Expected displacement after each segment beyond `drift`. `memory`: receives the seconds until half its RMS over
-// ground.
+// Returns the expected displacement after each segment, less `drift`; `memory` receives the seconds until half of it.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
   std::vector<double> size;  // root mean square over ground after each iteration
@@ -274,9 +273,8 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// Sorts segments into modes, by default 1 with orientation, as joins select the successors, else
-// kModesWithoutOrientation: there the best-joining successors are too often short segments, while modes preserve the
-// mean duration.
+// Sorts segments into modes. By default, one mode if orientation is known: joins select the successors. Otherwise
+// several, since the best-joining successors are too often short segments, while modes preserve the mean duration.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {

@@ -87,7 +87,7 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   }
 }
 
-// Learns the response to gusts from a windy recording and its calm twin.
+// Learns the response to gusts from a windy recording and a calm one that differs only in its wind.
 Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, Fit& fit) {
   if (paired.empty()) return {};
   const auto pairs = gust_pairs(paired[0], paired[1]);

@@ -22,9 +22,9 @@ Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe
                         const Progress& progress = {});
 
 /// Compares falls that the model makes with recorded ones, which should be unseen in training; or, given a windy
-/// recording and its calm twin, the effect of gusts. The report's series are recorded and played tracks.
-/// Errors: as check_motion(); the model is no chain, or lacks its segmentation options; rates that differ; an invalid
-/// pair; stopped by `progress`.
+/// and a calm recording with one attribute `pair`, the effect of gusts. The report's series are recorded and played
+/// tracks. Errors: as check_motion(); the model is no chain, or lacks its segmentation options; rates that differ; an
+/// invalid pair; stopped by `progress`.
 Result<Report> validate_chain(const Model& model, std::span<const Recording> recordings, std::uint64_t seed,
                               const Progress& progress = {});
 

@@ -2,7 +2,7 @@
 // Detects where in a recording a flame was blown out, and removes those parts.
 //
 // Recordings do not mark extinctions: the outline is missing for a while, which also happens where a clip fades or a
-// hand covers the flame. The wind just before distinguishes them.
+// hand covers the flame. The wind just before distinguishes extinctions.
 
 #include <span>
 #include <string>

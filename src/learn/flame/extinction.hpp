@@ -4,7 +4,7 @@
 //
 // Survived gusts bound the rule from below, extinctions from above, and the time of extinction determines its speed.
 // All rules of a grid are tried on the whole recordings, and the one with the least error is chosen. The spread of
-// rules with similar error is its uncertainty. A weak prior prefers a level midway between the wind survived and the
+// rules with similar error is the uncertainty. A weak prior prefers a level midway between the wind survived and the
 // wind that extinguished, and haste and recovery near the defaults.
 
 #include <array>
@@ -35,7 +35,7 @@ struct ExtinctionAgreement {
   std::size_t deaths = 0;            ///< number of recorded extinctions
   std::size_t died = 0;              ///< number of extinctions that the rule reproduces within half a second
   std::size_t gusts = 0;             ///< number of gusts that the flame survived
-  std::size_t spared = 0;            ///< number of those gusts that it survives under the rule
+  std::size_t spared = 0;            ///< number of those gusts that the flame survives under the rule
   std::vector<double> late_seconds;  ///< for each reproduced extinction: delay against the recorded one
   double strongest_survived = 0;     ///< wind averaged over 0.15 s, in the model's units; 0 without gusts
 
@@ -55,7 +55,7 @@ struct ExtinctionFit {
 };
 
 /// Learns a rule from recordings with at least one extinction.
-/// Errors: no extinction, or no rule that reproduces more than half of them.
+/// Errors: no extinction, or no rule that reproduces more than half of the extinctions.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
 /// Returns the default rule, for a flame that was never extinguished. Where a recorded gust would extinguish the flame,

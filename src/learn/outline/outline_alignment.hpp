@@ -31,7 +31,7 @@ struct Alignment {
 };
 
 /// Estimates the lag of `motion` behind `wind` by the cross-correlation of both after an autoregressive filter that
-/// whitens the wind (Box & Jenkins, Time Series Analysis, section on prewhitening): its peak is that of the impulse
+/// whitens the wind (Box & Jenkins, Time Series Analysis, section on prewhitening): the peak is that of the impulse
 /// response. The offset therefore includes the response time of the object (some 50 ms for a flame's tip). Its interval
 /// comes from a bootstrap over blocks of time.
 /// Both series have one value per frame; NaN is missing.

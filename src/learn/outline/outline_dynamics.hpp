@@ -1,6 +1,5 @@
 #pragma once
-// The dynamics of an outline: ARX over components of its shape, or over its control points as in Reissell and Pai
-// (2001).
+// Dynamics of an outline: ARX over components of its shape, or over its control points (Reissell and Pai, 2001).
 //
 // A flame is nearly mirror-symmetric. The principal components of its shape coordinates are therefore symmetric
 // (height, width, bulge) or antisymmetric (lean, bend), and a system that commutes with the mirror has two blocks:
@@ -42,8 +41,7 @@ Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, cons
 /// Precondition: the shape's basis has orthogonal columns, as that of fit_dynamics().
 std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates);
 
-/// Returns a prepared recording with shape components c0, c1, … in place of its control points; unchanged where the
-/// shape is empty.
+/// Returns a prepared recording with outputs c0, c1, …, the shape components; unchanged where the shape is empty.
 Recording moved_recording(const ShapeComponents& shape, const Recording& recording, const PreparedOutlines& prepared);
 
 /// Output and input channels of moved_recording().

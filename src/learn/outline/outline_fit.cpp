@@ -17,7 +17,7 @@ constexpr std::size_t kWindows = 120;  // maximum per side of an energy distance
 constexpr double kPlayed = 30;         // minimum duration of play, seconds
 constexpr double kJudged = 10;         // minimum duration of a recording whose spread is judged, seconds
 constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlines used for comparison
-constexpr std::size_t kMaxPlayed = 500;     // maximum number of played outlines compared with them
+constexpr std::size_t kMaxPlayed = 500;     // maximum number of played outlines used for comparison
 constexpr std::size_t kPlaces = 12;         // points per outline
 
 double unsteadiness(const PreparedOutlines& prepared) {
@@ -121,7 +121,7 @@ std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Record
   return out;
 }
 
-// Compares a play along the liveliest recording with it. `original`: the prepared recordings in pixels.
+// Plays along the liveliest recording and compares play and recording. `original`: the prepared recordings in pixels.
 Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& prepared,
                                  std::span<const Recording> original, std::uint64_t seed) {
   OutlineTrial out;
@@ -179,7 +179,7 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
   return out;
 }
 
-// Fits dynamics to the first part of every recording and judges them on it and on the held-out rest.
+// Fits dynamics to the first part of every recording and judges the dynamics on this part and on the held-out rest.
 Result<void> judge(const PreparedOutlines& prepared, const OutlineRecipe& recipe, OutlineSummary& summary) {
   const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, recipe.holdout);
   summary.rows_learned = complete_rows(parts.learned, prepared.channels);

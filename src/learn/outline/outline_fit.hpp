@@ -74,7 +74,8 @@ double followed_percent(const OutlineSummary& summary);
 constexpr double kMinFollowedPercent = 5;
 
 /// Returns whether the model is usable, with the first reason against it or a sentence in its favour; `code` receives
-/// the violated criterion's code. Free play is judged, not the one-step fit: a model that hardly moves also fits well.
+/// the violated criterion's code. Free play is judged, not the one-step fit: a model that moves too little also fits
+/// well.
 Usable outline_verdict(const OutlineSummary& summary, std::string* code = nullptr);
 
 /// The training record for the model's file, without extinction rule and cost.

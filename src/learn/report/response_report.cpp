@@ -31,7 +31,7 @@ std::vector<double> angular_frequencies() {
   return omega;
 }
 
-// A curve and, where there is one, its confidence band.
+// A curve and its confidence band, of width 0 without standard deviations.
 struct Curve {
   std::vector<double> y, low, high;
 
@@ -84,7 +84,7 @@ Curve phase_curve(const FrequencyResponse& response) {
 
 using Places = std::vector<std::complex<double>>;
 
-// Poles and zeros without the pairs that cancel, such as those of outputs that do not act on this one.
+// Returns poles and zeros without pairs that cancel, such as poles of outputs that do not act on this output.
 std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) {
   constexpr double kSame = 1e-6;
   Places left;

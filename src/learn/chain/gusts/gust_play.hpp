@@ -2,10 +2,10 @@
 // Response of a fall to wind, learned from falls that differ only in their wind (gust_response.cpp), and its play: a
 // bank is placed at each calm fall's state at the gust's onset and exposed to the gust.
 //
-// Source: L.-M. Reissell and D. K. Pai (2001), section 4.4: v_windy − v_calm = F(w, x), whose figure 8 shows one
-// response. Falls are chaotic: a windy fall and its calm twin drift apart for reasons other than the wind. So each gust
+// Source: L.-M. Reissell and D. K. Pai (2001), section 4.4, v_windy − v_calm = F(w, x), and figure 8.
+// Falls are chaotic: a windy fall and its calm twin drift apart for reasons other than the wind. So each gust
 // is repeated over clones with slightly different starts, and the response is learned and judged on the clones' means.
-// It has one lag: a leaf is so light that further lags add nothing.
+// The response has one lag: a leaf is so light that further lags add nothing.
 
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace wisp::chain {
 
-/// A windy recording and its calm twin: pieces k of both begin in one state; each gust has `clones` consecutive pieces.
+/// A windy recording and its calm twin: piece k of both starts alike; each gust has `clones` consecutive pieces.
 struct GustPairs {
   Motion windy;
   Motion calm;

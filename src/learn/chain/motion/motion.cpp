@@ -15,7 +15,7 @@ constexpr double kUsualStep = 0.9;   // quantile of step lengths that counts as 
 constexpr double kMaxJump = 20;      // a step more than this many times the usual and the neighbouring steps is a jump
 constexpr double kRounding = 2e-4;   // deviation from unit length that four digits cause; above it, a warning
 constexpr double kMaxWrong = 0.01;   // maximum deviation of a quaternion from unit length
-constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of it
+constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of the step
 
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
 

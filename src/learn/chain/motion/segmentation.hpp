@@ -49,7 +49,7 @@ std::vector<double> event_rows(std::span<const double> signal, double rate_hz, d
 Result<Segmentation> segment(const Motion& motion, std::span<const Recording> recordings,
                              const SegmentationOptions& options);
 
-/// Values per segment, split into lists where a segment does not follow the one before it.
+/// Splits values per segment into one list per piece.
 template <class T>
 std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::span<const T> values) {
   std::vector<std::vector<T>> stretches;
