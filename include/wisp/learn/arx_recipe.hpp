@@ -42,7 +42,7 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "dia
 /// Objective of the estimation.
 enum class ArxFocus {
   kPrediction,  ///< one-step prediction: least squares
-  kSimulation,  ///< free simulation: of least squares and 15 or 30 lags under a kernel, the best on held-out rows
+  kSimulation,  ///< free simulation: least squares, or 15 or 30 lags under a kernel if better on held-out rows
   kAuto,        ///< least squares, unless 15 or 30 lags under a kernel simulate held-out rows significantly better
 };
 

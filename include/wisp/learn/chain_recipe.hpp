@@ -67,8 +67,7 @@ struct ChainRecipe {
   std::uint64_t seed = 1;
 };
 
-/// A leaf: a chain cut where the leaf stalls, that is where its forward speed in its own plane is zero (section 4.1.1
-/// of the paper).
+/// A leaf: a chain cut where the leaf stalls, that is, has no forward speed in its own plane (paper, section 4.1.1).
 struct LeafRecipe : ChainRecipe {
   LeafRecipe() {
     name = "leaf";

@@ -46,7 +46,7 @@ Result<Report> validate(const Model& model, const Recording& recording, const Va
 /// Horizon and initial state of predictions.
 struct PredictionOptions {
   int steps = 1;                                   ///< steps ahead, 1 to 100000, or kFreeRun: from the inputs alone
-  InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX free run; else kMeasured only
+  InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free run; otherwise only kMeasured
 };
 
 /// Predicts a recording row by row. Returns the recording's inputs, and for every output the measured channel

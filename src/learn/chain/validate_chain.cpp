@@ -1,4 +1,4 @@
-// Validation of a chain on unseen recordings: falls, or gusts with their calm twins.
+// Validation of a chain on unseen recordings: falls, or gusts in a windy recording and its calm counterpart.
 #include <algorithm>
 #include <limits>
 #include <span>

@@ -16,7 +16,7 @@ namespace wisp {
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with an outline again; the number of rows where there is none
-  double wind = 0;     ///< maximum from 0.6 s before to 0.15 s after `gone` of the wind's mean over 0.15 s, in its unit
+  double wind = 0;     ///< largest 0.15 s mean of the wind from 0.6 s before `gone` to 0.15 s after, in the wind's unit
   bool blown = false;  ///< whether `wind` exceeds the 95th percentile of the wind while the flame burned
 };
 

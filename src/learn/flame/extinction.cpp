@@ -133,8 +133,8 @@ class FlameLives {
 // Search grid. Steps of 5 % (level) and 15 % (duration) are finer than recordings resolve.
 constexpr int kLevels = 40;
 constexpr int kDurations = 40;
-constexpr double kShortest = 0.02;  // seconds
-constexpr double kLongest = 4;
+constexpr double kShortest = 0.02;  // seconds, shortest duration tried
+constexpr double kLongest = 4;      // seconds, longest duration tried
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
 constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // decrease of harm per second below the level
 
@@ -162,7 +162,7 @@ struct Shape {
 struct Harms {
   std::vector<double> gusts;                // maximum harm in each gust that was survived
   std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
-  std::vector<double> first;                // for each extinction: seconds from the first watched row to it
+  std::vector<double> first;                // for each extinction: seconds after the first watched row
   std::vector<double> step;                 // for each extinction: seconds per row
 };
 

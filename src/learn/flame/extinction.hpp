@@ -51,7 +51,7 @@ ExtinctionAgreement agreement(const Extinction& rule, std::span<const Extinction
 struct ExtinctionFit {
   Extinction rule;                      ///< level in the model's units
   std::array<double, 2> level_range{};  ///< range of levels over all equally good rules
-  ExtinctionAgreement agreement;        ///< with the training recordings
+  ExtinctionAgreement agreement;        ///< agreement of the rule with the training recordings
 };
 
 /// Learns a rule from recordings with at least one extinction.

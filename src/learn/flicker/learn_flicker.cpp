@@ -105,7 +105,7 @@ struct Light {
   Traces learned, held_out;  // normalised to a mean of 1 over both
 };
 
-// Index of the named channel; without a name that of "brightness", else of the only output.
+// Returns the index of the named channel; without a name, of "brightness" or else of the only output.
 Result<std::size_t> channel_of(const Recording& recording, const std::string& name) {
   if (const auto found = find_channel(recording, name.empty() ? "brightness" : name)) return *found;
   if (!name.empty()) return Error{recording.source + ": has no channel \"" + name + "\""};

@@ -105,7 +105,7 @@ struct Form {
   bool has_sign;
   double (*power)(double);
 
-  // NaN is propagated.
+  // Value of the regressor at input u; NaN for NaN.
   double of(double u) const { return (has_sign && u < 0 ? -1 : 1) * power(std::abs(u)); }
 };
 

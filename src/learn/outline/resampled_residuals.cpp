@@ -45,8 +45,8 @@ std::vector<double> signed_input(const Recording& recording, const PreparedOutli
   return samples_of(recording, prepared.inputs.front().name);
 }
 
-// Whether wind begins after calm. A stretch ends there: otherwise the play of a lasting calm could continue into a
-// recorded gust within the tolerance, and move by its residuals.
+// Returns whether wind begins after calm, where a stretch must end: otherwise the play of a lasting calm could continue
+// into a recorded gust within the tolerance, and move by the gust's residuals.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }

@@ -70,7 +70,7 @@ Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts);
 /// Horizontal angles between the recorded and the played mean displacement at the end, degrees.
 struct GustDirection {
   double median = 0;
-  double mean = 0;        ///< over all gusts: small displacements have a random direction
+  double mean = 0;        ///< over all gusts, also small displacements, whose direction is random
   double mean_clear = 0;  ///< over gusts with a significant displacement
 };
 

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t kParts = 16;  // number of short windows in the longest stretch; a long window is four of them
 constexpr double kMinSegments = 8;  // minimum per long window: a slow random walk shows only over that many
-// Maximum ratio of the long windows' variance to the short windows'. In simulations, 1 in 100 random walks is below it,
-// and none of 300 processes that return to their mean within 1/90 of the recording is above it.
+// Maximum ratio of the long windows' variance to the short windows'. In simulations, 1 in 100 random walks has less,
+// and none of 300 processes that return to their mean within 1/90 of the recording has more.
 constexpr double kMaxGrowth = 1.7;
 
 // Mean variance of heights within adjacent windows of `rows` rows.

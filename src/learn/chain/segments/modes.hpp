@@ -94,8 +94,8 @@ Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_
 
 struct SegmentStoreOptions {
   bool heading_free = true;
-  std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: excess segments are dropped, from the most frequent
-                                      ///< modes first
+  std::size_t max_bytes = 4'000'000;  ///< > 0, maximum size of all segments: excess ones are dropped, from the
+                                      ///< modes with most segments first
   bool bounded_height = false;        ///< segments keep their initial height and join others at a similar one
   int breadth = 0;  ///< 0 … 256: number of best-joining successors per segment and mode; 0: any segment of the mode may
                     ///< follow

@@ -140,7 +140,7 @@ ReportSection fit_section(const OutlineJudgement& found) {
   return section;
 }
 
-// Bounds of a measure in words.
+// Describes the floor and the ceiling of a measure in words.
 std::string between(const Bounded& measure) {
   const auto bound = [](double value) { return std::isfinite(value) ? number_text(value, 3) : "too short to tell"; };
   return "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
