@@ -21,8 +21,8 @@ namespace {
 using arx::add;
 
 constexpr double kPercentile = 0.99;      // quantile of all rows' jumps, above which a row at a join jumps
-constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
-constexpr std::size_t kMaxWindows = 500;  // maximum number on each side
+constexpr double kWindowSegments = 2.5;   // duration of a window, in mean segment durations
+constexpr std::size_t kMaxWindows = 500;  // maximum number of windows on each side
 constexpr int kSynthesizedPerReal = 2;    // synthesized falls per recorded fall
 constexpr double kLongWindowSeconds = 2;
 constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // smaller motion is invisible

@@ -16,7 +16,7 @@ namespace {
 
 // ---- Plotted tracks of recorded and synthesized falls ----
 
-constexpr std::size_t kFalls = 12;    // maximum number on each side: more would hide each other
+constexpr std::size_t kFalls = 12;    // maximum number plotted on each side: more would hide each other
 constexpr double kShownSeconds = 6;   // maximum duration of a plotted fall
 constexpr double kMarkedSeconds = 3;  // maximum duration of the fall with marked events
 

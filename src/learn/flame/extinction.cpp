@@ -25,16 +25,15 @@ struct FlameLife {
   double rate_hz = 0;
   bool died = false;
   std::size_t watched = 0;        ///< first row in which an extinction by the rule counts as reproduced
-  std::size_t until = 0;          ///< one past the last such row; it may be after the life's end
+  std::size_t until = 0;          ///< one past the last row in which it counts, which may be after the life
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
 constexpr double kWatchedBefore = 0.5;  // seconds by which a rule's extinction may precede the recorded one
-constexpr double kWatchedAfter =
-    0.5;  // seconds that a rule's extinction may be late: capture loses a decaying flame early
-constexpr double kAveraged = 0.15;  // seconds over which wind is averaged
-constexpr double kGustShare = 0.5;  // least wind of a gust, as a share of the weakest extinguishing wind
-constexpr double kOneGust = 0.15;   // seconds: shorter lulls do not divide a gust
+constexpr double kWatchedAfter = 0.5;   // seconds by which a rule may be late: capture loses a decaying flame early
+constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
+constexpr double kGustShare = 0.5;      // least wind of a gust, as a share of the weakest extinguishing wind
+constexpr double kOneGust = 0.15;       // seconds: shorter lulls do not divide a gust
 
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   std::vector<double> out;

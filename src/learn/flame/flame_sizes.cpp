@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kDyingSeen = 0.3;  // maximum seconds of decay before extinction; earlier changes belong to the gust
 constexpr double kShrinks = 0.97;   // share of the size before the decay, below which the flame counts as decaying
-constexpr double kDim = 0.05;       // seconds of glow without an outline
+constexpr double kDim = 0.05;       // seconds of glow appended after the outline disappears
 constexpr double kMaxCatching = 0.75, kMinCatching = 0.25;  // seconds stored of a re-ignition; shorter ones are dropped
 constexpr std::size_t kMaxEvents = 8;
 

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
-// Predictions shown in pictures: the free simulation of a model with inputs, of others the last of the predictions at
-// most five frames ahead. Without such predictions, the first.
+// Returns the predictions for pictures: with inputs the free simulation, without inputs the last prediction at most
+// five frames ahead. If there is none, returns the first of all predictions.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
