@@ -19,9 +19,9 @@ enum class RemarkKind {
   kRedundant,   ///< a linear function of another channel; for inputs, also of earlier samples of another channel
   kMissing,     ///< more than a tenth of the samples are missing
   kShort,       ///< fewer than 50 rows
-  kExcitation,  ///< an input that changes fewer than four times
+  kExcitation,  ///< an input that changes only one to three times
   kFeedback,    ///< an input that depends on the output (feedback)
-  kDelay,       ///< an input that acts with a delay
+  kDelay,       ///< an input that acts after a delay of four samples or more
   kIntegrates,  ///< an output that integrates its input
   kDrift,       ///< an output that drifts independently of the inputs
   kClock,       ///< a clock that was resampled, or a rate or unit that was guessed

@@ -61,7 +61,7 @@ struct ChainFidelity {
   Bounded long_energy_distance;  ///< over windows of two seconds; NaN where recordings are shorter
   Bounded spectra;               ///< result of spectra_apart()
   JoinDefect join_defect;
-  std::size_t windows = 0;  ///< number of windows on each side
+  std::size_t windows = 0;  ///< number of recorded windows compared in energy_distance
   double window_seconds = 0;
 };
 
