@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Defects of a recording, the commonest cause of bad models first.
+/// Kinds of defects of a recording, from the most to the least common cause of bad models.
 enum class RemarkKind {
   kSentinel,    ///< a number that stands for a missing sample, such as −999
   kOutliers,    ///< single samples far from their neighbours
@@ -19,9 +19,9 @@ enum class RemarkKind {
   kRedundant,   ///< a linear function of another channel; for inputs, also of earlier samples of another channel
   kMissing,     ///< more than a tenth of the samples are missing
   kShort,       ///< fewer than 50 rows
-  kExcitation,  ///< an input that changes fewer than four times
+  kExcitation,  ///< an input that changes only one to three times
   kFeedback,    ///< an input that depends on the output (feedback)
-  kDelay,       ///< an input that acts with a delay
+  kDelay,       ///< an input that acts after a delay of four samples or more
   kIntegrates,  ///< an output that integrates its input
   kDrift,       ///< an output that drifts independently of the inputs
   kClock,       ///< a clock that was resampled, or a rate or unit that was guessed
@@ -34,8 +34,8 @@ struct Remark {
   std::string channel;
   std::string cause;
   std::string cure;
-  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the variance left by the input's own past that
-                    ///< the output's past explains
+  double size = 0;  ///< kDelay: delay in samples; kFeedback: percent of the input's variance, unexplained by its own
+                    ///< past, that the output's past explains
 };
 
 /// Returns remarks on recordings, in the order of RemarkKind. Only outputs are tested for outliers, drift and
@@ -59,8 +59,9 @@ Report advise(const Recording& recording);
 
 /// Describes the motion of outlines: mean and deviation of height, area and lean; the flicker frequency of √area with
 /// its half-power bandwidth, and its spectrum as a series. For outlines filmed simultaneously, also the phase by
-/// which each lags the first one at that one's flicker frequency, −180 to 180 degrees, with the coherence.
-/// Errors: fewer than two rows with an outline; a rate or number of rows that differs from the first recording's.
+/// which each other outline lags the first, at the first one's flicker frequency, −180 to 180 degrees, and coherence.
+/// Errors: no outline; fewer than two rows with an outline; a rate or number of rows that differs from the first
+/// recording's.
 Result<Report> outline_motion(std::span<const Recording> recordings);
 
 }  // namespace wisp

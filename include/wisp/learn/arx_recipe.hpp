@@ -28,8 +28,8 @@ enum class ArxOffset {
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<ArxOffset>{"mean", "none", "estimate"};
 
-/// Outputs that appear in an output's regression. Inputs appear in every one. A group is one output, or the x and y of
-/// one control point.
+/// Outputs whose past appears in an output's regression; inputs appear in all regressions. A group is one output, or
+/// the x and y of one control point.
 enum class Coupling {
   kFull,      ///< all outputs
   kDiagonal,  ///< outputs of its own group
@@ -42,7 +42,7 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<Coupling>{"full", "dia
 /// Objective of the estimation.
 enum class ArxFocus {
   kPrediction,  ///< one-step prediction: least squares
-  kSimulation,  ///< free simulation: the best on held-out rows of least squares and of 15 or 30 lags under a kernel
+  kSimulation,  ///< free simulation: least squares, or 15 or 30 lags under a kernel if better on held-out rows
   kAuto,        ///< least squares, unless 15 or 30 lags under a kernel simulate held-out rows significantly better
 };
 
@@ -52,7 +52,7 @@ inline constexpr std::array<std::string_view, 3> kWordsOf<ArxFocus>{"prediction"
 /// Prior on the coefficients.
 enum class ArxKernel {
   kNone,
-  kTc,  ///< tuned/correlated: coefficients decay over a channel's lags, neighbours correlate; rate from the data
+  kTc,  ///< tuned/correlated: coefficients decay over lags, neighbouring lags correlate; decay rate from the data
 };
 
 template <>
@@ -65,14 +65,14 @@ inline constexpr int kFreeRun = 0;
 enum class InitialState {
   kMeasured,   ///< the measured samples before the first simulated row
   kZero,       ///< the operating point: every output at its mean
-  kEstimated,  ///< the past outputs with the best-fitting simulation, by least squares
+  kEstimated,  ///< past outputs chosen by least squares so that the simulation fits best
 };
 
 template <>
 inline constexpr std::array<std::string_view, 3> kWordsOf<InitialState>{"measured", "zero", "estimated"};
 
 /// One order or delay for all pairs of channels, or a matrix: outputs × outputs for na, outputs × inputs for nb and nk.
-/// 0 to 4096.
+/// Each number is 0 to 4096.
 using OrderChoice = std::variant<int, OrderMatrix>;
 
 /// Orders first … last, inclusive, 0 to 4096.
@@ -81,7 +81,7 @@ struct OrderRange {
   int last = 1;
 };
 
-/// Criterion by which the best candidate is selected.
+/// Criterion by which an order search selects its candidate.
 enum class OrderCriterion {
   kFpe,
   kAic,
@@ -93,7 +93,7 @@ enum class OrderCriterion {
 template <>
 inline constexpr std::array<std::string_view, 5> kWordsOf<OrderCriterion>{"fpe", "aic", "aicc", "bic", "validation"};
 
-/// Grid of orders and delays, equal for all pairs of channels, from which the best is selected.
+/// Grid of orders and delays from which a search selects. A candidate has equal orders for all pairs of channels.
 struct ArxSearch {
   OrderRange na{1, 10};  ///< ten lags are the customary first choice; a candidate costs almost nothing
   OrderRange nb{1, 10};
@@ -109,7 +109,7 @@ struct ArxRecipe {
   std::vector<std::string> inputs{};
   std::vector<std::string> outputs{};
   Preparation preparation{};
-  OrderChoice na = 4;  ///< 4 allows two damped resonances per output, the paper's choice
+  OrderChoice na = 4;  ///< two damped resonances per output; the choice of Reissell and Pai (2001)
   OrderChoice nb = 4;
   std::optional<OrderChoice> nk = 1;
   std::optional<int> max_delay{};
@@ -137,8 +137,8 @@ struct SwitchedRecipe {
   std::uint64_t seed = 1;
 };
 
-/// The light of a flame, for playback by a lamp: ARX modes from calm to restless, switched by a Markov chain. Stretches
-/// of about half a second with similar variation form a mode; shock strengths are calibrated by playing the model.
+/// The light of a flame, for playback by a lamp: ARX modes from calm to restless, switched by a Markov chain. A
+/// row's mode is its level of variation within half a second; shock strengths are calibrated by playing the model.
 struct FlickerRecipe {
   std::string name{};
   std::string output{};

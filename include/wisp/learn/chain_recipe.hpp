@@ -35,8 +35,8 @@ enum class Realisation {
   kSegments,  ///< recorded segments
   kLinear,    ///< simulated by a linear system with noise, from recorded initial states
   kOde,       ///< simulated by a differential equation with products of velocities, from recorded initial states
-  kChain,     ///< halves of recorded segments; each mode is a chain of its own
-  kSpline,    ///< random splines with the variation of recorded segments
+  kChain,     ///< halves of recorded segments; each mode becomes a chain of four smaller modes
+  kSpline,    ///< recorded segments as B-splines, reduced to their mode's 12 largest principal components
 };
 
 template <>
@@ -46,8 +46,8 @@ inline constexpr std::array<std::string_view, 5> kWordsOf<Realisation>{"segments
 std::string word_of(const EventSpec& event);
 
 /// Settings for learning a chain from recordings of a moving body: outputs pos.x, pos.y, pos.z in metres, z up, and, if
-/// known, q.w, q.x, q.y, q.z. Two recordings that share the attribute `pair`, one of them calm, provide its response to
-/// gusts. fields_of() below documents each field.
+/// known, q.w, q.x, q.y, q.z. Two recordings that share the attribute `pair`, one of them calm, provide the body's
+/// response to gusts. fields_of() below documents each field.
 struct ChainRecipe {
   std::string name = "chain";
   EventSpec event{EventKind::kMinimum, "horizontal_speed"};
@@ -67,8 +67,7 @@ struct ChainRecipe {
   std::uint64_t seed = 1;
 };
 
-/// A leaf: a chain cut where the leaf stalls, that is where its forward speed in its own plane is zero (section 4.1.1
-/// of the paper).
+/// A leaf: a chain cut where the leaf stalls, that is, has no forward speed in its own plane (paper, section 4.1.1).
 struct LeafRecipe : ChainRecipe {
   LeafRecipe() {
     name = "leaf";
@@ -123,9 +122,9 @@ constexpr auto fields_of(const ChainRecipe&) {
 /// Names of an optional time column in seconds, which must increase in equal steps.
 inline constexpr std::array<const char*, 3> kTimeColumns = {"t", "t_s", "time"};
 
-/// Checks that a recording describes motion. Errors: no position, no sufficiently long stretch, no orientation where
-/// one is expected, a position that is not in metres or more than 1000 km away; for one with the attribute `pair`, a
-/// missing wind sample or an attribute `clones` that is not a whole number from 1 to 10000.
+/// Checks that a recording describes motion. Errors: no position; an incomplete or not normalised quaternion; no 8
+/// complete rows in succession; a jump; unequal time steps; positions not in metres or beyond 1000 km; with the
+/// attribute `pair`, a missing wind sample or an attribute `clones` that is not a whole number from 1 to 10000.
 Result<void> check_motion(const Recording& recording);
 
 }  // namespace wisp

@@ -19,8 +19,8 @@ namespace wisp {
 using Recipe =
     std::variant<ArxRecipe, SwitchedRecipe, FlickerRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe>;
 
-/// A model and its assessment. The model's `training` has the verdict and the figures that stay with it; the report has
-/// all findings.
+/// A model and its assessment. The model's `training` has the verdict and the figures stored with the model; the report
+/// has all findings.
 struct Fit {
   Model model;
   Report report;

@@ -10,8 +10,8 @@ namespace wisp {
 /// Returns name, rate_hz, inputs [{name, unit, range, shape}], outputs [{name, unit, range}]; dynamics {kind,
 /// …}, for an ARX model with coefficients, poles, zeros and static gains, for a switched one with its modes and their
 /// switching, for a chain with its transitions; view {kind, …}, cost, made {program, sources, options, figures},
-/// extinction {input, level, seconds, haste, recovery, modes [{name, source, seconds, events}]}, null if the model has
-/// no rule of extinction. Its modes are dying (decay) and catching (re-ignition). The verdict is that of the training.
+/// extinction {input, level, seconds, haste, recovery, modes [{name, source, seconds, events}]}, with the modes dying
+/// (decay) and catching (re-ignition), null if the model has no rule. The verdict is that of the training.
 /// Errors: the model cannot be played.
 Result<Report> model_report(const Model& model);
 

@@ -46,13 +46,13 @@ class ArxPart {
   ArxPart& operator=(ArxPart&&) noexcept;
   ~ArxPart();
 
-  /// Adds a share of a recording; after an error nothing of it is added.
-  /// Errors: a missing channel, a rate that differs from the previous one, infinite samples, rows beyond its end, rows
-  /// that were added before.
+  /// Adds a share of a recording; after an error the part is unchanged.
+  /// Errors: a missing channel, a rate that differs from the previous one, infinite samples, rows beyond the
+  /// recording's end, rows that were added before.
   Result<void> add(const Recording& recording, const TableShare& share = {});
 
   /// Adds a share of a CSV file, read in blocks, in memory that does not grow with its length.
-  /// Errors: also those of CsvReader.
+  /// Errors: as for a recording, and those of CsvReader.
   Result<void> add(const std::filesystem::path& table, const CsvOptions& options = {}, const TableShare& share = {});
 
   /// Merges another part into this one. Errors: a part of another model, rows that are in both.

@@ -41,8 +41,8 @@ struct FieldTraits {
   const char* sign = "";       ///< name of the value in the flag's help
   double lowest = -std::numeric_limits<double>::infinity();  ///< lower bound of a number, inclusive
   double highest = std::numeric_limits<double>::infinity();  ///< upper bound of a number, inclusive
-  const char* unset = nullptr;                               ///< word for 0 or an unset value: the recordings decide
-  std::array<const char*, 2> words{};                        ///< words of a flag for false and for true; none: a switch
+  const char* unset = nullptr;         ///< word for 0 or an unset value, which leaves the choice to learn()
+  std::array<const char*, 2> words{};  ///< words of a flag for false and for true; none: a switch
 };
 
 /// One field of a recipe.
@@ -64,7 +64,7 @@ constexpr RecipeField<Recipe, Value> field(const char* name, Value Recipe::*memb
 std::string range_text(double lowest, double highest);
 
 /// Checks that a field's number is in its range, or unset.
-/// Errors: it is outside, with the field's name and range.
+/// Errors: a number out of range, with the field's name and range.
 Result<void> check_number(std::string_view name, double value, const FieldTraits& traits);
 
 /// Calls `visit` with each field of a recipe.
@@ -73,7 +73,7 @@ void for_each_field(const Recipe& recipe, Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, fields_of(recipe));
 }
 
-/// Returns the number in a field; nothing for another type, or an unset one.
+/// Returns the number in a field; nothing if the field is unset or not a number.
 template <class Value>
 constexpr std::optional<double> number_of(const Value& value) {
   if constexpr (std::is_same_v<Value, std::optional<int>>) {
@@ -85,7 +85,7 @@ constexpr std::optional<double> number_of(const Value& value) {
 }
 
 /// Checks that all numbers of a recipe are in their ranges.
-/// Errors: the first that is not, by its name, with its range.
+/// Errors: the first number out of its range, with the field's name and range.
 template <class Recipe>
 Result<void> check_fields(const Recipe& recipe) {
   Result<void> all;

@@ -16,14 +16,14 @@
 
 namespace wisp {
 
-/// Options of validation. Each kind of model uses those that concern it.
+/// Options of validation. A kind of model ignores options that do not concern it.
 struct ValidationOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};      ///< prediction horizons, 1 to 100000 steps, or kFreeRun
   InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX model's free simulation; a switched
                                                    ///< model starts from measured samples
   bool responses = false;  ///< ARX: also series of poles, zeros, responses and errors by horizon; outlines: of poles
-  double pixels_per_unit = 0;    ///< outlines: 0: the recording's own calm height
-  bool own_input_scale = false;  ///< outlines: input 1 is this recording's 95th percentile instead of the training's,
+  double pixels_per_unit = 0;    ///< outlines: pixels per model unit; 0: the recording's own calm height
+  bool own_input_scale = false;  ///< outlines: an input of 1 is this recording's 95th percentile, not the training's,
                                  ///< for another microphone or gain
   bool align = true;             ///< outlines: advance inputs that lag behind the motion they cause
   double play_seconds = 60;      ///< outlines: duration of free play for the fidelity figures, 0.001 to 86400
@@ -32,7 +32,7 @@ struct ValidationOptions {
 };
 
 /// Validates a model on a recording; a plain ARX model also on several, in one table, with warnings that name the badly
-/// fitted ones; a chain also on several, or on a windy recording and its calm twin.
+/// fitted ones; a chain also on several, or on a windy and a calm recording with one attribute `pair`.
 /// The report has the fields of `wisp validate --json` for that kind of model, and the series of its plots.
 /// Errors, naming the recording: missing channels, a rate or number of control points that differs from the model's,
 /// too few rows, options out of range; kStopped.
@@ -46,10 +46,10 @@ Result<Report> validate(const Model& model, const Recording& recording, const Va
 /// Horizon and initial state of predictions.
 struct PredictionOptions {
   int steps = 1;                                   ///< steps ahead, 1 to 100000, or kFreeRun: from the inputs alone
-  InitialState initial = InitialState::kMeasured;  ///< initial state of an ARX free run; else kMeasured only
+  InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free run; otherwise only kMeasured
 };
 
-/// Predicts a recording row by row. Returns a recording with its inputs, and for every output the measured channel
+/// Predicts a recording row by row. Returns the recording's inputs, and for every output the measured channel
 /// NAME, NAME.predicted and, except for switched models, NAME.low and NAME.high: the 95 % interval by the model's own
 /// noise. NaN where there is no prediction: at the beginning of an episode, and after missing samples. Outlines are in
 /// the recording's pixels.
@@ -59,16 +59,15 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
 
 /// Returns a recording whose channels `names`, one per input of the model, are converted to the units of those inputs,
 /// as in validate() and predict(): to the sensitivity of the training's microphone, if training and recording state the
-/// sound level at value 1, then divided by the training's scale. `own_gain`: for a model of an outline, divided instead
-/// by the recording's own 95th percentile while it blows, for another microphone. Channels already in an input's unit,
-/// as played by a model, stay unchanged. Errors, naming the recording: a missing channel; a stated sound level that is
-/// not a positive number.
+/// sound level at value 1, then divided by the training's scale. `own_gain`, for another microphone: a model of an
+/// outline divides instead by the 95th percentile of the recording's windy rows, another model by 1. Channels in an
+/// input's unit already, as played by a model, stay unchanged. Errors, naming the recording: a missing channel; a
+/// stated sound level that is not a positive number.
 ///
 /// Precondition: as many names as inputs.
 Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
                                  bool own_gain = false);
 
-/// A model and its name in a comparison.
 struct NamedModel {
   std::string name;
   Model model;
@@ -92,7 +91,7 @@ using OutlineRows = std::vector<std::vector<std::array<double, 2>>>;
 /// Returns the outlines of a recording. Errors: it is not a recording of an outline.
 Result<OutlineRows> outline_rows(const Recording& recording);
 
-/// The report, and the outlines for its pictures.
+/// Result of validate_outline(): the report, and the outlines for its pictures.
 struct ValidatedOutline {
   Report report;
   OutlineRows captured;
@@ -100,7 +99,7 @@ struct ValidatedOutline {
                           ///< at most five frames ahead, since nothing drives a simulation
   std::string simulated_label;  ///< "simulated from the input alone", "predicted 5 frames ahead"
   OutlineRows played;           ///< play of the model with noise along the recording's inputs
-  double pixels_per_unit = 1;   ///< scale of the model's unit in this clip
+  double pixels_per_unit = 1;   ///< pixels of this clip per unit of the model
 };
 
 /// Validates an outline model on a recording of an outline in pixels. The input is converted to the training's scale of

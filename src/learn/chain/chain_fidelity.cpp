@@ -20,12 +20,12 @@ namespace {
 
 using arx::add;
 
-constexpr double kPercentile = 0.99;
-constexpr double kWindowSegments = 2.5;   // length of a window in mean segments
-constexpr std::size_t kMaxWindows = 500;  // maximum number on each side
+constexpr double kPercentile = 0.99;      // quantile of all rows' jumps, above which a row at a join jumps
+constexpr double kWindowSegments = 2.5;   // duration of a window, in mean segment durations
+constexpr std::size_t kMaxWindows = 500;  // maximum number of windows on each side
 constexpr int kSynthesizedPerReal = 2;    // synthesized falls per recorded fall
 constexpr double kLongWindowSeconds = 2;
-constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // limits of visibility
+constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // smaller motion is invisible
 
 struct Jumps {
   std::vector<double> position;
@@ -53,7 +53,7 @@ double share_above(const std::vector<double>& joins, const std::vector<double>& 
   return static_cast<double>(above) / static_cast<double>(joins.size());
 }
 
-// Jumps at a join appear in the join's row and in the row after it.
+// Returns the jumps at joins: those in each join's row and in the row after.
 Jumps jumps_at(const Motion& motion, std::span<const std::vector<std::size_t>> rows) {
   Jumps jumps;
   for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
@@ -66,7 +66,7 @@ Jumps jumps_at(const Motion& motion, std::span<const std::vector<std::size_t>> r
   return jumps;
 }
 
-// `joins`: for each piece of `made`, the rows at which a segment was joined.
+// Compares jumps at joins with those of all rows. `joins`: for each piece of `made`, the rows at which segments join.
 JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, const Motion& made,
                        std::span<const std::vector<std::size_t>> joins) {
   Jumps all;
@@ -81,7 +81,7 @@ JoinDefect join_defect(const Motion& real, std::span<const Segment> segments, co
 }
 
 constexpr std::size_t kTiltColumn = 3;  // column of tilt in the series of poses
-constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°, the limit of the eye: noise of this size enters every tilt figure
+constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°, the limit of the eye: noise of this size is added to tilt
 constexpr double kMinSpeed = 0.05;      // m/s: below this speed heading is undefined
 
 void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, double segment_seconds,
@@ -170,7 +170,8 @@ double energy_of(const FeatureWindows& reference, const FeatureWindows& other) {
 }
 
 // Distance between real and made falls, its floor (between two halves of the real falls: every other fall, or a single
-// fall cut in time) and its ceiling (from real falls to their rows in random order). `windows_of`: windows of a series.
+// fall cut in time) and its ceiling (from real falls to their rows in random order). `windows_of` cuts falls into
+// windows.
 template <typename Windows>
 Bounded compared(std::span<const Stretch> real, std::span<const Stretch> made, std::uint64_t seed,
                  const Windows& windows_of) {
@@ -213,8 +214,8 @@ std::vector<Stretch> signals_of(const Motion& motion, std::uint64_t seed) {
   return out;
 }
 
-// Rows of a window of two seconds, made even. Spectra need at least 8: where two seconds have fewer, the number exceeds
-// every stretch's, so that there is no window.
+// Returns the rows of a window of two seconds, made even. If they are fewer than the 8 that spectra need, returns more
+// rows than any stretch has, so that there is no window.
 std::size_t long_rows(double rate_hz) {
   const auto rows = 2 * static_cast<std::size_t>(std::lround(kLongWindowSeconds / 2 * rate_hz));
   return rows >= 8 ? rows : std::numeric_limits<std::size_t>::max() / 2;

@@ -19,9 +19,9 @@
 
 namespace wisp::chain {
 
-/// Shares of join rows that jump, that is, deviate from the extrapolation of the two rows before by more than 99 % of
-/// the recording's rows do. 0.01 where joins are like any other row. Floors are the shares at the recording's own
-/// events, where nothing was joined.
+/// Shares of the rows at joins that jump, that is, deviate from the linear extrapolation of the two rows before more
+/// than 99 % of the recording's rows do: 0.01 where joins are like any other row. Floors are the shares at the
+/// recording's own events, where nothing was joined.
 struct JoinDefect {
   double position = 0, rotation = 0;  ///< rotation: 0 without orientation
   double position_floor = 0, rotation_floor = 0;
@@ -32,7 +32,7 @@ struct JoinDefect {
 /// no rows.
 std::vector<Stretch> motion_series(const Motion& motion, std::span<const Segment> segments);
 
-/// Adjacent windows of `rows` rows: mean, deviation, minimum and maximum of every column. Tilt gets noise of ±0.2°.
+/// Adjacent windows of `rows` rows: mean, deviation, minimum and maximum of every column, with ±0.2° of noise for tilt.
 ///
 /// Precondition: rows >= 2.
 FeatureWindows series_windows(std::span<const Stretch> series, std::size_t rows);
@@ -58,10 +58,10 @@ struct ChainFidelity {
   FallFigures real;
   FallFigures synthesized;
   Bounded energy_distance;       ///< over windows of 2.5 recorded segments of mean duration
-  Bounded long_energy_distance;  ///< the same over windows of two seconds; NaN where recordings are shorter
+  Bounded long_energy_distance;  ///< over windows of two seconds; NaN where recordings are shorter
   Bounded spectra;               ///< result of spectra_apart()
   JoinDefect join_defect;
-  std::size_t windows = 0;  ///< number of windows on each side
+  std::size_t windows = 0;  ///< number of recorded windows compared in energy_distance
   double window_seconds = 0;
 };
 
@@ -89,14 +89,14 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
 
 ReportSection segments_section(const ChainSummary& summary);
 
-/// Section with the figures `fidelity.*` and `join_defect.*`. Figures that need a missing orientation are unlabelled:
-/// for programs only.
+/// Section with the figures `fidelity.*` and `join_defect.*`. Without orientation the figures that need it have no
+/// label, so that only programs see them.
 ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientation);
 
 /// Copies the figures that a model stores to its training record.
 void add_figures(const ChainFidelity& fidelity, Training& training);
 
-/// Names of the measures that the recorded falls suffice for, and of those for which they are too few or too short.
+/// Names of measures: `judged`, for which the recorded falls suffice; `unjudged`, for which they are too few or short.
 struct Judged {
   std::string judged;
   std::string unjudged;
@@ -104,8 +104,8 @@ struct Judged {
 
 Judged judged_by(const ChainFidelity& fidelity);
 
-/// Reason why falls differ from the recorded ones: they have no events, or a measure is above its floor and half of its
-/// ceiling. Empty where there is none.
+/// Returns why played falls are unlike recorded ones: they have no events, or a measure is above its floor and above
+/// half of its ceiling. Empty if neither is the case.
 std::optional<std::string> fault_of(const ChainFidelity& fidelity);
 
 }  // namespace wisp::chain

@@ -23,15 +23,15 @@ constexpr double kMinLead = 1e-6;  // metres: smaller leads are rounding errors
 
 using Complex = std::complex<double>;
 
-struct Way {
-  Complex ground;
+struct Way {       // a displacement in metres
+  Complex ground;  // x + iy
   double height = 0;
 };
 
 struct Next {
   std::size_t segment;
   double probability;
-  Complex turn;  // rotation applied when it is placed
+  Complex turn;  // unit number: rotation about z that joins the segment
 };
 
 class Walk {
@@ -121,10 +121,10 @@ class Walk {
   std::vector<std::vector<Next>> next_;
 };
 
-// Expected displacement after each segment in excess of `drift`; `memory`: receives the seconds until half is reached.
+// Returns the expected displacement after each segment, less `drift`; `memory` receives the seconds until half of it.
 std::vector<Way> leads_of(const Walk& walk, const Way& drift, const std::vector<double>& visits, double& memory) {
   std::vector<Way> lead(walk.size());
-  std::vector<double> size;  // root mean square after each iteration
+  std::vector<double> size;  // root mean square over ground after each iteration
   double mean_seconds = 0;
   for (std::size_t s = 0; s < walk.size(); ++s) mean_seconds += visits[s] * walk.seconds(s);
   for (int round = 0; round < kRounds; ++round) {
@@ -274,8 +274,8 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// If no number of modes is requested: one where orientation is known, since the next segment is chosen by its join.
-// Without orientation, the best-joining successors are too often short ones; modes preserve the mean duration.
+// Sorts segments into modes. By default, one mode if orientation is known: joins select the successors. Otherwise
+// several, since the best-joining successors are too often short segments, while modes preserve the mean duration.
 Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
   const std::span segments = data.segments();
   if (recipe.modes == 0 && data.motion.has_orientation) {

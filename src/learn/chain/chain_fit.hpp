@@ -1,6 +1,6 @@
 #pragma once
 // Learns a segment chain from recorded motion: segments between events are described, clustered into modes, counted and
-// stored. Source: sections 2.2 and 4 of the paper.
+// stored. Source: L.-M. Reissell and D. K. Pai (2001), sections 2.2 and 4.
 //
 // Departure where orientation is known and no modes are requested: a segment is followed by one of the segments that
 // join it best.
@@ -41,8 +41,8 @@ struct ChainFit {
   ChainSummary summary;
   std::vector<Recording> learned;     ///< stretches learned from
   std::vector<Recording> held_out;    ///< stretches held out
-  std::vector<std::uint64_t> origin;  ///< per stored segment: its index among all segments, with a gap between
-                                      ///< stretches; consecutive indices continue each other
+  std::vector<std::uint64_t> origin;  ///< per stored segment: its index among all segments, with indices
+                                      ///< skipped between stretches: n + 1 continues n in the recording
 };
 
 /// Fits a chain to falls. Gusts are learned separately.

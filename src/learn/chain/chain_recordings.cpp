@@ -64,7 +64,7 @@ Result<void> check_paired(const Recording& recording) {
                ": how many episodes in a row belong to one gust"};
 }
 
-// Hash of all samples of an episode. Different episodes collide with a probability of 1e-19.
+// Hash of all samples of an episode. Two different episodes collide with a probability below 1e-19.
 std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
   std::uint64_t hash = hash_bytes({});
   for (const Channel& channel : recording.channels) {

@@ -39,7 +39,7 @@ Error about(std::span<const Recording> recordings, const Error& error) {
   return {recordings.front().source + ": " + error.message};
 }
 
-// Warns of repeated falls, which add nothing to the judgement.
+// Reports episodes that repeat another row by row. If all episodes are equal, declares the model unusable.
 void take_repeats(std::span<const Recording> falls, Fit& fit) {
   const Repeats repeats = repeats_in(falls);
   if (repeats.repeated == 0) return;
@@ -61,7 +61,7 @@ void judge_speed(std::span<const Recording> falls, Usable& usable) {
                        " m/s on average: give positions in metres, not in millimetres"};
 }
 
-// Fidelity to the held-out stretches or, without any, to the training stretches.
+// Judges the fidelity to the held-out stretches or, without any, to the training stretches.
 void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   const ChainFidelityOptions judging{
       .segmentation = segmentation_of(recipe), .smooth_rows = recipe.smooth_rows, .seed = recipe.seed};
@@ -87,12 +87,12 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   }
 }
 
-// Learns the response to gusts from a windy recording and its calm twin.
+// Learns the response to gusts from a windy recording and a calm one that differs only in its wind.
 Result<void> take_gusts(std::span<const Recording> paired, std::uint64_t seed, Fit& fit) {
   if (paired.empty()) return {};
   const auto pairs = gust_pairs(paired[0], paired[1]);
   if (!pairs) return pairs.error();
-  const std::size_t told = pairs->gusts() * 3 / 5;  // number of gusts to learn from; the others judge
+  const std::size_t told = pairs->gusts() * 3 / 5;  // number of gusts to learn from; the model is judged on the others
   auto gusts = learn_gusts(*pairs, told);
   if (!gusts) return gusts.error();
   std::get<ChainModel>(fit.model.dynamics).gust = gusts->response;

@@ -16,15 +16,15 @@ namespace wisp {
 
 /// Learns a chain, with its gust response where two of the recordings are a pair, and judges it on the held-out
 /// stretches (on the training stretches where nothing was held out).
-/// Errors, with the file's name: as check_motion(); an invalid pair, or one without other falls; no event, or fewer
+/// Errors, with the file's name: as check_motion(); an invalid pair, or a pair without other falls; no event, or fewer
 /// segments than modes; a recipe out of range; stopped by `progress`.
 Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
                         const Progress& progress = {});
 
 /// Compares falls that the model makes with recorded ones, which should be unseen in training; or, given a windy
-/// recording and its calm twin, the effect of gusts. The report's series are recorded and played tracks.
-/// Errors: as check_motion(); the model is no chain, or lacks its segmentation options; rates that differ; an invalid
-/// pair; stopped by `progress`.
+/// and a calm recording with one attribute `pair`, the effect of gusts. The report's series are recorded and played
+/// tracks. Errors: as check_motion(); the model is no chain, or lacks its segmentation options; rates that differ; an
+/// invalid pair; stopped by `progress`.
 Result<Report> validate_chain(const Model& model, std::span<const Recording> recordings, std::uint64_t seed,
                               const Progress& progress = {});
 
@@ -41,7 +41,7 @@ struct SortedRecordings {
 /// Errors: as check_motion(); paired recordings other than one windy recording and its calm twin.
 Result<SortedRecordings> sorted_recordings(std::span<const Recording> recordings);
 
-/// Number of episodes, and of those that repeat an earlier one row by row: they add nothing to training or validation.
+/// Number of episodes, and number of episodes that repeat an earlier one row by row and so teach and test nothing.
 struct Repeats {
   std::size_t episodes = 0;
   std::size_t repeated = 0;

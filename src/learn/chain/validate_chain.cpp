@@ -1,4 +1,4 @@
-// Validation of a chain on unseen recordings: falls, or gusts with their calm twins.
+// Validation of a chain on unseen recordings: falls, or gusts in a windy recording and its calm counterpart.
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -16,11 +16,11 @@ namespace {
 
 // ---- Plotted tracks of recorded and synthesized falls ----
 
-constexpr std::size_t kFalls = 12;    // maximum number on each side: more would hide each other
+constexpr std::size_t kFalls = 12;    // maximum number plotted on each side: more would hide each other
 constexpr double kShownSeconds = 6;   // maximum duration of a plotted fall
 constexpr double kMarkedSeconds = 3;  // maximum duration of the fall with marked events
 
-// Rows of a piece to plot: `seconds`, but at least the 8 rows that motion_of() needs.
+// Number of rows of a piece to plot: `seconds` of it, but at least the 8 rows that motion_of() needs.
 std::size_t rows_of(const MotionPiece& piece, double seconds, double rate_hz) {
   return std::min(piece.rows(), std::max<std::size_t>(8, static_cast<std::size_t>(seconds * rate_hz)));
 }
@@ -63,7 +63,7 @@ void add_marked(const Motion& motion, const Segmentation& cut, ReportSection& se
   section.series.push_back(events_of("recorded", piece, events));
 }
 
-// Stretches of one mode in the plotted rows of a fall.
+// Returns the track of a fall in those plotted rows that belong to one mode, with breaks between.
 ReportSeries mode_track(const MotionPiece& piece, std::span<const int> modes, int mode) {
   const std::string number = std::to_string(mode);
   ReportSeries track{"segments.synthesized.mode_" + number, "mode " + number, "x, m", "height, m", {}, {}};

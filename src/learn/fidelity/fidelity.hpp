@@ -17,7 +17,7 @@ namespace wisp {
 
 struct FidelityOptions {
   std::vector<std::string> channels;  ///< channels to compare; empty: all outputs of the first real recording
-  std::size_t welch_samples = 64;     ///< even, at least 16; reduced where a half or the play has no stretch as long
+  std::size_t welch_samples = 64;     ///< even, at least 16; reduced to the longest stretch of a half or the play
   std::size_t max_windows = 500;      ///< ≥ 2, maximum on each side
   std::uint64_t seed = 1;
 };
@@ -45,7 +45,7 @@ struct Fidelity {
   // Measures of long_distances(). NaN where the recording is too short.
   Bounded long_motion;   ///< normalised energy distance of windows of all channels and their velocities
   Bounded long_spectra;  ///< normalised energy distance of log spectra in geometric bands
-  Bounded tails;         ///< mean |ln| of the ratio of the 99th and 99.9th percentile of accelerations
+  Bounded tails;         ///< mean |ln| of synthesized over real, for the 99th and 99.9th percentile of |acceleration|
 
   double verbatim_seconds = 0;  ///< duration of the longest synthesized stretch that copies the real recording
 

@@ -45,10 +45,10 @@ void append_window(const Stretch& stretch, std::size_t first, std::size_t rows, 
 }
 
 constexpr double kLongSeconds = 2;            // duration of a long window
-constexpr std::size_t kMaxLongWindows = 300;  // on each side
+constexpr std::size_t kMaxLongWindows = 300;  // maximum number on each side
 constexpr double kThinnedHz = 15;
 constexpr int kBands = 13;
-constexpr std::size_t kMinWindows = 8;           // on each side; with fewer, distances are dominated by chance
+constexpr std::size_t kMinWindows = 8;           // minimum on each side: with fewer, chance dominates distances
 constexpr double kTailShares[] = {0.99, 0.999};  // quantiles of the sizes of second differences
 constexpr std::size_t kMinTail = 1000;           // minimum number of rows for the 99.9th percentile
 

@@ -20,7 +20,7 @@ namespace wisp {
 /// A random number below `bound`. The modulo's bias is below bound / 2^64.
 inline std::size_t below(std::mt19937_64& random, std::size_t bound) { return random() % bound; }
 
-/// Fisher–Yates shuffle: the algorithm of std::shuffle is implementation-defined.
+/// Shuffles by Fisher–Yates, equally on every machine: the algorithm of std::shuffle is implementation-defined.
 template <class T>
 void shuffle(std::span<T> items, std::mt19937_64& random) {
   for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(random, left)]);
@@ -93,13 +93,13 @@ double energy_distance(const FeatureWindows& x, const FeatureWindows& y);
 /// Distances of two sides: over windows of two seconds (bursts, dives, drift), and of tails. NaN for too few data.
 struct LongDistances {
   double motion = 0;   ///< normalised energy distance of windows of all channels and their differences
-  double spectra = 0;  ///< energy distance of their log spectra in geometric bands, sensitive to each rhythm
-  double tails = 0;    ///< mean over channels and percentiles (99, 99.9) of |ln| of the ratio of sizes of second
-                       ///< differences: 0.1 is 10 % more or less violent
+  double spectra = 0;  ///< energy distance of the windows' log spectra in geometric bands, sensitive to each rhythm
+  double tails = 0;    ///< mean |ln(b / a)| over channels and over the percentiles 99 and 99.9 of |second difference|:
+                       ///< 0.1 is 10 % more or less violent
 };
 
-/// Compares two sides, by at most 300 windows of each. Motion windows are thinned to 15 rows a second; spectra cover
-/// faster motion.
+/// Compares two sides, by at most 300 windows of each. Motion windows keep every n-th row, with the largest n that
+/// leaves 15 rows a second; spectra cover faster motion.
 ///
 /// Precondition: both sides have the same channels.
 LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, double rate_hz);

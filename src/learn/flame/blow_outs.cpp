@@ -10,10 +10,10 @@
 namespace wisp {
 namespace {
 
-constexpr double kUsual = 0.95;        // quantile of the wind while the flame burns
-constexpr double kMinGone = 0.5;       // seconds: spontaneous disappearances are shorter
+constexpr double kUsual = 0.95;        // quantile of the wind on a burning flame: a blow-out has stronger wind
+constexpr double kMinGone = 0.5;       // minimum seconds of an absence: spontaneous disappearances are shorter
 constexpr double kLookedBack = 0.6;    // seconds before the disappearance that are searched for the wind
-constexpr double kMinBlown = 0.15;     // seconds over which that wind is averaged: noise has short peaks, wind lasts
+constexpr double kMinBlown = 0.15;     // seconds over which wind is averaged: noise has short peaks, wind lasts
 constexpr double kSettling = 0.5;      // seconds after re-ignition that are excluded as transient
 constexpr double kMinPresence = 0.15;  // seconds: shorter appearances between two absences are an ember's
 

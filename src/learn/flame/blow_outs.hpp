@@ -2,7 +2,7 @@
 // Detects where in a recording a flame was blown out, and removes those parts.
 //
 // Recordings do not mark extinctions: the outline is missing for a while, which also happens where a clip fades or a
-// hand covers the flame. The wind just before distinguishes them.
+// hand covers the flame. The wind just before distinguishes extinctions.
 
 #include <span>
 #include <string>
@@ -16,7 +16,7 @@ namespace wisp {
 struct BlowOut {
   std::size_t gone = 0;  ///< first row without an outline
   std::size_t back = 0;  ///< first row with an outline again; the number of rows where there is none
-  double wind = 0;     ///< maximum from 0.6 s before to 0.15 s after `gone` of the wind's mean over 0.15 s, in its unit
+  double wind = 0;     ///< largest 0.15 s mean of the wind from 0.6 s before `gone` to 0.15 s after, in the wind's unit
   bool blown = false;  ///< whether `wind` exceeds the 95th percentile of the wind while the flame burned
 };
 
@@ -29,8 +29,8 @@ std::size_t rows_of(double seconds, double rate_hz);
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input);
 
 /// Removes misdetected outlines: stretches shorter than half a second between two jumps, or between a jump and an end
-/// of the recording. A jump is a step longer than a fifth of the outline's height and than 20 times the 90th percentile
-/// of steps. Does nothing if more than a twentieth of all rows would be removed. Returns the number of rows removed.
+/// of the recording. A jump is a step above a fifth of the outline's median height and above 20 times the 90th
+/// percentile of steps. Does nothing if more than a twentieth of all rows would be removed. Returns the number removed.
 std::size_t remove_jumps(Recording& recording);
 
 /// The recording with all channels set missing during decay, extinction and re-ignition, so that only a burning flame

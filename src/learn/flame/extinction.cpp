@@ -25,14 +25,14 @@ struct FlameLife {
   double rate_hz = 0;
   bool died = false;
   std::size_t watched = 0;        ///< first row in which an extinction by the rule counts as reproduced
-  std::size_t until = 0;          ///< one past the last such row; it may be after the life's end
+  std::size_t until = 0;          ///< one past the last row in which it counts, which may be after the life
   std::vector<WindSpan> gusts{};  ///< gusts that the flame survived
 };
 
 constexpr double kWatchedBefore = 0.5;  // seconds by which a rule's extinction may precede the recorded one
-constexpr double kWatchedAfter = 0.5;   // seconds by which it may follow: capture loses a decaying flame early
+constexpr double kWatchedAfter = 0.5;   // seconds by which a rule may be late: capture loses a decaying flame early
 constexpr double kAveraged = 0.15;      // seconds over which wind is averaged
-constexpr double kGustShare = 0.5;      // least wind of a gust, as a share of the weakest that extinguished
+constexpr double kGustShare = 0.5;      // least wind of a gust, as a share of the weakest extinguishing wind
 constexpr double kOneGust = 0.15;       // seconds: shorter lulls do not divide a gust
 
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
@@ -132,12 +132,12 @@ class FlameLives {
 // Search grid. Steps of 5 % (level) and 15 % (duration) are finer than recordings resolve.
 constexpr int kLevels = 40;
 constexpr int kDurations = 40;
-constexpr double kShortest = 0.02;  // seconds
-constexpr double kLongest = 4;
+constexpr double kShortest = 0.02;  // seconds, shortest duration tried
+constexpr double kLongest = 4;      // seconds, longest duration tried
 constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
 constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // decrease of harm per second below the level
 
-// Costs of errors: 1 for a gust judged wrongly; 0.3 (t / 0.1 s)², at most 1, for an extinction early or late by t.
+// Costs of errors: 1 for a gust or an extinction judged wrongly; at most 1, 0.3 (t / 0.1 s)², for a time wrong by t.
 constexpr double kOff = 0.1;
 constexpr double kOffCost = 0.3;
 // Rules are equally good if they cost at most kAsWell more than the best one, plus kAsWellEach per gust and extinction:
@@ -161,7 +161,7 @@ struct Shape {
 struct Harms {
   std::vector<double> gusts;                // maximum harm in each gust that was survived
   std::vector<std::vector<double>> deaths;  // harm per watched row of each extinction
-  std::vector<double> first;                // for each extinction: seconds from the first watched row to it
+  std::vector<double> first;                // for each extinction: seconds after the first watched row
   std::vector<double> step;                 // for each extinction: seconds per row
 };
 
@@ -207,7 +207,7 @@ double cost_of(const Harms& harms, double seconds) {
   return cost;
 }
 
-// Weak prior on rules, small against the cost of one error.
+// Returns a weak prior's penalty of a rule, small against the cost of one error.
 double remarkable(const Shape& shape, double middle) {
   const Extinction usual;
   const auto square = [](double x) { return x * x; };
@@ -257,7 +257,7 @@ Extinction rule_of(const Trial& trial) {
   return rule;
 }
 
-// Harm after the next row under a complete rule.
+// Returns the harm after one more row under a complete rule, as a share of the harm that extinguishes.
 double harmed(const Extinction& rule, double harm, double wind, double step) {
   const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
   constexpr double kMaxHarm = 0.5;  // maximum harm per step, as in Bank

@@ -4,7 +4,7 @@
 //
 // Survived gusts bound the rule from below, extinctions from above, and the time of extinction determines its speed.
 // All rules of a grid are tried on the whole recordings, and the one with the least error is chosen. The spread of
-// rules with similar error is its uncertainty. A weak prior prefers a level midway between the wind survived and the
+// rules with similar error is the uncertainty. A weak prior prefers a level midway between the wind survived and the
 // wind that extinguished, and haste and recovery near the defaults.
 
 #include <array>
@@ -35,7 +35,7 @@ struct ExtinctionAgreement {
   std::size_t deaths = 0;            ///< number of recorded extinctions
   std::size_t died = 0;              ///< number of extinctions that the rule reproduces within half a second
   std::size_t gusts = 0;             ///< number of gusts that the flame survived
-  std::size_t spared = 0;            ///< number of those gusts that it survives under the rule
+  std::size_t spared = 0;            ///< number of those gusts that the flame survives under the rule
   std::vector<double> late_seconds;  ///< for each reproduced extinction: delay against the recorded one
   double strongest_survived = 0;     ///< wind averaged over 0.15 s, in the model's units; 0 without gusts
 
@@ -50,16 +50,16 @@ ExtinctionAgreement agreement(const Extinction& rule, std::span<const Extinction
 
 struct ExtinctionFit {
   Extinction rule;                      ///< level in the model's units
-  std::array<double, 2> level_range{};  ///< range over all equally good rules
-  ExtinctionAgreement agreement;        ///< with the training recordings
+  std::array<double, 2> level_range{};  ///< range of levels over all equally good rules
+  ExtinctionAgreement agreement;        ///< agreement of the rule with the training recordings
 };
 
 /// Learns a rule from recordings with at least one extinction.
-/// Errors: no extinction, or no rule that reproduces more than half of them.
+/// Errors: no extinction, or no rule that reproduces more than half of the extinctions.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
-/// Rule for a flame that was never extinguished: the default. Where a recorded gust would extinguish it, its level is
-/// raised until all are survived, and by a quarter more.
+/// Returns the default rule, for a flame that was never extinguished. Where a recorded gust would extinguish the flame,
+/// the level is raised until the flame survives all gusts, and then by another quarter.
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence);
 
 /// Size of the flame in every row, NaN without an outline: the square root of the control polygon's area, divided by
@@ -71,7 +71,7 @@ Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<co
 struct RecordedEvents {
   FlameEvents dying;             ///< from the beginning of decay, relative to the size before; then 0.05 s of glow
                                  ///< without an outline
-  FlameEvents catching;          ///< up to 0.75 s
+  FlameEvents catching;          ///< from the flame's return on, 0.25 to 0.75 s
   double vanishing_seconds = 0;  ///< median duration of visible decay
 };
 
@@ -79,7 +79,7 @@ struct RecordedEvents {
 /// re-ignition are stored as its components. Errors: as flame_sizes().
 Result<RecordedEvents> recorded_events(std::span<const ExtinctionEvidence> evidence, const OutlineView& view = {});
 
-/// Extends the ranges of a shape to those of the events: re-ignition is wider than any burning flame.
+/// Extends the ranges of a shape to include the events: a flame is wider during re-ignition than when it burns.
 void make_room(const FlameEvents& events, ShapeComponents& shape);
 
 }  // namespace wisp

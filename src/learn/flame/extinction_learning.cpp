@@ -15,7 +15,7 @@ std::string sentence_of(const Extinction& rule) {
          (rule.haste > 0 ? ", of twice that in " + number_text(twice, 2) + " s" : "");
 }
 
-// The recorded events that a model replays, or borrows.
+// Table of the events that a model replays: recorded, or borrowed from a simulated candle.
 ReportTable modes_of(const Model& model) {
   const Extinction& rule = *model.extinction;
   ReportTable table{"extinction.modes",
@@ -55,7 +55,7 @@ std::size_t unexplained(std::span<const ExtinctionEvidence> evidence) {
   return count;
 }
 
-// A rule given by the recipe is used unchanged, without haste.
+// Returns the rule given by the recipe, without haste and with recovery as slow as extinction.
 Extinction given_rule(const ExtinctionRecipe& recipe) {
   return {.level = recipe.level, .seconds = recipe.seconds, .haste = 0, .recovery = recipe.seconds};
 }

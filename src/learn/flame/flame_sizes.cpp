@@ -15,9 +15,9 @@ namespace wisp {
 namespace {
 
 constexpr double kDyingSeen = 0.3;  // maximum seconds of decay before extinction; earlier changes belong to the gust
-constexpr double kShrinks = 0.97;   // share of the previous size below which decay has begun
-constexpr double kDim = 0.05;       // seconds of glow without an outline
-constexpr double kMaxCatching = 0.75, kMinCatching = 0.25;  // seconds of re-ignition after the flame is visible
+constexpr double kShrinks = 0.97;   // share of the size before the decay, below which the flame counts as decaying
+constexpr double kDim = 0.05;       // seconds of glow appended after the outline disappears
+constexpr double kMaxCatching = 0.75, kMinCatching = 0.25;  // seconds stored of a re-ignition; shorter ones are dropped
 constexpr std::size_t kMaxEvents = 8;
 
 using Sizes = std::vector<double>;
@@ -29,7 +29,7 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
   return std::sqrt(enclosed_area(points));
 }
 
-// Sizes of consecutive rows and, where they are kept, the components of their shapes.
+// Sizes of consecutive rows and, where shapes are stored, the shapes' components.
 struct Event {
   Sizes sizes;
   std::vector<double> shapes{};  // sizes × components
@@ -49,7 +49,7 @@ class Shapes {
                        layout_, resting_height_pixels(burning, layout_, {&wind, 1}));
   }
 
-  // Appends the components of a row's outline, scaled up to full size; if there is none, those of the row before.
+  // Appends the components of a row's outline, enlarged to full size. Without an outline repeats the last ones, or 0.
   void add(std::size_t row, double size, std::vector<double>& to) const {
     if (shape_.empty()) return;
     std::vector<double> outline = whole_row(units_, layout_, row);

@@ -21,7 +21,7 @@ ReportSection gain_section(const std::vector<double>& factors) {
   return {"Gain of the inputs", {{"gain.factors", factors, "winds on one scale, times", ""}}};
 }
 
-// Whether no input of any recording correlates significantly with the motion, as far as that was computed.
+// Returns whether alignments were computed and no input of any recording correlates significantly with the motion.
 bool driven_by_nothing(const OutlineSummary& summary) {
   const auto stands_out = [](const InputAlignment& one) {
     return one.found.chance > 0 && std::abs(one.found.correlation) >= one.found.chance;
@@ -50,9 +50,9 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
   return fit;
 }
 
-// Most films have sound, and in most nobody blows. Unless the caller named inputs, the model is learned without them if
-// all are silent, if none is related to the motion, or if held-out motion does not follow from them: in a draught a
-// word may be heard as wind, and an input may seem to help by chance.
+// Fits an outline with its inputs. Unless the caller named inputs, fits without them if all are silent, if none is
+// related to the motion, or if they do not predict held-out motion: most films have sound but no blowing, in a draught
+// a word may be heard as wind, and an input may seem to help by chance.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
@@ -78,9 +78,9 @@ std::pair<std::size_t, std::size_t> seen_rows(const Recording& recording) {
   return {first, last};
 }
 
-// If a flame is lit, shaded or blown at in part of a film, the play's spread differs from the film's. If a single film
-// without inputs is refused for that, parts of it are learned: three quarters of its rows, at start, middle and end,
-// then halves. Of the first length with usable parts, the part whose play keeps its spread best is taken.
+// Fits the recordings. If a single film without inputs is refused because its play moves much more or less (a flame
+// lit, shaded or blown at in part of the film), fits parts of it: three quarters of its rows, at start, middle and end,
+// then halves. Of the first length with usable parts, takes the part whose play keeps its spread best.
 Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                               const Progress& progress) {
   auto whole = fit_what_drives(recordings, recipe, progress);
@@ -115,7 +115,7 @@ Result<OutlineFit> fit_steady(std::span<const Recording> recordings, const Outli
   return *std::move(best);
 }
 
-// Events missing from the recordings are played from a simulated candle, and the verdict says so.
+// Adds to the verdict which events the recordings lack, so that play borrows them from a simulated candle.
 void note_what_is_borrowed(OutlineFit& fit) {
   if (!fit.model.extinction || !fit.summary.usable.verdict) return;
   const bool dying = fit.model.extinction->dying.empty(), catching = fit.model.extinction->catching.empty();
@@ -126,7 +126,7 @@ void note_what_is_borrowed(OutlineFit& fit) {
   fit.model.training.usable = fit.summary.usable;
 }
 
-// Clocks and rounded periods differ by a thousandth.
+// Checks that rates agree within 0.1 %: clocks and rounded periods may differ by that much.
 Result<void> check_same_rate(const Recording& one, const Recording& first) {
   if (std::abs(one.rate_hz - first.rate_hz) <= 1e-3 * first.rate_hz) return {};
   return Error{one.source + ": has " + number_text(one.rate_hz, 6) + " frames a second, " + first.source + " " +

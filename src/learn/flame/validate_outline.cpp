@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSameGain = 0.02;  // factors closer to 1 than this are not reported
 
-// Predictions shown in pictures: the free simulation of a model with inputs, of others the last of the predictions at
-// most five frames ahead. Without such predictions, the first.
+// Returns the predictions for pictures: with inputs the free simulation, without inputs the last prediction at most
+// five frames ahead. If there is none, returns the first of all predictions.
 const PredictedOutlines& shown(const OutlineJudgement& found) {
   constexpr int kLookAhead = 5;
   const PredictedOutlines* best = &found.predicted.front();
@@ -58,7 +58,7 @@ ReportSection tip_series(const ValidatedOutline& out, const std::vector<double>&
   return section;
 }
 
-// A unit of 1 is not printed: wind from sound is given as a share of a strong gust.
+// Series of an input. The unit "1" of wind from sound is labelled as a strong gust.
 ReportSection input_series(const Channel& input, const std::vector<double>& seconds) {
   const std::string unit = input.unit == "1" ? "1: a strong gust" : input.unit;
   return {input.name, {}, {}, {{"input." + input.name, "", "seconds", unit, seconds, input.samples}}};

@@ -34,13 +34,13 @@ constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
 // eye's threshold.
 constexpr double kCalm = 0.02;
 
-// Logarithm of the variation, with a floor of 1e-5: smaller variation is the photodiode's noise.
+// Logarithm of the variation plus 1e-5: smaller variation is the photodiode's noise.
 double level(double restless) { return std::log(restless + 1e-5); }
 
 // Number of rows in half a second, at least 4.
 std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2))); }
 
-// Standard deviation over `window` rows around each row of a trace, which has at least as many.
+// Standard deviation over `window` rows around each row. Precondition: the trace has at least `window` rows.
 std::vector<double> restlessness(std::span<const double> trace, std::size_t window) {
   // Subtracting a value of the trace avoids cancellation in the sums.
   const double origin = trace.front();
@@ -105,7 +105,7 @@ struct Light {
   Traces learned, held_out;  // normalised to a mean of 1 over both
 };
 
-// Index of the named channel; without a name that of "brightness", else of the only output.
+// Returns the index of the named channel; without a name, of "brightness" or else of the only output.
 Result<std::size_t> channel_of(const Recording& recording, const std::string& name) {
   if (const auto found = find_channel(recording, name.empty() ? "brightness" : name)) return *found;
   if (!name.empty()) return Error{recording.source + ": has no channel \"" + name + "\""};
@@ -115,7 +115,7 @@ Result<std::size_t> channel_of(const Recording& recording, const std::string& na
                " outputs, expected one; name the one that is light"};
 }
 
-// Appends the recording's gap-free stretches, averaged over `every` rows.
+// Appends the recording's gap-free stretches, each `every` rows averaged into one.
 void add_stretches(const Recording& recording, std::size_t channel, std::size_t every, Traces& traces) {
   const auto& samples = recording.channels[channel].samples;
   for (const Episode& episode : episodes(recording)) {

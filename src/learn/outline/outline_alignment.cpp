@@ -21,8 +21,8 @@ constexpr double kFalseAlarm = 0.01;
 constexpr int kResamples = 400;          // bootstrap resamples
 constexpr double kBlockSeconds = 2;      // longer than a gust, so that blocks are nearly independent
 constexpr double kTail = 0.025;          // share of resamples beyond either end of the interval
-constexpr double kMaxSharpWidth = 0.05;  // seconds: in a narrower interval the best offset may be at an end
-constexpr double kAtItsEnd = 0.05;       // share of a wider interval: an offset nearer to an end is no single peak
+constexpr double kMaxSharpWidth = 0.05;  // seconds: in an interval up to this width the best offset may lie at an end
+constexpr double kAtItsEnd = 0.05;       // share of a wider interval's width: an offset nearer to an end is rejected
 
 Error bad(const std::string& what) { return Error{"alignment: " + what}; }
 
@@ -153,7 +153,7 @@ double chance_level(const Series& wind, const Series& motion, std::size_t lags, 
   return z * std::sqrt(std::max(sum, 1.0) / pairs);
 }
 
-/// Ends of the interval of the peak's index.
+/// Returns the ends of the bootstrap's 95 % interval of the peak's index.
 std::array<double, 2> bootstrap(const BlockSums& sums) {
   std::mt19937_64 random(1);
   Series peaks;
@@ -187,9 +187,9 @@ void judge(Alignment& found, double max_seconds) {
   }
 }
 
-constexpr double kMinSearch = 0.05;  // seconds searched on either side at least
+constexpr double kMinSearch = 0.05;  // minimum range searched on either side, seconds
 
-// The offset, searched up to a fifth of the recording on either side, or the reason why there is none.
+// Returns the offset, searched within ± a fifth of the known rows, at most 1 s; an error becomes the reason.
 Alignment found_or_reason(const Recording& recording, const std::vector<double>& input,
                           const std::vector<double>& motion) {
   double rows = 0;
@@ -221,7 +221,7 @@ void move_earlier(Recording& recording, std::size_t channel, int frames) {
   }
 }
 
-// Position of the tip relative to the middle of its base, per row; NaN where missing.
+// Position of the tip relative to the middle of the base, per row; NaN where missing.
 struct TipMotion {
   Series sway, height;
 };

@@ -22,7 +22,7 @@ struct AlignmentOptions {
 
 struct Alignment {
   double offset_seconds = 0;  ///< motion(t) corresponds to wind(t − offset): positive where the motion is later
-  double low_seconds = 0;     ///< ends of its 95 % interval
+  double low_seconds = 0;     ///< ends of the offset's 95 % interval
   double high_seconds = 0;
   double correlation = 0;  ///< correlation of the whitened series at that offset, −1 to 1
   double chance = 0;       ///< 99th percentile of the largest |correlation| of unrelated recordings
@@ -31,11 +31,11 @@ struct Alignment {
 };
 
 /// Estimates the lag of `motion` behind `wind` by the cross-correlation of both after an autoregressive filter that
-/// whitens the wind (Box & Jenkins, Time Series Analysis, section on prewhitening): its peak is that of the impulse
+/// whitens the wind (Box & Jenkins, Time Series Analysis, section on prewhitening): the peak is that of the impulse
 /// response. The offset therefore includes the response time of the object (some 50 ms for a flame's tip). Its interval
 /// comes from a bootstrap over blocks of time.
 /// Both series have one value per frame; NaN is missing.
-/// Errors: lengths differ; both are known for less than four times max_seconds or 16 samples; a constant series.
+/// Errors: lengths differ; fewer frames known in both than four times max_seconds, or than 16; a constant series.
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});
 
@@ -45,7 +45,7 @@ struct InputAlignment {
   std::string motion;        ///< "sway" or "height" of the tip, whichever correlates more clearly with the input
   Alignment found;           ///< not usable, with the reason, where no offset could be estimated
   int frames_moved = 0;      ///< number of frames by which the input was moved earlier
-  std::string note() const;  ///< one clause for people: the finding and the correction
+  std::string note() const;  ///< one clause for reports: the finding and the correction
 };
 
 /// A recording whose inputs are synchronised with its outline, and the estimated offsets.

@@ -18,9 +18,9 @@ using ControlSeries = std::vector<std::vector<double>>;
 
 constexpr int kOrder = 2;
 constexpr int kInputLags = 6;                // lags 0 to 5: further lags, up to 20 frames, brought no lasting gain
-constexpr Eigen::Index kMaxComponents = 14;  // with inputs; without any, all components that move are replayed
-constexpr double kMinPower = 1e-7;           // share of the largest power: less is rounding, such as the base's height
-constexpr double kRidge = 1.5;               // rows of whitened components: keeps weak ones from being fitted to chance
+constexpr Eigen::Index kMaxComponents = 14;  // maximum with inputs; without inputs all that move are replayed
+constexpr double kMinPower = 1e-7;           // share of the largest power, below which a component is rounding
+constexpr double kRidge = 1.5;               // initial, in rows of whitened components: limits fits to chance
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
 constexpr double kMinMotion = 1e-9;  // in heights: smaller motion is rounding
@@ -28,7 +28,7 @@ constexpr Eigen::Index kMinRows = 30;
 constexpr double kFadeSeconds = 0.1;  // without inputs: half-life of deviations from the recorded rows
 constexpr std::size_t kPowers = 3;    // powers of an input's size, followed by as many signed ones (regressor_names())
 
-// Whether a regressor is invariant under the mirror image.
+// Returns whether a regressor is a power of an input's size, which reflection leaves unchanged.
 bool is_even(std::size_t regressor) { return regressor / kPowers % 2 == 0; }
 
 // Mean of the recordings' calm shapes; if no recording has one, of all complete rows.
@@ -66,9 +66,9 @@ Matrix deviations(std::span<const Recording> recordings, const OutlineLayout& la
                                                                                                   columns);
 }
 
-// Principal components of one symmetry, strongest first, each scaled to a standard deviation of 1.
+// Principal components of one symmetry, strongest first. append() scales them so that scores have a mean square of 1.
 struct Components {
-  Eigen::VectorXd power;  // variances, descending
+  Eigen::VectorXd power;  // mean squares about the shape at rest, descending
   Matrix vectors;
 
   explicit Components(const Matrix& deviations) {
@@ -89,7 +89,7 @@ struct Components {
   }
 };
 
-// Least power of a component that is kept: that of the `count`-th strongest of both symmetries, if above rounding.
+// Returns the least power of a kept component: the `count`-th largest of both symmetries, but not below rounding.
 double least_power(const Components& even, const Components& odd, Eigen::Index count) {
   std::vector<double> all(even.power.begin(), even.power.end());
   all.insert(all.end(), odd.power.begin(), odd.power.end());
@@ -98,7 +98,7 @@ double least_power(const Components& even, const Components& odd, Eigen::Index c
   return std::max({last, kMinPower * all.front(), std::numeric_limits<double>::min()});
 }
 
-// The recorded range of values, about `middle`; that of an antisymmetric component is extended to be symmetric.
+// Returns the range of `middle` plus the values; unless `symmetric`, extended to equal distances from `middle`.
 ValueRange range_of(const Eigen::VectorXd& values, double middle, bool symmetric) {
   const double low = values.minCoeff(), high = values.maxCoeff(), far = std::max(-low, high);
   return symmetric ? ValueRange{middle + low, middle + high} : ValueRange{middle - far, middle + far};
@@ -240,7 +240,7 @@ ArxModel shape_model(const ShapeComponents& shape, const Products& even, const P
   return arx;
 }
 
-// Dynamics of components without inputs: a deviation from the replayed rows decays after a jump to them.
+// Returns dynamics without inputs: deviations from the replayed rows, caused by jumps between rows, decay.
 OutlineDynamics fading_shape(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                              ShapeComponents shape) {
   const auto count = static_cast<int>(shape.count());

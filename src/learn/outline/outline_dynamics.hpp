@@ -1,5 +1,5 @@
 #pragma once
-// The dynamics of an outline: ARX over components of its shape, or over its control points as in the paper.
+// Dynamics of an outline: ARX over components of its shape, or over its control points (Reissell and Pai, 2001).
 //
 // A flame is nearly mirror-symmetric. The principal components of its shape coordinates are therefore symmetric
 // (height, width, bulge) or antisymmetric (lean, bend), and a system that commutes with the mirror has two blocks:
@@ -30,9 +30,9 @@ struct OutlineDynamics {
   std::size_t rows = 0;     ///< number of rows in the estimation
 };
 
-/// Estimates dynamics from prepared recordings or parts of them. `paper`: number of lags of the paper's systems, one a
-/// control point (4 in its section 3.4), with independent Gaussian noise; 0: components of the shape with order 2 or,
-/// without inputs, with exponential decay. Errors: an outline that never moves; too few complete rows; as fit_arx().
+/// Estimates dynamics from prepared recordings or parts of them. `paper` > 0: one system per control point with that
+/// many lags (4 in section 3.4 of the paper) and independent Gaussian noise. 0: shape components, of order 2 with
+/// inputs, decaying exponentially without. Errors: an outline that never moves; too few complete rows; as fit_arx().
 Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      int paper);
 
@@ -41,8 +41,7 @@ Result<OutlineDynamics> fit_dynamics(std::span<const Recording> recordings, cons
 /// Precondition: the shape's basis has orthogonal columns, as that of fit_dynamics().
 std::vector<double> components_of(const ShapeComponents& shape, std::span<const double> coordinates);
 
-/// A prepared recording with shape components c0, c1, … in place of its control points; unchanged where the shape is
-/// empty.
+/// Returns a prepared recording with outputs c0, c1, …, the shape components; unchanged where the shape is empty.
 Recording moved_recording(const ShapeComponents& shape, const Recording& recording, const PreparedOutlines& prepared);
 
 /// Output and input channels of moved_recording().

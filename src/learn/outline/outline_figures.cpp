@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMaxShapes = 2000;  // frames compared at most: neighbouring ones add no information
+constexpr std::size_t kMaxShapes = 2000;  // maximum number of frames compared: neighbouring frames add no information
 
 using Predicted = std::vector<std::vector<double>>;  // [output][row]
 
@@ -26,7 +26,7 @@ std::vector<double> predicted_row(const Predicted& series, std::size_t row) {
   return control;
 }
 
-// Shapes for one number of steps, collected over recordings.
+// Tips and overlap of measured and predicted outlines for one number of steps, over all recordings.
 struct Shapes {
   std::vector<double> tip_measured;
   std::vector<double> tip_predicted;
@@ -91,7 +91,7 @@ class Errors {
  private:
   Tally tally_;
   std::vector<double> distance_;
-  std::vector<double> origin_;  // first value per channel; with it a constant channel has spread exactly 0
+  std::vector<double> origin_;  // first measured row, subtracted so that a constant channel has exactly 0 spread
 };
 
 void add_figures(const PredictionFigures& fit, const Shapes& shapes, OutlineFigures& out) {

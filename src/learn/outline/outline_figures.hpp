@@ -39,7 +39,7 @@ struct OutlineFigures {
 Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
                                        const PreparedOutlines& prepared, const std::vector<int>& steps = kJudgedSteps);
 
-/// The value for a number of steps; NaN where that was not judged.
+/// The value for a number of steps; NaN where that number was not judged.
 double at_steps(const std::vector<int>& steps, const std::vector<double>& values, int wanted);
 
 /// 100(1 − ‖y − ŷ‖/‖y − ȳ‖); 0 where y is constant or empty.

@@ -13,12 +13,12 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kWindows = 120;       // per side of an energy distance: accuracy 0.01 in 10 ms
-constexpr double kPlayed = 30;              // minimum duration of play, seconds
-constexpr double kJudged = 10;              // minimum duration of a recording whose spread is judged, seconds
+constexpr std::size_t kWindows = 120;  // maximum per side of an energy distance: accurate to 0.01, computed in 10 ms
+constexpr double kPlayed = 30;         // minimum duration of play, seconds
+constexpr double kJudged = 10;         // minimum duration of a recording whose spread is judged, seconds
 constexpr std::size_t kMaxRecorded = 2000;  // maximum number of recorded outlines used for comparison
-constexpr std::size_t kMaxPlayed = 500;
-constexpr std::size_t kPlaces = 12;  // points per outline
+constexpr std::size_t kMaxPlayed = 500;     // maximum number of played outlines used for comparison
+constexpr std::size_t kPlaces = 12;         // points per outline
 
 double unsteadiness(const PreparedOutlines& prepared) {
   double neighbours = 0, any = 0;
@@ -72,7 +72,7 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   return out;
 }
 
-// Least sum, over the other outlines, of squared distances between corresponding points.
+// Returns the squared distance to the nearest other outline, summed over corresponding points.
 double nearest(const Outline& one, std::span<const Outline> others) {
   double best = std::numeric_limits<double>::infinity();
   for (const Outline& other : others) {
@@ -85,7 +85,7 @@ double nearest(const Outline& one, std::span<const Outline> others) {
   return best;
 }
 
-// OutlineTrial::outside. `ends`: one past each recording's last outline.
+// Computes OutlineTrial::outside. `ends`: index one past each recording's last outline.
 double outside_share(std::span<const Outline> recorded, std::span<const std::size_t> ends,
                      std::span<const Outline> played) {
   std::vector<Outline> early, late;
@@ -121,7 +121,7 @@ std::vector<double> spread_ratios(const PreparedOutlines& prepared, const Record
   return out;
 }
 
-// `prepared` is in the model's units; `original` has the same recordings with their synchronised inputs.
+// Plays along the liveliest recording and compares play and recording. `original`: the prepared recordings in pixels.
 Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& prepared,
                                  std::span<const Recording> original, std::uint64_t seed) {
   OutlineTrial out;
@@ -143,8 +143,8 @@ Result<OutlineTrial> try_outline(const Model& model, const PreparedOutlines& pre
   return out;
 }
 
-// The trial plays along the liveliest recording. Here the model plays along each other recording, with a warning if its
-// spread differs: gusts and draughts have too little in common for one equation.
+// Plays along every recording except the liveliest, which try_outline() judged. Warns where the play's spread differs
+// from the recording's: gusts and draughts have too little in common for one equation.
 Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, std::span<const Recording> original,
                           std::uint64_t seed, std::vector<std::string>& warnings) {
   const std::size_t tried = liveliest(prepared);
@@ -160,9 +160,9 @@ Result<void> judge_others(const Model& model, const PreparedOutlines& prepared, 
   return {};
 }
 
-constexpr std::size_t kMinHeldOut = 16;  // minimum number of rows for figures, including their history
+constexpr std::size_t kMinHeldOut = 16;  // with fewer held-out rows, history included, no figures are computed
 
-// Moves inputs that lag the motion, and records their names and the number of frames.
+// Moves inputs that lag the motion earlier, with a warning, and records all alignments.
 Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                        OutlineSummary& summary) {
   std::vector<Recording> out;
@@ -179,7 +179,7 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
   return out;
 }
 
-// Fits dynamics to the first part of every recording and judges them on it and on the held-out rest.
+// Fits dynamics to the first part of every recording and judges the dynamics on this part and on the held-out rest.
 Result<void> judge(const PreparedOutlines& prepared, const OutlineRecipe& recipe, OutlineSummary& summary) {
   const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, recipe.holdout);
   summary.rows_learned = complete_rows(parts.learned, prepared.channels);
@@ -211,7 +211,7 @@ Result<std::vector<double>> residual_sd(const OutlineDynamics& dynamics, const P
 }
 
 // Ranges of the outputs: the recorded range, but at least three standard deviations about the mean, since a short
-// recording does not contain its full range of flicker. With a shape, the mirrored range too.
+// recording does not contain its full range of flicker. With a shape, outlines are also counted mirrored.
 std::vector<Output> outputs_of(const PreparedOutlines& prepared, const ShapeComponents& shape) {
   const std::size_t count = prepared.channels.outputs.size();
   std::vector<std::vector<double>> seen(count);

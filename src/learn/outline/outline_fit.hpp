@@ -44,7 +44,7 @@ struct OutlineSummary {
   std::size_t rows_held_out = 0;           ///< number of complete rows held out, which the returned model also uses
   OutlineFigures learned;                  ///< figures on the training rows
   std::optional<OutlineFigures> held_out;  ///< figures on the held-out rows; empty if too short
-  std::vector<double> residual_sd;         ///< of predictions one step ahead, per output
+  std::vector<double> residual_sd;         ///< standard deviation of the errors one step ahead, per output
   std::size_t resampled_rows = 0;          ///< number of residual rows; 0: Gaussian noise
   OutlineTrial trial;
   double pixels_per_unit = 0;  ///< pixels per model unit in the first recording
@@ -74,7 +74,7 @@ double followed_percent(const OutlineSummary& summary);
 constexpr double kMinFollowedPercent = 5;
 
 /// Returns whether the model is usable, with the first reason against it or a sentence in its favour; `code` receives
-/// the violated criterion's code. Free play is judged, not the one-step fit: a model that hardly moves also fits well.
+/// the violated criterion's code. Judges free play, since a model that moves too little also predicts one step well.
 Usable outline_verdict(const OutlineSummary& summary, std::string* code = nullptr);
 
 /// The training record for the model's file, without extinction rule and cost.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSame = 0.02;  // factors closer to 1 than this count as 1
 
-// An input whose loudness all recordings state, and the largest of these values.
+// An input whose loudness at value 1 all recordings state (one_rms()), and the largest RMS stated.
 struct Loudest {
   std::string input;
   double rms = 0;
@@ -35,7 +35,7 @@ Result<std::vector<Loudest>> loudest_inputs(std::span<const Recording> recording
   return out;
 }
 
-// The channel's value that is 1 in the model's input; 1 if neither model nor recording states it.
+// Returns the value of a channel that equals 1 in the model's input; 1 if that is unknown.
 Result<double> value_of_one(const Model& model, std::size_t input, const Recording& recording, const Channel& heard,
                             bool own_gain) {
   if (!heard.unit.empty() && heard.unit == model.inputs[input].unit) return 1.0;
@@ -52,7 +52,7 @@ Result<double> value_of_one(const Model& model, std::size_t input, const Recordi
   return trained.scale / *factor;
 }
 
-// Divides a channel by `one`, and updates its recorded loudness.
+// Divides a channel by `one`, and updates the loudness that the recording states for it.
 Result<void> divide(Recording& recording, Channel& channel, double one) {
   if (one == 1) return {};
   for (double& value : channel.samples) value /= one;
@@ -62,10 +62,10 @@ Result<void> divide(Recording& recording, Channel& channel, double one) {
   return {};
 }
 
-constexpr double kWindOne = 0.95;
-constexpr double kLargest = 0.99;
+constexpr double kWindOne = 0.95;  // quantile of |input| over windy rows that becomes 1
+constexpr double kLargest = 0.99;  // quantile of |input| over all rows, of which kCalmShare is calm
 
-// Seconds: over fewer calm rows the calm height is unreliable, and all rows are used.
+// Minimum total seconds of calm rows: over fewer, the calm height is unreliable, and all rows are used.
 constexpr double kCalmSeconds = 0.5;
 
 struct Strengths {
@@ -91,8 +91,8 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
   return out;
 }
 
-// Strength up to which an input is calm. The input's scale, its 95th percentile while it blows, stands in for the 99th
-// percentile of all samples on which kCalmShare is defined.
+// Returns the strength up to which an input is calm. The input's scale, the 95th percentile of its windy rows, stands
+// in for the 99th percentile of all rows, to which kCalmShare refers.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
 double whole(double size) { return size; }
@@ -105,7 +105,7 @@ struct Form {
   bool has_sign;
   double (*power)(double);
 
-  // NaN is propagated.
+  // Value of the regressor at input u; NaN for NaN.
   double of(double u) const { return (has_sign && u < 0 ? -1 : 1) * power(std::abs(u)); }
 };
 
@@ -138,7 +138,7 @@ Result<std::vector<double>> common_gain_factors(std::span<const Recording> recor
   if (inputs->empty()) return std::vector<double>();
   std::vector<double> factors;
   for (const Recording& recording : recordings) {
-    // Its loudness is stated in all recordings: see loudest_inputs().
+    // No error: loudest_inputs() has read this input's loudness in every recording.
     factors.push_back(*factor_at(recording, inputs->front().input, inputs->front().rms));
   }
   if (*std::min_element(factors.begin(), factors.end()) > 1 - kSame) factors.clear();

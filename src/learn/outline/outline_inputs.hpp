@@ -1,9 +1,9 @@
 #pragma once
 // Inputs of an outline: conversion to the model's units, and the regressors made from them.
 //
-// A wind of 1 is the 95th percentile of the training wind while it blows. Its size and its signed value are separate
-// regressors, each also as square root and square, because a linear model of the signed wind alone would answer
-// opposite gusts with opposite changes of height.
+// A wind of 1 is the 95th percentile of the training wind, calm rows excluded. The wind's size and its signed value are
+// separate regressors, each also as square root and square, because a linear model of the signed wind alone would
+// answer opposite gusts with opposite changes of height.
 
 #include <cstdint>
 #include <span>
@@ -17,16 +17,16 @@
 
 namespace wisp {
 
-/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, the largest of their
-/// own. An input stays unchanged if any recording does not state its loudness. Errors: as one_rms().
+/// Rescales inputs to a common gain: a value of 1 stands for the same loudness in all recordings, the largest that one
+/// of them states. An input stays unchanged if any recording does not state its loudness. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
 /// Factors by which at_common_gain() scales the first audio input of each recording; empty if a recording does not
-/// state its loudness, or if all factors are within 2 % of 1. Errors: as one_rms().
+/// state the input's loudness, or if all factors are within 2 % of 1. Errors: as one_rms().
 Result<std::vector<double>> common_gain_factors(std::span<const Recording> recordings);
 
 /// Factor by which at_trained_gain() scales a recording's first audio input; 1 if the model or the recording does not
-/// state its loudness. Errors: as one_rms().
+/// state the input's loudness. Errors: as one_rms().
 Result<double> factor_to_trained_gain(const Model& model, const Recording& recording);
 
 /// A recording with its inputs scaled so that 1 stands for the same loudness as in training. An input stays unchanged
@@ -63,7 +63,7 @@ inline constexpr double kSettleSeconds = 0.5;
 /// Flags per row: 1 where every input has been calm for kSettleSeconds within its episode (everywhere without inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// resting_rows() if they last at least 0.5 s in total, else calm_rows() if they do; else empty.
+/// resting_rows() if they last at least 0.5 s in total, else calm_rows() if these do; else empty.
 std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
 /// Height in pixels that is 1 in the model. With inputs it is the median over undisturbed rows, since in some of them

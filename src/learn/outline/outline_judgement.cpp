@@ -88,7 +88,7 @@ Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, co
   return out;
 }
 
-// Repeats the base's last position where the outline is missing, so that every played frame has one.
+// Repeats the base's last position where the outline is missing, so that every played frame has a base.
 void hold_base(Recording& recording) {
   for (const char* name : {"base.x", "base.y"}) {
     auto& samples = recording.channels[*find_channel(recording, name)].samples;

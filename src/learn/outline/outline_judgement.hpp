@@ -30,7 +30,7 @@ struct OutlineJudgement {
   std::vector<InputAlignment> alignment;     ///< one per input
   std::vector<PredictedOutlines> predicted;  ///< one per number of steps
   Recording played;                          ///< play with noise along the recording's inputs, a frame per row, in
-                                             ///< pixels at its base
+                                             ///< pixels, at the recorded base
   std::optional<Fidelity> fidelity;          ///< fidelity of a play of `play_seconds`; empty if not wanted or too short
   double held_share = 0;                     ///< share of that play's steps with an output clamped to its range
   double self_intersection_rate = 0;         ///< share of that play's frames whose outline intersects itself

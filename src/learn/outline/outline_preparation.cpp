@@ -107,7 +107,7 @@ bool complete(const std::vector<const std::vector<double>*>& samples, std::size_
   return std::none_of(samples.begin(), samples.end(), [&](const auto* channel) { return std::isnan((*channel)[row]); });
 }
 
-// Index of the row with `count` complete rows before it.
+// Returns the index of the first row with `count` complete rows before it.
 std::size_t row_after(const Recording& recording, const ChannelChoice& channels, std::size_t count) {
   const auto samples = samples_of(recording, channels);
   std::size_t row = 0;

@@ -19,8 +19,8 @@ struct Reknotted {
                         ///< row has an outline
 };
 
-/// Converts a recording's outlines to other knots: in every row, the same number of control points, with ends kept and
-/// the curve nearest to the old one by least squares at 200 equally spaced parameters.
+/// Converts a recording's outlines to other knots. In every row the curve keeps its ends and is fitted to the old curve
+/// by least squares at 200 equally spaced parameters, with the same number of control points.
 ///
 /// Precondition: layout is the recording's; `knots` has as many values as its own and is valid (valid_knots).
 Reknotted with_knots(const Recording& recording, const OutlineLayout& layout, std::span<const double> knots);
@@ -39,7 +39,7 @@ struct PreparedOutlines {
   ChannelChoice channels;
   std::vector<double> pixels_per_unit;  ///< per recording
   std::vector<Recording> recordings;
-  std::vector<std::vector<double>> rest;  ///< mean calm shape per recording; empty where it is never calm
+  std::vector<std::vector<double>> rest;  ///< mean shape per recording over undisturbed_rows(); empty without such rows
   std::vector<std::string> warnings;      ///< recordings with other knots, or tracked in another colour
 };
 
@@ -63,8 +63,8 @@ struct OutlineParts {
   std::vector<Recording> held_out;
 };
 
-/// Cuts the last `share` of the complete rows off every recording: at the nearest episode boundary if it is within a
-/// tenth of the recording, otherwise in time.
+/// Holds out the last `share` of every recording's complete rows. If an episode boundary lies within a tenth of the
+/// recording's rows from that cut, the nearest one replaces it. A share of 0 holds out nothing.
 OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share);
 
 }  // namespace wisp

@@ -63,7 +63,7 @@ class Crossings {
   }
 
  private:
-  // A side includes its lower end and excludes its upper end, so that a corner on the line counts once.
+  // Calls visit(strip, x) per crossing. A side excludes its end of larger y, so that a corner on the line counts once.
   template <class Visit>
   static void visit(std::span<const OutlinePoint> polygon, const Range& range, Visit visit) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {

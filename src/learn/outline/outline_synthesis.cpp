@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// Input samples per row; empty for a model without inputs.
+// Returns the input samples per row; empty without a recording, or for a model without inputs.
 Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Recording* input) {
   std::vector<std::vector<float>> rows;
   if (input == nullptr || model.inputs.empty()) return rows;

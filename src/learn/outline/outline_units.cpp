@@ -45,7 +45,7 @@ void set_row(Recording& recording, const OutlineLayout& layout, std::size_t row,
   for (std::size_t k = 0; k < control.size(); ++k) recording.channels[layout.outputs[k]].samples[row] = control[k];
 }
 
-// Index of a channel of the base's motion, which is added where it is missing.
+// Returns the index of a channel for the base's motion; adds the channel if it is missing.
 std::size_t motion(Recording& recording, const std::string& name) {
   if (const auto index = find_channel(recording, name)) return *index;
   recording.channels.push_back({name, "px", Role::kMotion, std::vector<double>(recording.rows())});

@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-// Median fit over channels for the number of steps of index `k`.
+// Median fit over channels for the k-th number of steps.
 double typical_fit(const OutlineFigures& figures, std::size_t k) {
   std::vector<double> fits;
   for (const OutlineChannelFigures& channel : figures.channels) fits.push_back(channel.fit_percent[k]);
@@ -28,7 +28,7 @@ double share_of_way(const std::optional<Bounded>& distance) {
   return (distance->value - distance->floor) / (distance->ceiling - distance->floor);
 }
 
-// Loudness of an input of 1, if all recordings state the same; else 0.
+// Returns the RMS of sound at which an input is 1, if all recordings state the same; else 0.
 double common_one_rms(std::span<const Recording> recordings, const std::string& input) {
   double common = 0;
   for (const Recording& recording : recordings) {
@@ -58,8 +58,8 @@ std::vector<Criterion> criteria_of(const OutlineSummary& summary) {
        "neighbouring frames differ by {figure} % of what frames picked at random do, at most {limit}: the outline is "
        "more noise than movement; film it larger, sharper or at a higher rate",
        0, "noise"},
-      // A few clamped frames are invisible: plays without foreign shapes had up to 21 in 1000. A divergent play has
-      // hundreds.
+      // A few clamped frames are invisible: plays without foreign shapes (below) had up to 21 in 1000. A divergent play
+      // has hundreds.
       {1000 * trial.held_share, Bound::kAtMost, 50,
        "playing freely it is clamped to its range in {figure} of 1000 frames, at most {limit}: record longer", 1,
        "clamped"},

@@ -13,11 +13,11 @@ namespace {
 // Lags at which input histories are compared: over 0.15 s, denser at recent times, which matter most. Earlier wind acts
 // through the state of the dynamics; comparing it too would cause more jumps, each of which adds unrecorded noise.
 constexpr double kLagSeconds[] = {0, 1.0 / 60, 3.0 / 60, 5.0 / 60, 9.0 / 60};
-constexpr double kTolerance = 0.2;       // in units of wind: less causes more jumps, more admits unfit residuals
+constexpr double kTolerance = 0.2;       // in units of wind: smaller causes more jumps, larger a worse match of wind
 constexpr double kLongestSeconds = 1.5;  // maximum time between jumps, so that play does not visibly repeat the film
-constexpr double kCalm = 0.04;           // in units of wind: less does not move a flame at rest
-constexpr double kMargin = 0.01;  // in units of wind: below a microphone's resolution; a larger one blurs the search
-constexpr double kMinSeconds = 1;
+constexpr double kCalm = 0.04;           // in units of wind: weaker wind does not move a flame at rest
+constexpr double kMargin = 0.01;   // in units of wind: below a microphone's resolution; a larger one blurs the search
+constexpr double kMinSeconds = 1;  // with inputs and fewer rows, nothing is resampled
 constexpr std::size_t kCurveSamples = 60;  // points per outline in the check for self-intersection
 constexpr double kLargestWind = 32767;
 constexpr std::size_t kMaxBytes = 256 * 1024;  // maximum size of all rows; beyond it every stretch is shortened
@@ -45,8 +45,8 @@ std::vector<double> signed_input(const Recording& recording, const PreparedOutli
   return samples_of(recording, prepared.inputs.front().name);
 }
 
-// Whether wind begins after calm. A stretch ends there: otherwise the play of a lasting calm could continue into a
-// recorded gust within the tolerance, and move by its residuals.
+// Returns whether wind begins after calm, where a stretch must end: otherwise the play of a lasting calm could continue
+// into a recorded gust within the tolerance, and move by the gust's residuals.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }
@@ -107,7 +107,7 @@ std::size_t row_count(const std::vector<RowStretch>& stretches) {
   return rows;
 }
 
-// Keeps the first part of every stretch, the same share of each.
+// Shortens all stretches by the same share, at their ends, so that at most `rows` rows remain.
 void keep_at_most(std::vector<RowStretch>& stretches, std::size_t rows) {
   const auto all = static_cast<double>(row_count(stretches));
   if (all <= static_cast<double>(rows)) return;

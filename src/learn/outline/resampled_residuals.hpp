@@ -15,15 +15,15 @@
 
 namespace wisp {
 
-inline constexpr double kLargestStored = 127;  ///< largest 8-bit number of a stored row
+inline constexpr double kLargestStored = 127;  ///< largest 8-bit number that stores a residual
 
-/// value / scale, rounded and clamped to ±`largest`; 0 if the scale is 0.
+/// Returns value / scale, rounded and clamped to ±`largest`; 0 if the scale is 0.
 double stored(double value, double scale, double largest = kLargestStored);
 
 /// Returns the one-step residuals of the prepared recordings for resampling, 8 bits per shape component. Usable rows
-/// are complete, with their input's past and an outline that does not intersect itself; with inputs and less than a
-/// second of them the result is empty. An input of the other sign replays rows mirrored. Errors: as predict(); no two
-/// consecutive usable rows.
+/// are complete, with their input's past and an outline that does not intersect itself. With inputs and less than a
+/// second of usable rows the result is empty. Input of the opposite sign replays rows mirrored. Errors: as predict();
+/// no two consecutive usable rows.
 ///
 /// Precondition: the dynamics have a shape.
 Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,

@@ -12,7 +12,7 @@ namespace wisp::arx {
 namespace {
 
 constexpr int kMaxStates = 256;         // above this, computing eigenvalues takes too long for a description
-constexpr int kMaxStatesForZeros = 48;  // limit for zeros, which every pair of channels has
+constexpr int kMaxStatesForZeros = 48;  // limit for zeros, which are computed for every pair of channels
 constexpr int kMaxStatesTold = 12;
 constexpr int kMaxCoefficientsTold = 60;
 
@@ -42,7 +42,7 @@ std::string pole_text(std::complex<double> pole, double rate_hz) {
          number_text(-s.real() / natural, 2);
 }
 
-// Coefficients of one row in the notation of the equation: y(t-1), u(t-3).
+// Adds the coefficients of one output's equation, named by their terms: y(t-1), u(t-3).
 void tell_row(const ArxModel& model, const Model& of, int i, ReportSection& section) {
   std::size_t at = 0;
   const auto tell_one = [&](const char* matrix, const std::string& channel, int lag) {
@@ -120,7 +120,7 @@ void add_row(const OrderCandidate& one, ReportTable& table) {
   for (ReportEntry& figure : figures_of(one)) row.push_back(std::move(figure.value));
 }
 
-constexpr std::size_t kMaxTold = 10;  // orders shown to people
+constexpr std::size_t kMaxTold = 10;  // maximum number of orders shown to people
 
 std::string orders_text(const OrderCandidate& candidate) {
   return "na " + std::to_string(candidate.na) + ", nb " + std::to_string(candidate.nb) + ", nk " +

@@ -40,10 +40,10 @@ ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::
 void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report& report);
 
 /// Adds correlations of residuals over lags as series `residual.I.white` and `residual.I.K`, and their bounds under
-/// chance as the same ids followed by `.bound`.
+/// chance as series with `.bound` after these ids.
 void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, ReportSection& section);
 
-/// A model whose responses are computed. `covariance` is that of its ArxFit; empty: no confidence bands.
+/// A model whose responses are computed. `covariance`: of the coefficients; empty: no confidence bands.
 struct Responding {
   const ArxModel& model;
   const ChannelChoice& channels;

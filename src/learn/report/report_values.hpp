@@ -64,7 +64,7 @@ ReportSection cost_section(const Cost& cost);
 /// user's disk, and the cost of a frame; adds the cost to the report. A model that cannot be played has no cost.
 void complete(Fit& fit);
 
-/// Matrix [output][input] of values of a model.
+/// Returns the matrix [output][input] of value(output, input).
 template <class Value>
 ReportList per_pair(const ArxOrders& orders, Value value) {
   ReportList rows;

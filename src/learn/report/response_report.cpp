@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFrequencies = 240;
 
-// Number of samples of a response: the longest lag, plus the 20 to 600 in which the slowest pole decays below 1 %.
+// Samples of a response: the longest lag plus the samples in which the slowest pole decays to 1 %, clamped to 20 … 600.
 int settling_samples(const ArxModel& model) {
   constexpr int kMin = 20, kMax = 600;
   const double radius = spectral_radius(model);
@@ -22,7 +22,7 @@ int settling_samples(const ArxModel& model) {
   return model.orders.history() + static_cast<int>(std::clamp(settled, double{kMin}, double{kMax}));
 }
 
-// Angular frequencies from a thousandth of the highest up to it, equally spaced on a logarithmic axis.
+// Angular frequencies from π/1000 to π (half the sampling rate), equally spaced on a logarithmic axis.
 std::vector<double> angular_frequencies() {
   std::vector<double> omega;
   for (int k = 0; k < kFrequencies; ++k) {
@@ -31,7 +31,7 @@ std::vector<double> angular_frequencies() {
   return omega;
 }
 
-// A curve and, where there is one, its confidence band.
+// A curve and its confidence band, of width 0 without standard deviations.
 struct Curve {
   std::vector<double> y, low, high;
 
@@ -84,7 +84,7 @@ Curve phase_curve(const FrequencyResponse& response) {
 
 using Places = std::vector<std::complex<double>>;
 
-// Poles and zeros without the pairs that cancel, such as those of outputs that do not act on this one.
+// Returns poles and zeros without pairs that cancel, such as poles of outputs that do not act on this output.
 std::pair<Places, Places> without_cancelling(Places poles, const Places& zeros) {
   constexpr double kSame = 1e-6;
   Places left;

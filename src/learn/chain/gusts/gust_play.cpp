@@ -80,8 +80,8 @@ void add_side(const std::string& id, const Places& ways, const std::vector<Tripl
 }
 
 constexpr double kLaterSeconds = 2;  // time after the gust at which the effect should have vanished
-constexpr double kMaxLeft = 0.1;     // m/s, maximum of left_after without divergence
-constexpr double kClearErrors = 4;   // standard errors; a longer mean displacement has a clear direction
+constexpr double kMaxLeft = 0.1;     // m/s: a larger left_after counts as divergence
+constexpr double kClearErrors = 4;   // standard errors: a longer mean displacement has a significant direction
 
 // Two banks with equal seeds, one in the wind and one in calm air.
 struct Twins {

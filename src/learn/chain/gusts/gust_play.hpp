@@ -2,10 +2,10 @@
 // Response of a fall to wind, learned from falls that differ only in their wind (gust_response.cpp), and its play: a
 // bank is placed at each calm fall's state at the gust's onset and exposed to the gust.
 //
-// Source: section 4.4 of the paper, v_windy − v_calm = F(w, x), whose figure 8 shows one response. Falls are chaotic: a
-// windy fall and its calm twin drift apart for reasons other than the wind. So each gust is repeated over clones with
-// slightly different starts, and the response is learned and judged on the clones' means. It has one lag: a leaf is so
-// light that further lags add nothing.
+// Source: L.-M. Reissell and D. K. Pai (2001), section 4.4, v_windy − v_calm = F(w, x), and figure 8.
+// Falls are chaotic: a windy fall and its calm twin drift apart for reasons other than the wind. So each gust
+// is repeated over clones with slightly different starts, and the response is learned and judged on the clones' means.
+// The response has one lag: a leaf is so light that further lags add nothing.
 
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace wisp::chain {
 
-/// A windy recording and its calm twin: pieces k of both begin in one state; each gust has `clones` consecutive pieces.
+/// A windy recording and its calm twin: piece k of both starts alike; each gust has `clones` consecutive pieces.
 struct GustPairs {
   Motion windy;
   Motion calm;
@@ -48,14 +48,14 @@ GustSpan span_of(const GustPairs& pairs, std::size_t gust);
 
 /// Means over clones, one row per row since the onset.
 struct GustEnsemble {
-  std::vector<Triple> change;        ///< change of velocity
-  std::vector<Triple> displacement;  ///< displacement since the onset
+  std::vector<Triple> change;        ///< change of velocity by the wind
+  std::vector<Triple> displacement;  ///< displacement by the wind since the onset
   std::vector<Triple> wind;
   std::vector<std::array<Triple, 3>> normal;  ///< projection n nᵀ onto the body's normal
   double displacement_error = 0;              ///< standard error of the mean horizontal displacement at the end, metres
 };
 
-/// Means over the clones first, first + stride, …
+/// Returns the means over the clones first, first + stride, …
 GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, std::size_t first = 0,
                          std::size_t stride = 1);
 
@@ -70,7 +70,7 @@ Result<GustFit> learn_gusts(const GustPairs& pairs, std::size_t gusts);
 /// Horizontal angles between the recorded and the played mean displacement at the end, degrees.
 struct GustDirection {
   double median = 0;
-  double mean = 0;        ///< over all gusts: small displacements have a random direction
+  double mean = 0;        ///< over all gusts, also small displacements, whose direction is random
   double mean_clear = 0;  ///< over gusts with a significant displacement
 };
 

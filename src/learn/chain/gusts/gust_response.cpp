@@ -53,8 +53,8 @@ Result<std::array<const std::vector<double>*, 3>> wind_channels(const Recording&
 
 constexpr int kRefinements = 24;
 constexpr double kNudge = 1e-5;
-// In a steady wind, a body carried by the air ends up moving with it. A response without that constraint is used only
-// where its squared error over the gusts is below this share of the constrained one's.
+// In a steady wind, a body carried by the air ends up moving with the air. A response without that constraint is used
+// only where its squared error over the gusts is below this share of the constrained response's.
 constexpr double kMuchBetter = 0.8;
 
 using Axis = GustResponse::Axis;
@@ -75,7 +75,7 @@ std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response
   return change;
 }
 
-// Parameters of the search: for each Axis of GustResponse its change, its press and, unless `carried`, its wind. With
+// Parameters of the search: for each Axis of GustResponse its fields change, press and, unless `carried`, wind. With
 // `carried`, a steady wind carries the body along: wind = 1 − change.
 struct Unknowns {
   bool carried;

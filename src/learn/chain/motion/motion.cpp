@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kMinRows = 8;
 constexpr double kUsualStep = 0.9;   // quantile of step lengths that counts as usual
-constexpr double kMaxJump = 20;      // maximum step, as a multiple of the usual and of the neighbouring steps
-constexpr double kRounding = 2e-4;   // deviation from unit length of a quaternion written with four digits
+constexpr double kMaxJump = 20;      // a step more than this many times the usual and the neighbouring steps is a jump
+constexpr double kRounding = 2e-4;   // deviation from unit length that four digits cause; above it, a warning
 constexpr double kMaxWrong = 0.01;   // maximum deviation of a quaternion from unit length
-constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of it
+constexpr double kMaxJitter = 0.01;  // maximum deviation of a time step, as a share of the step
 
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
 
@@ -187,8 +187,8 @@ Result<void> add_row(const Recording& recording, const Layout& layout, std::size
   return {};
 }
 
-// Errors: a jump, as between two falls in one episode: a step more than kMaxJump times as long as the usual step and as
-// the four steps around it.
+// Checks that a piece has no jump, as between two falls in one episode: no step more than kMaxJump times as long as the
+// usual step and as each of the four steps around.
 Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
   std::vector<double> steps;
   for (std::size_t row = 1; row < piece.rows(); ++row) {

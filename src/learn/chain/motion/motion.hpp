@@ -18,7 +18,7 @@ using Quad = std::array<double, 4>;
 
 inline constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 
-/// Names a row, from 1, in an error.
+/// Returns "SOURCE: row N" for errors, counted from 1.
 std::string row_name(const Recording& recording, std::size_t row);
 
 inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -52,7 +52,7 @@ struct Motion {
 /// jump of the position, no piece long enough.
 Result<Motion> motion_of(std::span<const Recording> recordings, int smooth_rows = 0);
 
-/// Interpolates between rows by a cubic through the four rows around.
+/// Interpolates between rows by a Catmull–Rom cubic over the four rows around.
 ///
 /// Precondition: 0 <= row <= rows − 1, values not empty.
 Triple at_row(std::span<const Triple> values, double row);

@@ -7,9 +7,9 @@ namespace wisp::chain {
 namespace {
 
 constexpr std::size_t kParts = 16;  // number of short windows in the longest stretch; a long window is four of them
-constexpr double kMinSegments = 8;  // minimum per long window: a slow random walk needs that long to show
-// Maximum ratio of the long windows' variance to the short windows'. In simulations, 1 in 100 random walks is below it,
-// and none of 300 processes that return to their mean within 1/90 of the recording is above it.
+constexpr double kMinSegments = 8;  // minimum per long window: a slow random walk shows only over that many
+// Maximum ratio of the long windows' variance to the short windows'. In simulations, 1 in 100 random walks has less,
+// and none of 300 processes that return to their mean within 1/90 of the recording has more.
 constexpr double kMaxGrowth = 1.7;
 
 // Mean variance of heights within adjacent windows of `rows` rows.
@@ -126,7 +126,7 @@ double deviation_of(std::span<const std::vector<double>> signals) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * sum / count));
 }
 
-// Rounds durations to whole rows such that the segments of a piece keep their total duration.
+// Appends the segments between events. Their durations are rounded to whole rows so that the total stays the same.
 void add_segments(std::size_t piece, const std::vector<double>& events, std::vector<Segment>& segments) {
   for (std::size_t k = 0; k + 1 < events.size(); ++k) {
     const auto begin = static_cast<int>(std::lround(events[k])), end = static_cast<int>(std::lround(events[k + 1]));

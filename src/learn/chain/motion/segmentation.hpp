@@ -1,7 +1,8 @@
 #pragma once
 // Segmentation of motion at critical events: zeros or extrema of a channel or of a signal derived from the motion.
 //
-// Source: section 4.1.1 of the paper (a leaf is cut where it stalls: its forward speed in its own plane is zero).
+// Source: L.-M. Reissell and D. K. Pai (2001), section 4.1.1 (a leaf is cut where it stalls: its forward speed in its
+// own plane is zero).
 
 #include <span>
 #include <string>
@@ -15,7 +16,7 @@ namespace wisp::chain {
 
 struct SegmentationOptions {
   EventSpec event{};
-  double min_seconds = 0.04;  ///< ≥ 0: minimum time between events, else the later is dropped; 2 frames at 60 Hz
+  double min_seconds = 0.04;  ///< ≥ 0: minimum time between events, else the later is dropped
   double debounce = 0.1;  ///< ≥ 0, in standard deviations of the signal: minimum excursion on both sides of a zero, or
                           ///< from an extremum
 };
@@ -48,7 +49,7 @@ std::vector<double> event_rows(std::span<const double> signal, double rate_hz, d
 Result<Segmentation> segment(const Motion& motion, std::span<const Recording> recordings,
                              const SegmentationOptions& options);
 
-/// Values per segment, split into lists where a segment does not follow the one before it.
+/// Splits values per segment into one list per piece.
 template <class T>
 std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::span<const T> values) {
   std::vector<std::vector<T>> stretches;
@@ -59,9 +60,9 @@ std::vector<std::vector<T>> by_stretch(std::span<const Segment> segments, std::s
   return stretches;
 }
 
-/// Whether height is bounded: its variance within a quarter of the longest stretch is hardly larger than within a
-/// sixteenth. The ratio of variances is 1 for bounded motion, 4 for a random walk, 16 for a fall. False where a quarter
-/// is shorter than 8 segments of mean duration.
+/// Whether height is bounded: its variance within windows of a quarter of the longest stretch is less than 1.7 times
+/// that within a sixteenth. The ratio is 1 for bounded motion, 4 for a random walk, 16 for a fall. False where a
+/// quarter is shorter than 8 segments of mean duration.
 ///
 /// Precondition: `segments` are of the motion, at least one.
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);

@@ -131,7 +131,7 @@ ModeChain counted_chain(const ModeSequences& sequences, int modes, int history) 
         ++chain.initial[sequence[at]];
         continue;
       }
-      // Pairs also count for their last mode alone: used after a single mode, and after pairs that were never followed.
+      // Pairs also count for their last mode alone, for use after a single mode and after pairs never followed.
       ++chain.probabilities[sequence[at - 1] * count + sequence[at]];
       if (history > 1 && at > 1) ++chain.probabilities[row_after(sequence, at, count, history) * count + sequence[at]];
     }

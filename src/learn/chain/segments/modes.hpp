@@ -1,11 +1,11 @@
 #pragma once
-// Modes of the paper: clusters of segments, transition probabilities given the one or two modes before, realisations
+// Modes of a chain: clusters of segments, transition probabilities given the one or two modes before, realisations
 // (realisations.cpp), and segments as a chain stores them (segment_store.cpp).
 //
-// Source: sections 2.2 and 4.1.3 of the paper. Section 2.2 names splines, linear systems, differential equations and
-// chains besides segments as realisations. Learning converts each into segments, so that a model stores and plays
-// segments only: each in its own frame, cut at whole rows, as scaled 16-bit numbers, with the successors that join it
-// best.
+// Source: L.-M. Reissell and D. K. Pai (2001), sections 2.2 and 4.1.3. Section 2.2 names splines, linear systems,
+// differential equations and chains besides segments as realisations. Learning converts each into segments, so that a
+// model stores and plays segments only: each in its own frame, cut at whole rows, as scaled 16-bit numbers, with the
+// successors that join it best.
 
 #include <cstddef>
 #include <cstdint>
@@ -94,8 +94,8 @@ Result<RealisedSegments> half_segments(const SortedSegments& from, bool heading_
 
 struct SegmentStoreOptions {
   bool heading_free = true;
-  std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: excess segments are dropped, from the most frequent
-                                      ///< modes first
+  std::size_t max_bytes = 4'000'000;  ///< > 0, maximum size of all segments: excess ones are dropped, from the
+                                      ///< modes with most segments first
   bool bounded_height = false;        ///< segments keep their initial height and join others at a similar one
   int breadth = 0;  ///< 0 … 256: number of best-joining successors per segment and mode; 0: any segment of the mode may
                     ///< follow
@@ -106,9 +106,7 @@ struct SegmentStore {
   std::vector<std::size_t> source;  ///< per stored segment: its index among the given ones
 };
 
-/// Stores segments.
-///
-/// Precondition: each mode has a segment.
+/// Stores segments as 16-bit numbers. Precondition: each mode has a segment.
 SegmentStore store_segments(const SortedSegments& found, const SegmentStoreOptions& options);
 
 }  // namespace wisp::chain

@@ -67,7 +67,7 @@ void put_numbers(const MatrixXd& rows, MotionPiece& piece) {
   }
 }
 
-// Gives the quaternions of a mode's pieces one sign: the hemisphere of their mean direction.
+// Negates quaternions where needed, so that all pieces of a mode begin in one hemisphere (q and −q are one rotation).
 void align_signs(std::span<MotionPiece* const> pieces) {
   if (pieces.empty() || pieces.front()->orientation.empty()) return;
   Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
@@ -220,7 +220,7 @@ void play(const System& system, int degree, double rate_hz, std::mt19937& words,
   }
 }
 
-// Turns every segment into a piece of its own.
+// Copies every segment to a separate piece of motion.
 RealisedSegments cut_apart(const SortedSegments& from, bool heading_free) {
   RealisedSegments out{
       {from.motion.has_orientation, from.motion.rate_hz, {}, {}}, {}, {from.mode.begin(), from.mode.end()}, from.modes};
@@ -241,7 +241,7 @@ std::vector<std::vector<MotionPiece*>> by_mode(RealisedSegments& made) {
 
 constexpr std::size_t kKinds = 2;  // number of clusters per mode and half
 
-// Splits every segment into halves. The class of a half is mode × 2, plus 1 for the second half.
+// Splits every segment into halves. A half's group is mode × 2, plus 1 for the second half.
 std::pair<std::vector<Segment>, std::vector<std::size_t>> halves_of(const SortedSegments& from) {
   std::vector<Segment> segments;
   std::vector<std::size_t> group;

@@ -12,7 +12,7 @@ namespace {
 // Attitude has more weight than velocity or spin: the eye sees a jump of attitude first.
 constexpr double kAttitudeWeight = 1.5;
 
-// Weight of height: a join's difference in height is corrected by moving the body there, other differences by blending.
+// Weight of height, above all others: a join moves the body by the difference in height, but blends other differences.
 constexpr double kHeightWeight = 3;
 
 // States of a body at the ends of segments, in groups of three numbers. With orientation: velocity, angular velocity
@@ -150,7 +150,7 @@ double bytes_of(const Segment& segment, bool pose, double successors) {
   return kNumberBytes * ((segment.steps + 1.0) * channels + rates) + 4 + successors;
 }
 
-// Maximum number of segments per mode such that all fit; modes with fewer leave their room to others.
+// Returns the largest number of segments per mode with at most `most` in all; smaller modes leave room to others.
 std::size_t cap_of(const std::vector<std::vector<std::size_t>>& members, std::size_t most) {
   std::size_t low = 1, high = most;
   while (low < high) {

@@ -18,7 +18,7 @@ namespace wisp {
 namespace {
 
 constexpr double kWindowSeconds = 4;  // duration of a periodogram's segment: resolution 0.25 Hz
-constexpr double kLowestHz = 1;       // lower motion is draught in the room
+constexpr double kLowestHz = 1;       // slower motion is attributed to draught in the room
 constexpr std::size_t kMinSegments = 3;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
@@ -37,7 +37,7 @@ struct Flicker {
   double hz = 0, width_hz = 0;
 };
 
-// Frequency at which the power falls to half of the peak's on one side, interpolated linearly.
+// Frequency below (step −1) or above (1) a peak at which the power is half of the peak's, interpolated linearly.
 double half_power_hz(const Spectrum& of, std::size_t peak, int step) {
   std::size_t k = peak;
   const double half = of.power[peak] / 2;
@@ -48,8 +48,8 @@ double half_power_hz(const Spectrum& of, std::size_t peak, int step) {
   return of.frequency_hz[before] + part * (of.frequency_hz[k] - of.frequency_hz[before]);
 }
 
-// The peak that rises most above the median power within half an octave on either side. Empty if its ratio to that
-// median is below 1 + 5.5/√n, which one of twenty series of noise exceeds in a mean of n periodograms.
+// Returns the peak with the largest ratio to the median power within half an octave on either side. Empty if the ratio
+// is at most 1 + 5.5/√n, which one of twenty noise series exceeds in a mean of n periodograms.
 std::optional<Flicker> flicker_of(const Spectrum& of) {
   double most = 1 + 5.5 / std::sqrt(static_cast<double>(of.segments));
   std::size_t peak = 0;

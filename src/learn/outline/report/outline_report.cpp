@@ -17,7 +17,7 @@ std::string horizon(int steps) {
   return steps == 1 ? "next frame" : std::to_string(steps) + " frames ahead";
 }
 
-// Adds an entry ID.STEPS per number of steps. With a label it is shown to people, with the horizon in words after it.
+// Adds an entry ID.STEPS per number of steps. Entries with a label are shown to people, labelled with the horizon too.
 void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
                   const std::string& label, const std::string& unit, ReportSection& section) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
@@ -140,7 +140,7 @@ ReportSection fit_section(const OutlineJudgement& found) {
   return section;
 }
 
-// Bounds of a measure in words.
+// Describes the floor and the ceiling of a measure in words.
 std::string between(const Bounded& measure) {
   const auto bound = [](double value) { return std::isfinite(value) ? number_text(value, 3) : "too short to tell"; };
   return "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
