@@ -17,7 +17,7 @@ using MisuseHandler = void (*)(const char* sentence);
 /// Returns the previous handler.
 MisuseHandler set_misuse_handler(MisuseHandler handler);
 
-/// Pass a sentence to the handler; end_on_misuse() ends the program if the handler returns.
+/// Both pass a sentence to the handler; end_on_misuse() also ends the program if the handler returns.
 void report_misuse(const char* sentence);
 [[noreturn]] void end_on_misuse(const char* sentence);
 
