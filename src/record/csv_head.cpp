@@ -31,7 +31,7 @@ Shape shape_of(std::string_view line, char separator) {
   return shape;
 }
 
-// Rows may end in separators that the line of names lacks.
+// Returns whether a row has as many cells as names; separators at its end do not count.
 bool fits(const Shape& names, const Shape& row) {
   return names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled;
 }
@@ -49,7 +49,7 @@ char separator_of(const std::vector<std::string>& lines) {
   for (char candidate : {'\t', ';', ','}) {
     if (shape_of(names, candidate).cells >= 2) return candidate;
   }
-  // With one column, a comma in a number is a decimal mark.
+  // The table has one column: a comma in its numbers is a decimal mark, so the separator must be another character.
   return shape_of(row, ';').numbers && has_comma({row, false}) ? ';' : ',';
 }
 

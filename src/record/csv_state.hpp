@@ -39,7 +39,7 @@ class Lines {
   /// Makes next() return this line again.
   void back() { at_ = begin_, --row_; }
 
-  /// From here on comment lines (#, "# …" or %…) are skipped too.
+  /// Makes next() skip comment lines (#, "# …" or %…) from here on.
   void pass_comments() { pass_comments_ = true; }
 
   Error at_row(const std::string& what, std::size_t row = 0) const {
@@ -96,9 +96,9 @@ struct CsvReader::State {
   std::optional<Time> time{};
   char separator = '\0';
   bool own_form = false;
-  bool uneven_time = false, time_was_uneven = false;  // steps are not checked; a checked step was uneven
-  std::vector<double> times{};                        // seconds of all rows, if uneven_time
-  bool plain_columns = false;  // channels and skipped columns only, between separators other than blanks
+  bool uneven_time = false, time_was_uneven = false;  // steps need not be even; an uneven step was an error
+  std::vector<double> times{};                        // time of every row in seconds, stored if uneven_time
+  bool plain_columns = false;  // all columns are channels or skipped, and blanks are no separator
   bool commas = false;         // a number so far had a comma
   bool points = false;         // a number so far had a point
   bool decimals = false;       // a comma so far can only be a decimal one

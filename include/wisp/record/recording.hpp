@@ -81,7 +81,7 @@ std::vector<std::size_t> channels_with_role(const Recording& recording, Role rol
 /// Returns the index of the channel of that name, or nothing.
 std::optional<std::size_t> find_channel(const Recording& recording, std::string_view name);
 
-/// Whether the flag of that name marks a row; false without such a flag.
+/// Returns whether the flag of that name marks a row; false without such a flag.
 bool is_flagged(const Recording& recording, std::string_view flag, std::size_t row);
 
 /// Returns the attribute's value, or nothing.

@@ -62,8 +62,8 @@ enum class WindKind {
 /// Parameters of the wind. Speeds in m/s.
 struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
-  double most = 1.0;         ///< clamp of gusts and noise together, 0 … 10; a candle survives 1 m/s
-  double noise = 0.35;       ///< typical standard deviation of the wideband part while it blows, 0 … 10
+  double most = 1.0;         ///< upper bound of gusts and noise together, 0 … 10; a candle survives 1 m/s
+  double noise = 0.35;       ///< typical standard deviation of the wideband part outside rests, 0 … 10
   double bandwidth_hz = 6;   ///< bandwidth of that noise, two poles, 0.1 … 50; slow wind excites no resonance
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10
   double rest_share = 0.25;  ///< share of calm time, 0 … 0.9
