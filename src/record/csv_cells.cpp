@@ -258,9 +258,8 @@ double rounded_step(double step) {
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
-  constexpr double kGap = 1.5,
-                   kUsual = 0.5;       // longest interpolated gap; usual steps' deviation from the median (shares)
-  constexpr double kMaxGrowth = 1000;  // maximum number of resulting rows per given row, to bound memory
+  constexpr double kGap = 1.5, kUsual = 0.5;  // longest interpolated gap, deviation of usual steps: in steps
+  constexpr double kMaxGrowth = 1000;         // maximum number of resulting rows per given row, to bound memory
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {
     steps.push_back(times[t] - times[t - 1]);

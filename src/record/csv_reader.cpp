@@ -317,8 +317,7 @@ Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
                       (comma ? "point" : "comma") + "; write all numbers in one way, without separators of thousands");
 }
 
-// Returns an error for a column with both 987 and 1,012, which may be thousands, unless a comma in the table is certain
-// to be a decimal mark.
+// Error: a column has both 987 and 1,012, and no comma in the table is certainly a decimal mark: 1,012 is ambiguous.
 Result<void> CsvReader::State::check_thousands() const {
   for (std::size_t k = 0; k < marks.size() && !decimals; ++k) {
     if (marks[k].thousand == 0 || marks[k].hundred == 0) continue;

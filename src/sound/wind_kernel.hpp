@@ -173,8 +173,7 @@ class Kernel {
     return channel.decimator.push(x);
   }
 
-  // Moves the sum of squares since the last call to the frame's: a single sum in single precision would lose digits in
-  // frames of a second at 192 kHz.
+  // Adds the sum of squares since the last call to the frame's: one float sum of 192000 squares would lose digits.
   void gather() {
     power_ = power_ + group_power_;
     group_power_ = T(0.0F);
@@ -185,9 +184,9 @@ class Kernel {
     for (auto& channel : channels_) {
       const T voice = channel.bands.push(channel.decimator.value());
       channel.history.push(voice);
-      // A level is the power of the voice band after a filter that rises above 300 Hz and is flat below. The rise
-      // flattens wind's falling spectrum, so that a frame's level varies less; the flat part serves microphones without
-      // highs.
+      // A level is the power of the voice band after a filter that rises above 300 Hz, to flatten wind's falling
+      // spectrum, so that a frame's level varies less. Below it is flat, for microphones that pass few high
+      // frequencies.
       const T levelled = voice - T(d_.level_zero) * channel.before;
       channel.before = voice;
       frame_band_ = frame_band_ + levelled * levelled;

@@ -69,8 +69,7 @@ struct LeafPairsOptions {
   int clones = 32;           ///< clones per gust, 1 … 10000
 };
 
-/// Falls with one gust each, and without: episode k starts from the same state in both. A gust's clones are
-/// consecutive.
+/// Falls with one gust each, and without: episode k starts alike in both. The clones of a gust are consecutive.
 struct LeafPairs {
   Recording windy;
   Recording calm;

@@ -25,14 +25,13 @@ struct SoundFormat {
 struct WindOptions {
   double frame_rate_hz = 60;  ///< frames per second, 1 to 1000: the video's, or the model's
 
-  /// Exponent of wind speed as a power of the band's RMS, 0.1 to 2. The default, 1/2, follows from stagnation pressure
-  /// (proportional to speed squared) and is supported by the one public record of microphones beside an anemometer
-  /// (0.55 ± 0.04; docs/explanation/wind.md); 1 is a plain RMS. It is a property of the microphone: set it if it is
-  /// known.
+  /// Wind speed is proportional to WindFrame::level to this power, 0.1 to 2. The default, 1/2, follows from stagnation
+  /// pressure (proportional to speed squared) and is supported by the one public record of microphones beside an
+  /// anemometer (0.55 ± 0.04; docs/explanation/wind.md). The exponent depends on the microphone: set it if it is known.
   double exponent = 0.5;
 
   /// Averaging time of the level, seconds, 0 (each frame by itself) to 1. The level of a 16 ms frame has an error of
-  /// some ten per cent; learning averages better than a fixed mean would, so the default is 0.
+  /// about ten per cent. The default is 0, as learned models average their inputs better than a fixed mean.
   double smoothing_seconds = 0;
 
   /// Largest growth rate of the background estimate, dB per second, 0 to 60; during sounds other than blowing the rate
@@ -40,8 +39,8 @@ struct WindOptions {
   /// blows for longer than that without a pause becomes background. 0: the background never rises.
   double floor_rise_db_per_second = 1;
 
-  /// Initial RMS of the band at wind 1, full scale 1, 1e-6 to 8. After each gust, not during it, the estimate of this
-  /// RMS moves: towards 4 dB above the gust if it was likelier a soft breath, 17 dB below it if likelier a hard blow.
+  /// Initial WindFrame::level at wind 1, 1e-6 to 8. After each gust, not during it, the estimate of this level moves:
+  /// towards 4 dB above the gust if this was likelier a soft breath, 17 dB below the gust if likelier a hard blow.
   double first_gust_rms = 0.04;
 };
 
@@ -52,14 +51,14 @@ struct WindFrame {
   float rms_clean = 0;     ///< rms minus the background's, at least 0
   float level = 0;         ///< RMS of the band 100–900 Hz with whitened spectrum, minus the background in power
   float speed = 0;         ///< proportional to wind speed. Live, 1 lies between soft breath and hard blowing; in a
-  ///< recording, 1 is the 95th percentile of frames with blowing
-  float wind = 0;  ///< a model's input: `speed` while blowing is heard, near 0 in silence. Under other sounds,
-  ///< live: at most the wind before them; in a recording: estimated between the harmonics of
-  ///< voices, and for knocks the larger wind beside them. Live, wind above 1 is clamped to 1
-  ///< until it has lasted (0.24 s at wind 1, less if stronger)
-  float confidence = 0;  ///< confidence that this is blowing, not talking, 0 to 1
-  float background = 0;  ///< the plain RMS of the background as estimated at this frame
-  float clipped = 0;     ///< share of samples at full scale, 0 to 1
+                           ///< recording, 1 is the 95th percentile of frames with blowing
+  float wind = 0;          ///< a model's input: `speed` while blowing is heard, near 0 in silence. Under other sounds,
+                           ///< live: at most the wind before them; in a recording: estimated between the harmonics of
+                           ///< voices, and for knocks the larger wind beside them. Live, wind above 1 is clamped to 1
+                           ///< until it has lasted (0.24 s at wind 1, less if stronger)
+  float confidence = 0;    ///< confidence that this is blowing, not talking, 0 to 1
+  float background = 0;    ///< the plain RMS of the background as estimated at this frame
+  float clipped = 0;       ///< share of samples at full scale, 0 to 1
 };
 
 /// Request of a guided calibration to the person at the microphone.
@@ -110,8 +109,7 @@ class WindLevel {
   const WindFrame& latest() const;
 
   /// Uses the next `seconds` of sound, clamped to 0.5 to 30, for the requested calibration. A soft breath at one
-  /// microphone is as loud as a hard blow at another: for equal scales, request both in turn. The background needs no
-  /// calibration.
+  /// microphone is as loud as a hard blow at another: for equal scales, request both in turn.
   void calibrate(WindAsk ask, double seconds = 3);
 
   /// Returns whether calibrate()'s time is still running.
@@ -121,8 +119,7 @@ class WindLevel {
   bool calibrated() const;
 
   /// Returns by how many dB the background is louder than in the first seconds or at its quietest since; at least 0.
-  /// From 6 dB on, a steady sound has begun (rain, a fan, an engine) that may be mistaken for wind; reset() makes this
-  /// sound the background.
+  /// From 6 dB on, a steady sound may be mistaken for wind (rain, a fan, an engine); reset() makes it the background.
   float room_rise_db() const;
 
   /// Returns the current estimate of microphone and room.

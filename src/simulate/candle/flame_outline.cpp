@@ -24,8 +24,7 @@ struct Lattice {
 
   float at(int i, int j) const { return values[static_cast<std::size_t>(j) * columns + i]; }
 
-  // Returns the lattice's index of a square's edge: twice the index of the edge's lower or left end, plus 1 if
-  // vertical.
+  // Returns the index of a square's edge: twice the index of its lower or left end, plus 1 if the edge is vertical.
   int edge(int i, int j, int side) const {
     switch (side) {
       case kLower:

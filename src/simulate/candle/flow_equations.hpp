@@ -40,8 +40,8 @@ using Plane = std::vector<float>;
 using ScalarPlane = std::vector<Float4>;
 
 /// Computes for each cell the displacement, in cells, of the parcel that reaches the cell's centre at the end of the
-/// step; the border gets copies of the rim. `u`, `v` in metres per second, `step` in seconds. Displacements along each
-/// axis are clamped to a quarter of the grid's shorter side.
+/// step; the border gets copies of the rim. `u`, `v` in m/s, `step` in seconds. Each component is clamped to a quarter
+/// of the grid's shorter side.
 void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Plane& way_x, Plane& way_y,
            Plane& scratch_x, Plane& scratch_y);
 

@@ -18,10 +18,9 @@ constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
 constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
 constexpr double kBlowOutSeconds = 0.3;
 constexpr double kBlowOutRamp = 0.03;  // rise and decay time of a blow-out, s
-constexpr double kQuietBefore =
-    0.5;                             // s of calm before a puff or blow-out, so that nothing else extinguishes the flame
-constexpr double kQuietAfter = 1.0;  // s of calm after lighting, so that the flame survives
-constexpr double kWeakestPuff = 1.2;  // m/s: a candle survives it
+constexpr double kQuietBefore = 0.5;   // s of calm before a puff, so that no other wind extinguishes the flame
+constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame survives
+constexpr double kWeakestPuff = 1.2;   // m/s: a candle survives it
 constexpr double kStrongestPuff = 4;
 constexpr double kShortestPuff = 0.05;  // duration of the shortest puff, s
 constexpr double kLongestPuff = 0.6;
