@@ -98,7 +98,7 @@ class ByteSource {
   };
 
   bool unpack(std::span<std::byte> out) {
-    constexpr std::size_t kMax = std::size_t{1} << 30;  // limit of zlib's counters
+    constexpr std::size_t kMax = std::size_t{1} << 30;  // keeps below the limit of zlib's 32-bit counters
     packed_->next_out = reinterpret_cast<Bytef*>(out.data());
     packed_->avail_out = static_cast<uInt>(out.size());
     while (packed_->avail_out > 0) {
@@ -144,7 +144,7 @@ class Reader {
     std::array<std::byte, 8> bytes;
     if (!source_.read(bytes)) return {};
     const auto first = static_cast<std::uint32_t>(whole(bytes.data(), 4, big_));
-    // Up to four bytes may be in the tag itself.
+    // Data of up to four bytes may be in the tag itself.
     if (first >> 16 != 0) {
       small_ = {bytes[4], bytes[5], bytes[6], bytes[7]};
       in_tag_ = true;

@@ -28,8 +28,8 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Returns the length of a quoted cell at the begin of a line, with the blanks after the closing quote; 0 if the quote
-/// is not closed or other text follows.
+/// Returns the length of a quoted cell at the beginning of a line, with the blanks after the closing quote; 0 if the
+/// quote is not closed or other text follows.
 std::size_t quoted_length(std::string_view line, char separator);
 
 /// Removes quotes and blanks around a cell's text.

@@ -48,13 +48,13 @@ bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" ||
 std::string shown(std::string_view text) {
   constexpr std::size_t kMax = 40;
   std::size_t end = std::min(text.size(), kMax);
-  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // to the end of a UTF-8 character
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // cuts no UTF-8 character
   std::string out;
   for (char c : text.substr(0, end)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return "\"" + out + (text.size() > kMax ? "…\"" : "\"");
 }
 
-// Reads another block behind the unconsumed text; false at the end.
+// Reads another block behind the unconsumed text. Returns false at the end of the stream.
 bool Lines::fill() {
   if (over_) return false;
   const std::size_t needed = std::min(keep_, std::min(begin_, at_));

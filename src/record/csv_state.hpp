@@ -22,7 +22,7 @@ class Lines {
     std::size_t row = 0;  ///< 1-based, as an editor counts
   };
 
-  /// Precondition: `stream` outlives it. `name` stands for it in messages.
+  /// Precondition: `stream` outlives this object. `name` stands for the stream in messages.
   Lines(std::istream& stream, std::string_view name) : stream_(&stream), name_(name) {}
 
   /// Advances to the next line that is not blank; false at the end. Lines end in LF, CR LF or CR. Errors: bytes that
@@ -36,7 +36,7 @@ class Lines {
   /// Returns the lines that next() will give, up to `count` of them. Errors: those of next().
   Result<std::vector<Line>> look_ahead(std::size_t count);
 
-  /// Makes next() return this line again.
+  /// Makes next() return the current line again.
   void back() { at_ = begin_, --row_; }
 
   /// Makes next() skip comment lines (#, "# …" or %…) from here on.
@@ -54,9 +54,9 @@ class Lines {
   std::istream* stream_;
   std::string name_;
   std::string buffer_;
-  std::size_t begin_ = 0, length_ = 0;    // begin and length of the line
-  std::size_t at_ = 0;                    // begin of the next line
-  std::size_t keep_ = std::string::npos;  // begin of text that fill() must keep; npos: none
+  std::size_t begin_ = 0, length_ = 0;    // beginning and length of the current line
+  std::size_t at_ = 0;                    // beginning of the next line
+  std::size_t keep_ = std::string::npos;  // beginning of the text that fill() must keep; npos: none
   std::size_t row_ = 0;
   bool over_ = false;  // the stream has ended
   bool plain_ = true;  // so far only text bytes, and no CR without LF
@@ -78,10 +78,10 @@ struct CsvReader::State {
     std::string name;
     std::string unit;
     double seconds = 1;  // seconds per unit
-    double step = 0;     // in units; 0: not determined
+    double step = 0;     // between rows, in units; 0: not determined
     double tolerance = 0;
     std::optional<double> before{};  // value in the previous row
-    bool dated = false;              // calendar dates
+    bool dated = false;              // the column holds calendar dates
   };
 
   // Evidence on the meaning of a column's commas.

@@ -35,10 +35,10 @@ struct Turn {
 };
 Turn turn_of(double share);
 
-/// Power gain of x(t) − zero · x(t−1) at a frequency.
+/// Returns the power gain of the filter x(t) − zero · x(t−1) at a frequency.
 double power_of_zero(double zero, double frequency_hz, double rate_hz);
 
-/// 1 − e^(−step / time constant), the weight of one step in an exponential average; 1 if the constant is <= 0.
+/// Returns 1 − e^(−step / time constant), the weight of one step in an exponential average; 1 if the constant is <= 0.
 double approach(double step_seconds, double constant_seconds);
 
 /// State of a section (direct form II), without its gain.

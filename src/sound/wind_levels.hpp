@@ -195,7 +195,7 @@ class Reference {
     end();
   }
 
-  /// Takes a frame: whether it certainly blows, and its level in dB.
+  /// Adds a frame, of level `db`, to the gust if it certainly blows; after enough other frames, learns from the gust.
   void hear(bool blows, T db, const Design& d) {
     if (blows) {
       rest_frames_ = 0;

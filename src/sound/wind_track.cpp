@@ -281,7 +281,7 @@ struct WindTracker::State {
 
   std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
 
-  /// End of the current frame, seconds.
+  /// Returns the end of the current frame, seconds.
   double end_seconds() const { return seconds_at(seen.size() + 1); }
 
   void feed(std::span<const float> samples) {
@@ -303,7 +303,7 @@ struct WindTracker::State {
     }
   }
 
-  /// Beginning of frame k, which is the end of frame k − 1.
+  /// Returns the beginning of frame k, which is the end of frame k − 1, seconds.
   double seconds_at(std::size_t k) const { return static_cast<double>(k) / options.frame_rate_hz; }
 
   Spectra spectra() const {

@@ -117,7 +117,7 @@ class LiveBridge {
     return sum / T(static_cast<float>(n));
   }
 
-  std::array<T, 128> before_{};  ///< past frames; at most 102 are used
+  std::array<T, 128> before_{};  ///< winds of past frames; at most 102 are used
   std::size_t at_ = 0;
   int believed_frames_ = 0;
   int foreign_frames_ = 0;

@@ -30,7 +30,7 @@ struct Error {
   std::string message;
 };
 
-/// A value of type T, or the Error that stands in its place.
+/// A value of type T, or the Error that explains why there is none.
 ///
 /// Precondition of value(): holds a value. Otherwise the error's sentence is reported as misuse, and the program ends.
 /// Precondition of error(): holds an error.

@@ -64,7 +64,7 @@ struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
   double most = 1.0;         ///< upper bound of gusts and noise together, 0 … 10; a candle survives 1 m/s
   double noise = 0.35;       ///< typical standard deviation of the wideband part outside rests, 0 … 10
-  double bandwidth_hz = 6;   ///< bandwidth of that noise, two poles, 0.1 … 50; slow wind excites no resonance
+  double bandwidth_hz = 6;   ///< bandwidth of the noise, two poles, 0.1 … 50; slow wind excites no resonance
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10
   double rest_share = 0.25;  ///< share of calm time, 0 … 0.9
   bool both_sides = false;   ///< gusts from the right as well (negative); a microphone hears only strength

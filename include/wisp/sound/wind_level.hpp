@@ -47,8 +47,8 @@ struct WindOptions {
 /// The wind during one video frame. Amplitudes are root mean squares with full scale 1.
 struct WindFrame {
   std::int64_t index = 0;  ///< frame k covers the sound from k / frame rate to (k + 1) / frame rate
-  float rms = 0;           ///< the paper's measure: plain RMS of all samples in the frame
-  float rms_clean = 0;     ///< rms minus the background's, at least 0
+  float rms = 0;           ///< measure of Reissell & Pai: plain RMS of all samples in the frame
+  float rms_clean = 0;     ///< `rms` minus the RMS of the background, at least 0
   float level = 0;         ///< RMS of the band 100–900 Hz with whitened spectrum, minus the background in power
   float speed = 0;         ///< proportional to wind speed. Live, 1 lies between soft breath and hard blowing; in a
                            ///< recording, 1 is the 95th percentile of frames with blowing
@@ -56,7 +56,7 @@ struct WindFrame {
                            ///< live: at most the wind before them; in a recording: estimated between the harmonics of
                            ///< voices, and for knocks the larger wind beside them. Live, wind above 1 is clamped to 1
                            ///< until it has lasted (0.24 s at wind 1, less if stronger)
-  float confidence = 0;    ///< confidence that this is blowing, not talking, 0 to 1
+  float confidence = 0;    ///< confidence that the sound is blowing, not talking, 0 to 1
   float background = 0;    ///< the plain RMS of the background as estimated at this frame
   float clipped = 0;       ///< share of samples at full scale, 0 to 1
 };

@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-inline constexpr int kOutlinePoints = 8;  ///< control points
+inline constexpr int kOutlinePoints = 8;  ///< control points of an outline
 
 /// A point in millimetres: x from the candle's axis, y up from its upper rim.
 struct PointMm {

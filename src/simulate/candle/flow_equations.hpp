@@ -48,7 +48,7 @@ void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Pla
 /// Advects the cells' scalars. The border of `from` states the scalars of inflowing air.
 void advect(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const ScalarPlane& from, ScalarPlane& to);
 
-/// Advects the velocities. Inflow has the velocity of the rim.
+/// Advect the velocities. Inflowing air has the velocity of the rim.
 void advect_u(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to);
 void advect_v(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to);
 
@@ -56,20 +56,20 @@ void advect_v(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, cons
 struct Diffusion {
   int columns = 0;
   int rows = 0;
-  const float* flux_x = nullptr;  ///< at element (i, j): between it and its left neighbour; 0 is a wall
-  const float* flux_y = nullptr;  ///< at element (i, j): between it and its lower neighbour
+  const float* flux_x = nullptr;  ///< between element (i, j) and its left neighbour; 0: wall
+  const float* flux_y = nullptr;  ///< between element (i, j) and its lower neighbour; 0: wall
 };
 
 /// Returns the number of stages that keep a step stable: odd, as even numbers damp worse, and at least 3. `strength`:
 /// largest product of step, scale and flux of a face.
 int rkl1_stages(float strength);
 
-/// Makes one step in place. `scale` includes the step's length; `scratch` is as large as `values` and its border must
-/// hold finite numbers.
+/// Makes one step of diffusion in place. `scale` includes the step's length; `scratch` is as large as `values` and its
+/// border must hold finite numbers.
 void diffuse(const FlowGrid& grid, const Diffusion& diffusion, const Plane& scale, int stages, Plane& values,
              Plane& scratch);
 
-/// Makes one step for the scalars of cells; those where `lanes` is 0 stay unchanged.
+/// Makes one step in place for the scalars of cells. Scalars whose component of `lanes` is 0 stay unchanged.
 void diffuse(const FlowGrid& grid, const Diffusion& diffusion, const Plane& scale, int stages, Float4 lanes,
              ScalarPlane& values, ScalarPlane& scratch);
 
@@ -113,7 +113,7 @@ class PressureSolver {
   explicit PressureSolver(const FlowGrid& grid);
 
   /// Face coefficients, to be set before prepare(): zero on closed faces. Outside the left, right and upper rim φ is 0;
-  /// a lower rim of zeros is a wall.
+  /// zeros on the lower rim make it a wall.
   Plane& beta_x() { return levels_.front().beta_x; }
   Plane& beta_y() { return levels_.front().beta_y; }
 
