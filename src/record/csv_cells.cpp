@@ -258,7 +258,7 @@ double rounded_step(double step) {
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
-  constexpr double kGap = 1.5, kUsual = 0.5;  // longest interpolated gap, deviation of usual steps: in steps
+  constexpr double kGap = 1.5, kUsual = 0.5;  // in steps: longest interpolated gap; largest deviation of a usual step
   constexpr double kMaxGrowth = 1000;         // maximum number of resulting rows per given row, to bound memory
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {

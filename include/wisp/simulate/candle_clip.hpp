@@ -47,7 +47,7 @@ struct VirtualMicrophoneOptions {
   double level = 0.12;     ///< root mean square of the sound at 1 m/s, full scale 1, 1e-6 … 1; gusts exceed 1 m/s
   double corner_hz = 300;  ///< corner of the spectrum, flat below, −12 dB per octave above, 20 … 5000, ≤ 0.4 rate_hz
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
-  double other_sounds = 0.05;  ///< mean number of sounds other than wind per second, 0 … 10: half voice, half knocks
+  double other_sounds = 0.05;  ///< other sounds (half voice, half knocks): 1 / mean pause in s, 0 … 10; 0: none
   std::uint64_t seed = 1;
 };
 

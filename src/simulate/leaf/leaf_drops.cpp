@@ -94,7 +94,7 @@ Recording empty_recording(const LeafDropsOptions& o, std::size_t episodes) {
   return recording;
 }
 
-// Writes a fall into its rows of the recording.
+// Writes a fall into the rows of its episode in the recording.
 class EpisodeWriter {
  public:
   EpisodeWriter(Recording& recording, std::size_t episode, std::size_t rows)
@@ -139,7 +139,7 @@ Result<void> record(LeafFlight& flight, const LeafWind& wind, const LeafDropsOpt
   return {};
 }
 
-// Simulates from a random start until the recording begins.
+// Returns a flight from a random start, advanced by settle_seconds, to the beginning of the recording.
 Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std::uint64_t drop) {
   RandomNumbers random(o.seed, (kStart << 32) + drop);
   auto flight = LeafFlight::begin(o.leaf, wind, random_start(random));

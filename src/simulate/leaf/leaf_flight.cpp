@@ -17,7 +17,7 @@ constexpr double kGustSeconds = 0.3;   // duration of a typical gust; each is 0.
 constexpr double kEdgeSeconds = 0.06;  // rise and decay time of a gust: a jump would have no derivative
 constexpr double kTravelSpeed = 8;     // m/s: travel speed of a gust's front
 
-// Height and slope of a gust: 0 outside, 1 between the edges, smooth steps at both.
+// A gust's share of its maximum velocity (0 outside, 1 between the edges, smooth between) and its slope, 1/s.
 struct Bump {
   double height = 0;
   double slope = 0;
@@ -36,7 +36,7 @@ Vec towards(double degrees) {
   return {std::cos(radians), std::sin(radians), 0};
 }
 
-// Catmull-Rom cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
+// Value and slope of a Catmull-Rom cubic between the second (0) and third (1) of four rows; the slope is continuous.
 struct Cubic {
   double value;
   double slope;  // slope per row
@@ -193,7 +193,7 @@ std::array<double, 3> leaf_normal(const LeafState& state) { return leaf::rotatio
 namespace wisp::leaf {
 namespace {
 
-// Force of the relative air flow, in body axes. `v` is the leaf's velocity relative to the air.
+// Returns the force of the relative air flow, in body axes. `v` is the leaf's velocity relative to the air.
 Vec air_force(const Constants& c, const Vec& v, double speed, const Vec& spin) {
   const double along2 = v[0] * v[0] + v[1] * v[1], normal2 = v[2] * v[2];
   // Adding 1e-12 avoids 0 / 0 at rest, where there is no force.
@@ -334,7 +334,7 @@ void LeafFlight::step(double h) {
 }
 
 Result<void> LeafFlight::advance(double seconds) {
-  // The tolerance prevents rounding from adding a step.
+  // The tolerance 1e-9 prevents rounding from adding a step.
   const double steps = std::max(1.0, std::ceil(seconds / longest_step_ - 1e-9));
   for (int k = 0; k < static_cast<int>(steps); ++k) step(seconds / steps);
   if (!finite(state_)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds_) + " s"};

@@ -69,10 +69,10 @@ inline Quaternion normalised(const Quaternion& q) {
 
 namespace wisp {
 
-/// Errors: a field outside its range.
+/// Checks the leaf's fields. Errors: a field outside its range.
 Result<void> check(const Leaf& leaf);
 
-/// Pose and motion of the leaf. Body axes: x along the midrib, y across, z the leaf's upper side.
+/// Pose and motion of the leaf. Body axes: x along the midrib, y across it, z normal to the leaf's upper side.
 struct LeafState {
   std::array<double, 4> attitude{1, 0, 0, 0};  ///< unit quaternion, w first, leaf to world
   std::array<double, 3> position{};            ///< metres, z up
@@ -91,7 +91,7 @@ struct LeafInertia {
 /// Precondition: check(leaf) succeeds.
 LeafInertia leaf_inertia(const Leaf& leaf);
 
-/// Returns the energy of leaf and added mass, kinetic and potential above z = 0, joules. Never grows in still air.
+/// Returns the energy of leaf and added mass, kinetic and potential above z = 0, joules; in still air it never grows.
 double leaf_energy(const Leaf& leaf, const LeafState& state);
 
 /// Returns the velocity in world axes, m/s.
