@@ -65,7 +65,7 @@ bool may_write_into(const std::filesystem::path& folder) { return ::access(folde
 bool bring_to_disk(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
-  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // not supported by every file system
+  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // EINVAL, EROFS: unsupported here
   ::close(file);
   return done;
 }
@@ -258,7 +258,7 @@ Result<void> PendingFile::commit(bool may_be_empty) {
     return file_error(final_, "cannot be put in place: the new file is empty");
   const fs::file_status old = fs::status(final_, code);
   if (fs::is_regular_file(old)) fs::permissions(pending_, old.permissions(), code);
-  // Without this a power failure could leave an empty file under the final name.
+  // If the rename reached the disk before the data, a power failure could leave an empty file under the final name.
   if (!system::bring_to_disk(pending_)) return file_error(final_, "cannot be written whole: " + reason());
   fs::rename(pending_, final_, code);
   if (code) return file_error(final_, "cannot be put in place: " + code.message());

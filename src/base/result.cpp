@@ -11,7 +11,7 @@ namespace wisp {
 namespace {
 
 #ifdef __EMSCRIPTEN__
-// A trap ends the call with its stack; printing would take a tenth of a page's module.
+// A trap ends the call with its stack; code that prints would make up a tenth of the WebAssembly module.
 [[noreturn]] void print_and_end(const char*) { __builtin_trap(); }
 #else
 [[noreturn]] void print_and_end(const char* sentence) {
@@ -38,7 +38,7 @@ void end_on_misuse(const char* sentence) {
 bool check_size(const char* call, std::size_t found, std::size_t expected, bool or_more) {
   if (found == expected || (or_more && found > expected)) [[likely]]
     return true;
-  char sentence[160];  // the frame path allocates nothing
+  char sentence[160];  // no allocation: calls made in every frame are checked too
   char* end = sentence;
   const auto say = [&end](std::string_view words) { end = std::copy_n(words.data(), words.size(), end); };
   say(std::string_view(call).substr(0, 80));

@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// Returns the nearest-rank sample at `share` (0 smallest, 0.5 median, 1 largest); 0 for none.
+/// Returns the nearest-rank sample at `share` (0 smallest, 0.5 median, 1 largest); 0 if empty.
 ///
 /// `share` in [0, 1]; no sample is NaN.
 template <class T>
@@ -21,7 +21,7 @@ T quantile(std::vector<T> values, double share) {
   return *at;
 }
 
-/// Returns the middle sample, the upper one of an even number of samples; 0 for none.
+/// Returns the middle sample, the upper one of an even number of samples; 0 if empty.
 template <class T>
 T median(std::vector<T> values) {
   if (values.empty()) return T(0);
@@ -36,13 +36,13 @@ inline std::vector<double> present(std::vector<double> values) {
   return values;
 }
 
-/// Returns the arithmetic mean; 0 for none.
+/// Returns the arithmetic mean; 0 if empty.
 inline double mean(std::span<const double> values) {
   if (values.empty()) return 0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Returns the standard deviation about the mean, divided by the number of samples; 0 for none.
+/// Returns the standard deviation about the mean, divided by the number of samples; 0 if empty.
 inline double deviation(std::span<const double> values) {
   if (values.empty()) return 0;
   const double middle = mean(values);

@@ -19,8 +19,8 @@ struct Criterion {
   std::string code{};    ///< machine-readable name of the criterion, for programs with their own sentences
 };
 
-/// Returns the sentence of the first violated criterion, with its numbers; nothing if there is none. `code`: receives
-/// that criterion's code; may be null.
+/// Returns the sentence of the first violated criterion, with its numbers; nothing if none is violated. Sets `code`,
+/// which may be null, to the violated criterion's code.
 std::optional<std::string> first_missed(std::span<const Criterion> criteria, std::string* code = nullptr);
 
 }  // namespace wisp

@@ -37,7 +37,7 @@ Json json_of(const ReportValue& value) {
 Json& field(Json& object, std::string_view id) {
   Json* at = &object;
   std::string name;
-  bool element = false;  // the last token was an element, already resolved
+  bool element = false;  // the id so far ends in a list index; `at` is this element
   const auto step = [&] {
     if (!element) at = &(*at)[name];
     name.clear();
@@ -77,7 +77,7 @@ std::string to_json(const Report& report, int indent) {
   Json out = Json::object();
   for (const ReportSection& section : report.sections) {
     for (const ReportEntry& entry : section.entries) {
-      if (entry.id.empty()) continue;  // plain text, not in the JSON
+      if (entry.id.empty()) continue;  // for text and HTML only
       field(out, entry.id) = json_of(entry.value);
       if (entry.interval)
         field(out, entry.id + "_ci95") = {json_of((*entry.interval)[0]), json_of((*entry.interval)[1])};

@@ -71,7 +71,7 @@ class ByteSource {
     return true;
   }
 
-  /// Skips the next bytes, without memory for them.
+  /// Skips the next bytes, without memory for them. Returns false if there are fewer.
   bool skip(std::size_t count) {
     passed_ += count;
     if (!packed_) {
@@ -98,7 +98,7 @@ class ByteSource {
   };
 
   bool unpack(std::span<std::byte> out) {
-    constexpr std::size_t kMax = std::size_t{1} << 30;  // limit of zlib's counters
+    constexpr std::size_t kMax = std::size_t{1} << 30;  // keeps below the limit of zlib's 32-bit counters
     packed_->next_out = reinterpret_cast<Bytef*>(out.data());
     packed_->avail_out = static_cast<uInt>(out.size());
     while (packed_->avail_out > 0) {
@@ -144,7 +144,7 @@ class Reader {
     std::array<std::byte, 8> bytes;
     if (!source_.read(bytes)) return {};
     const auto first = static_cast<std::uint32_t>(whole(bytes.data(), 4, big_));
-    // Up to four bytes may be in the tag itself.
+    // Data of up to four bytes may be in the tag itself.
     if (first >> 16 != 0) {
       small_ = {bytes[4], bytes[5], bytes[6], bytes[7]};
       in_tag_ = true;
@@ -163,7 +163,7 @@ class Reader {
     return true;
   }
 
-  // Calls `look` on the next array, and skips its rest. Returns whether both succeeded.
+  // Enters the next array, calls `look`, and skips what it has not read. Returns whether all succeeded.
   template <class Look>
   bool within_part(Look look) {
     const auto part = tag();
@@ -262,7 +262,7 @@ void for_each_variable(std::span<const std::byte> file, Visit visit) {
   }
 }
 
-// Lists an array whose head was read, if it is numeric, and those in its fields. Returns false if it is damaged.
+// Lists an array, whose head was read, if it is numeric; of a structure, its numeric fields. False: data is damaged.
 bool list(Reader& reader, const Head& head, const std::string& name, int depth, std::vector<Name>& names) {
   if (head.numeric()) names.push_back({name, head.dims[0], head.dims[1]});
   if (!head.single_struct() || depth == kDeepest || names.size() >= kMaxNames) return true;

@@ -47,7 +47,7 @@ class File {
 
   std::vector<Name> names() const { return matfile::names_in_level5(bytes_); }
 
-  // Numbers that are read count against the file's budget.
+  // Reads a variable. Its numbers count against the file's budget of unpacked bytes.
   Found read(const Path& at) {
     Found found = matfile::read_level5(bytes_, at, (max_bytes_ - unpacked_) / sizeof(double));
     if (const auto* table = std::get_if<Table>(&found)) unpacked_ += table->numbers.size() * sizeof(double);
@@ -174,7 +174,7 @@ class Reader {
   File& file_;
 };
 
-// Returns samples per second by a time variable in seconds; 0 if there is none.
+// Returns the samples per second that a variable t or time, in seconds, implies; 0 if there is none or it counts rows.
 Result<double> rate_by_time(const Reader& reader) {
   for (const char* name : {"t", "time"}) {
     const auto table = reader.table(name);

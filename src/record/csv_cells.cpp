@@ -217,8 +217,8 @@ std::optional<double> seconds_of_date(std::string_view text) {
 
 namespace {
 
-// Error estimate of linear interpolation, relative to a channel's standard deviation: half the second difference times
-// f (1 − f), where f is the distance from the sample before as a share of a step.
+// Estimate of a channel's interpolation error relative to its standard deviation. The error of a point is half the
+// second difference times f (1 − f), where f is the distance from the sample before as a share of a step.
 class LineError {
  public:
   void add(std::span<const double> samples, std::size_t row, double share) {
@@ -258,8 +258,8 @@ double rounded_step(double step) {
 }  // namespace
 
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times) {
-  constexpr double kGap = 1.5, kUsual = 0.5;  // relative to the step
-  constexpr double kMaxGrowth = 1000;         // bounds memory
+  constexpr double kGap = 1.5, kUsual = 0.5;  // in steps: longest interpolated gap; largest deviation of a usual step
+  constexpr double kMaxGrowth = 1000;         // maximum number of resulting rows per given row, to bound memory
   std::vector<double> steps;
   for (std::size_t t = 1; t < times.size(); ++t) {
     steps.push_back(times[t] - times[t - 1]);

@@ -28,8 +28,8 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Returns the length of a quoted cell at the begin of a line, with the blanks after the closing quote; 0 if the quote
-/// is not closed or other text follows.
+/// Returns the length of a quoted cell at the beginning of a line, with the blanks after the closing quote; 0 if the
+/// quote is not closed or other text follows.
 std::size_t quoted_length(std::string_view line, char separator);
 
 /// Removes quotes and blanks around a cell's text.
@@ -58,7 +58,7 @@ void for_each_cell(std::string_view line, char separator, Visit visit) {
   }
 }
 
-/// Returns a cell's text without doubled quotes.
+/// Returns a cell's text; in a quoted cell each doubled quote becomes one.
 std::string text_of(const Cell& cell);
 
 /// Returns whether a cell means a missing sample: empty, NaN, NA and the like.
@@ -99,7 +99,7 @@ std::optional<double> seconds_of_date(std::string_view text);
 /// Resamples rows recorded at `times`, in seconds, to an even step: the mean of the steps near the median, rounded by
 /// at most 1 %. Interpolates linearly, or repeats the last sample of a channel that moves in steps. rate_note reports
 /// the unevenness of the clock and the interpolation error. Gaps of more than 1.5 steps are missing samples. Errors:
-/// time does not increase; most steps are far from the median.
+/// time does not increase; most steps are far from the median; more than 1000 rows would result per given row.
 Result<Recording> resampled(const Recording& recording, const std::vector<double>& times);
 
 /// Step of time, in the column's unit.
@@ -110,7 +110,7 @@ struct TimeStep {
 
 /// Determines the time step from the first rows, up to the first uneven step. Of all steps that agree with the written
 /// digits, selects the one with the fewest digits, as a step or as a rate: 0.033, 0.067, 0.100 give 30 rows per second.
-/// Nothing if the second time is not later. `resolution`: as of resolution_of(); `seconds`: seconds per unit of time.
+/// Nothing if the second time is not later. `resolution`: see resolution_of(); `seconds`: seconds per unit of time.
 ///
 /// Precondition: two times or more.
 std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);

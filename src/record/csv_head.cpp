@@ -31,7 +31,7 @@ Shape shape_of(std::string_view line, char separator) {
   return shape;
 }
 
-// Rows may end in separators that the line of names lacks.
+// Returns whether a row has as many cells as names; separators at its end do not count.
 bool fits(const Shape& names, const Shape& row) {
   return names.filled >= 2 && row.cells >= names.filled && row.filled <= names.filled;
 }
@@ -49,7 +49,7 @@ char separator_of(const std::vector<std::string>& lines) {
   for (char candidate : {'\t', ';', ','}) {
     if (shape_of(names, candidate).cells >= 2) return candidate;
   }
-  // With one column, a comma in a number is a decimal mark.
+  // The table has one column: a comma in its numbers is a decimal mark, so the separator must be another character.
   return shape_of(row, ';').numbers && has_comma({row, false}) ? ';' : ',';
 }
 
@@ -131,7 +131,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Returns the role of a column, or nothing if it is not wanted.
+// Returns the role of a column, or nothing if the column is not to be read.
 std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options) {
   if (contains(options.inputs, column.name)) return Role::kInput;
   if (contains(options.outputs, column.name)) return Role::kOutput;
@@ -280,7 +280,7 @@ Result<void> CsvReader::State::add_column(const std::string& text, const CsvOpti
   return {};
 }
 
-// Errors: two columns of one name, of which one is wanted; a wanted column is missing; there is no channel.
+// Errors: two columns of one name, of which the second is to be read; a requested column is missing; no channel.
 Result<void> CsvReader::State::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
   std::set<std::string> seen;
   std::vector<std::string> available;
@@ -316,7 +316,7 @@ void CsvReader::State::find_time(const std::vector<std::string>& names) {
   }
 }
 
-// Reads a line of units below the names.
+// Reads the line of units below the names, if there is one.
 Result<void> CsvReader::State::read_units() {
   const auto ahead = lines.look_ahead(2);
   if (!ahead) return ahead.error();

@@ -23,7 +23,7 @@ bool is_control(char c) {
   return (byte < 0x20 && c != '\t' && c != '\r' && c != '\n') || byte == 0x7f;
 }
 
-// Returns whether all bytes are text, and every CR precedes an LF. Branchless for vectorisation; reads one byte more.
+// Returns whether all bytes are text, and every CR precedes an LF; reads one byte beyond. Branchless, to be vectorised.
 bool is_plain(const char* first, std::size_t size) {
   unsigned char odd = 0;
   for (std::size_t k = 0; k < size; ++k) {
@@ -48,13 +48,13 @@ bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" ||
 std::string shown(std::string_view text) {
   constexpr std::size_t kMax = 40;
   std::size_t end = std::min(text.size(), kMax);
-  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // to the end of a UTF-8 character
+  while (end > 0 && end < text.size() && (text[end] & 0xC0) == 0x80) --end;  // cuts no UTF-8 character
   std::string out;
   for (char c : text.substr(0, end)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return "\"" + out + (text.size() > kMax ? "…\"" : "\"");
 }
 
-// Reads another block behind the unconsumed text; false at the end.
+// Reads another block behind the unconsumed text. Returns false at the end of the stream.
 bool Lines::fill() {
   if (over_) return false;
   const std::size_t needed = std::min(keep_, std::min(begin_, at_));
@@ -210,8 +210,8 @@ Result<std::size_t> CsvReader::skip(std::size_t max_rows) {
   return count;
 }
 
-// The fast path, for nearly all rows: appends a row that contains only plain numbers. Returns false, with nothing
-// appended, for any other row.
+// Fast path, taken by nearly all rows: appends a row that contains only plain numbers. For any other row, appends
+// nothing and returns false.
 bool CsvReader::State::take_plain_row(Recording& recording, double& seconds) {
   const std::string_view line = csv::trimmed(lines.text());
   const std::size_t count = columns.size();
@@ -300,7 +300,7 @@ Result<void> CsvReader::State::add_cell(Recording& recording, const Column& colu
   return {};
 }
 
-// Returns an error if a table has both decimal commas and decimal points. 1,234 may mean 1234 or 1.234.
+// Notes which decimal marks a number has, for check_thousands(). Error: the table has both decimal commas and points.
 Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
   const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
   commas |= comma;
@@ -317,7 +317,7 @@ Result<void> CsvReader::State::check_mark(const Cell& cell, std::size_t place) {
                       (comma ? "point" : "comma") + "; write all numbers in one way, without separators of thousands");
 }
 
-// A column with 987 and 1,012 is ambiguous and an error, unless a comma elsewhere can only be a decimal one.
+// Error: a column has both 987 and 1,012, and no comma in the table is certainly a decimal mark: 1,012 is ambiguous.
 Result<void> CsvReader::State::check_thousands() const {
   for (std::size_t k = 0; k < marks.size() && !decimals; ++k) {
     if (marks[k].thousand == 0 || marks[k].hundred == 0) continue;

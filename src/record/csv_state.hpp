@@ -22,7 +22,7 @@ class Lines {
     std::size_t row = 0;  ///< 1-based, as an editor counts
   };
 
-  /// Precondition: `stream` outlives it. `name` stands for it in messages.
+  /// Precondition: `stream` outlives this object. `name` stands for the stream in messages.
   Lines(std::istream& stream, std::string_view name) : stream_(&stream), name_(name) {}
 
   /// Advances to the next line that is not blank; false at the end. Lines end in LF, CR LF or CR. Errors: bytes that
@@ -36,10 +36,10 @@ class Lines {
   /// Returns the lines that next() will give, up to `count` of them. Errors: those of next().
   Result<std::vector<Line>> look_ahead(std::size_t count);
 
-  /// Makes next() return this line again.
+  /// Makes next() return the current line again.
   void back() { at_ = begin_, --row_; }
 
-  /// From here on comment lines (#, "# …" or %…) are skipped too.
+  /// Makes next() skip comment lines (#, "# …" or %…) from here on.
   void pass_comments() { pass_comments_ = true; }
 
   Error at_row(const std::string& what, std::size_t row = 0) const {
@@ -54,9 +54,9 @@ class Lines {
   std::istream* stream_;
   std::string name_;
   std::string buffer_;
-  std::size_t begin_ = 0, length_ = 0;    // begin and length of the line
-  std::size_t at_ = 0;                    // begin of the next line
-  std::size_t keep_ = std::string::npos;  // begin of text that fill() must keep; npos: none
+  std::size_t begin_ = 0, length_ = 0;    // beginning and length of the current line
+  std::size_t at_ = 0;                    // beginning of the next line
+  std::size_t keep_ = std::string::npos;  // beginning of the text that fill() must keep; npos: none
   std::size_t row_ = 0;
   bool over_ = false;  // the stream has ended
   bool plain_ = true;  // so far only text bytes, and no CR without LF
@@ -78,10 +78,10 @@ struct CsvReader::State {
     std::string name;
     std::string unit;
     double seconds = 1;  // seconds per unit
-    double step = 0;     // in units; 0: not determined
+    double step = 0;     // between rows, in units; 0: not determined
     double tolerance = 0;
     std::optional<double> before{};  // value in the previous row
-    bool dated = false;              // calendar dates
+    bool dated = false;              // the column holds calendar dates
   };
 
   // Evidence on the meaning of a column's commas.
@@ -96,9 +96,9 @@ struct CsvReader::State {
   std::optional<Time> time{};
   char separator = '\0';
   bool own_form = false;
-  bool uneven_time = false, time_was_uneven = false;  // steps are not checked; a checked step was uneven
-  std::vector<double> times{};                        // seconds of all rows, if uneven_time
-  bool plain_columns = false;  // channels and skipped columns only, between separators other than blanks
+  bool uneven_time = false, time_was_uneven = false;  // steps need not be even; an uneven step was an error
+  std::vector<double> times{};                        // time of every row in seconds, stored if uneven_time
+  bool plain_columns = false;  // all columns are channels or skipped, and blanks are no separator
   bool commas = false;         // a number so far had a comma
   bool points = false;         // a number so far had a point
   bool decimals = false;       // a comma so far can only be a decimal one

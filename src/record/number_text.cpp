@@ -31,7 +31,7 @@ std::from_chars_result read_number(const char* first, const char* last, double& 
 #else
 namespace {
 
-// Length of the number, without what only strtod accepts: blanks, a plus, hexadecimals, a locale's decimal point.
+// Returns how many characters to give strtod, which would also accept leading blanks, a plus and hexadecimals.
 std::size_t plain_length(std::string_view text) {
   const std::size_t sign = text.starts_with('-') ? 1 : 0;
   const char lead = sign < text.size() ? text[sign] : 0;

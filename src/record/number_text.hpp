@@ -10,7 +10,7 @@ namespace wisp {
 /// Returns the shortest text that reads back as the same double.
 std::string number_text(double value);
 
-/// Formats at most so many significant digits (1 to 17), like printf's %g.
+/// Formats a number with at most `digits` significant digits (1 to 17), like printf's %g.
 std::string number_text(double value, int digits);
 
 /// Like std::from_chars, which macOS's and Emscripten's C++ libraries implement for integers only.

@@ -10,7 +10,7 @@
 
 namespace wisp {
 
-/// Whether a recording can be learned from, and the reason (attributes `usable`, yes or no, and `usable_reason`).
+/// Verdict whether a recording can be learned from, stored as attributes `usable` (yes or no) and `usable_reason`.
 struct RecordingVerdict {
   bool usable = true;
   std::string reason;

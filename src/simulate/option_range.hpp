@@ -15,7 +15,7 @@ struct OptionRange {
   double highest;
 };
 
-/// Errors: the first value outside its range; NaN is outside of any.
+/// Errors: the first value outside its range; NaN is outside every range.
 inline Result<void> check_ranges(const char* whose, std::initializer_list<OptionRange> ranges) {
   for (const OptionRange& r : ranges)
     if (!(r.value >= r.lowest && r.value <= r.highest))

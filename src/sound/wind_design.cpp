@@ -8,10 +8,10 @@ namespace wisp::wind {
 namespace {
 
 constexpr double kMinAnalysisHz = 8000;
-constexpr double kMinBoxedHz = 32000;  // above this rate, the box filter's droop at 3.4 kHz is below 0.2 dB
-constexpr double kLevelHz = 300;       // the levelling filter rises above this frequency, where its gain is 1
+constexpr double kMinBoxedHz = 32000;  // minimum rate after the box mean: its droop at 3.4 kHz is then below 0.2 dB
+constexpr double kLevelHz = 300;       // corner of the levelling filter; with level_gain its gain here is 1
 constexpr float kOtherRise = 9;        // factor by which the floor rises faster under sound unlike blowing
-constexpr int kTapsPerPhase = 4;       // taps of the low-pass per phase
+constexpr int kTapsPerPhase = 4;       // the low-pass has this many taps times the decimation
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
   if (found >= least && found <= most) return {};
@@ -85,7 +85,7 @@ Design design(const SoundFormat& format, const WindOptions& options) {
   const double rate = boxed / d.decimation;
   d.analysis_rate_hz = rate;
   if (d.decimation > 1) d.taps = windowed_sinc(kTapsPerPhase * d.decimation, 3800 / boxed);
-  for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // the box filter outputs a sum
+  for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // Decimator sums `box` samples and does not divide
 
   set_filters(d);
   // Delay of the decimating low-pass (half its length) plus that of the 900 Hz low-pass at low frequencies, 1 / (2π ·

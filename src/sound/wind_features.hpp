@@ -1,7 +1,7 @@
 #pragma once
-// Parts of the wind estimator, over any number type: decimation to the analysis rate; bands that distinguish blowing
-// from speech; sudden onsets, as gusts begin within a few tenths of a second, while cars, the sea and trains swell over
-// seconds; periodicity in the range of a voice's pitch.
+// Parts of the wind estimator, over any number type: decimation to the analysis rate; band powers that distinguish
+// blowing from speech; detection of sudden onsets (gusts begin within a few tenths of a second, cars, the sea and
+// trains swell over seconds); periodicity in the range of a voice's pitch.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ class Decimator {
     if (++box_count_ < box_) return false;
     box_count_ = 0;
     if (taps_.empty()) return true;
-    // Stored twice, so that the window that starts after the newest value is contiguous.
+    // Each value is stored twice, at a distance of one window, so that every window is contiguous.
     history_[at_] = sum_;
     history_[at_ + taps_.size()] = sum_;
     at_ = at_ + 1 == taps_.size() ? 0 : at_ + 1;
@@ -59,7 +59,7 @@ class Decimator {
   T sum_ = T(0.0F);
 };
 
-/// Sums of squares (of fourth powers: voice_fourth) over one hop, without the filters' gains.
+/// Sums over one hop of squared samples of each band (voice_fourth: of fourth powers), before the filters' gains.
 template <class T>
 struct BandSums {
   T total = T(0.0F);
@@ -99,7 +99,7 @@ class Bands {
 
   const BandSums<T>& sums() const { return sums_; }
 
-  /// Ends the hop. Sets inaudible filter state to 0, as some machines flush denormal numbers and others do not.
+  /// Clears the sums and calls hush() on every filter.
   void end_hop() {
     sums_ = {};
     high_pass_.hush();
@@ -116,12 +116,13 @@ class Bands {
 constexpr float kNothingDb = -110;  ///< loudness below which there is no sound at all (a muted or starting stream)
 constexpr int kWarmHops = 15;       ///< hops until the 50 ms mean is settled
 
-/// Whether the current sound, of any kind, began suddenly; also of sound that began during a voice and outlasts it.
+/// Detects sudden sound of any kind: true from a rise of kStartDb over the slow mean until less than kEndDb over the
+/// slow mean before the rise. So sound that begins during a voice and outlasts it also counts.
 template <class T>
 class Sudden {
  public:
-  /// Begins in an unknown situation: the first sound heard is taken for the room. A stream that is silent for half a
-  /// second comes from a gated microphone, whose room is silent.
+  /// For streams that may begin during any sound: the first sound heard is taken as the background, unless half a
+  /// second of digital silence precedes it, as from a gated microphone.
   void begin_unknown() {
     heard_hops_ = 0;
     nothing_hops_ = 0;
@@ -155,11 +156,11 @@ class Sudden {
     slow_db_ = loudness_db;
   }
 
-  // Loudness assumed of the room at a recording's beginning, so that a gust there counts as sudden.
+  // Background loudness assumed at a recording's beginning, so that a gust there counts as sudden.
   static constexpr float kRoomDb = -73;
   static constexpr int kGatedHops = 50;
-  static constexpr float kStartDb = 6.5F;  ///< rise over the loudness of the last third of a second
-  static constexpr float kEndDb = 3;       ///< margin over the loudness before the sound, below which it ends
+  static constexpr float kStartDb = 6.5F;  ///< minimum rise over the slow mean (0.35 s) at a sudden beginning
+  static constexpr float kEndDb = 3;       ///< sudden sound ends less than this over the slow mean before it
 
   T slow_db_ = T(kRoomDb);
   T before_db_ = T(kRoomDb);
@@ -168,8 +169,8 @@ class Sudden {
   int nothing_hops_ = 0;
 };
 
-/// Buffer of one channel's voice band at a lower rate (near 4 kHz), differenced to equalise a voice's harmonics: this
-/// hop's samples, and before them as many as the longest period has.
+/// Buffer of one channel's voice band at a lower rate (near 4 kHz), differenced to equalise a voice's harmonics. Holds
+/// the current hop and, before it, the samples of one longest period (last_lag).
 template <class T>
 class VoiceHistory {
  public:
@@ -186,7 +187,7 @@ class VoiceHistory {
     before_ = voice;
   }
 
-  /// The hop's first sample; samples of one longest period are readable before it.
+  /// Returns the hop's first sample; last_lag samples before it are readable too.
   const T* hop() const { return samples_.data() + before_hop_; }
 
   void end_hop() {
@@ -203,13 +204,13 @@ class VoiceHistory {
   T before_ = T(0.0F);
 };
 
-/// Voicing and tone, from the normalised autocorrelation over periods of 70 to 400 Hz.
+/// Voicing and tone, from the normalised autocorrelation at lags of 1/400 to 1/70 s.
 ///
-/// Voicing is its maximum in the last three hops (30 ms). Tone is the maximum of its mean over 150 ms: noise, however
-/// low, averages out, while chords remain, whose common period is too long for voicing. Peaks of both are held and
-/// decay in 300 ms, to bridge the gaps between syllables and notes. Both change only in proportion to new sound, so
-/// sound that persists in the 50 ms mean powers keeps its voicing and tone. The three hops' sums are stored, so that
-/// each hop computes only its own products.
+/// Voicing is the autocorrelation's maximum over lags in the last three hops (30 ms). Tone is the maximum over lags of
+/// its mean over 150 ms: noise averages out, chords remain, whose common period is too long for voicing. Both rise at
+/// once and decay with a time constant of 300 ms, to bridge the gaps between syllables and notes; in hops much softer
+/// than the 50 ms mean they decay more slowly, as that mean still consists of the earlier sound. Three hops' sums are
+/// stored, so that each hop computes only its own products.
 template <class T>
 class Voicing {
  public:
@@ -275,7 +276,7 @@ class Voicing {
     return most < T(1.0F) ? most : T(1.0F);
   }
 
-  /// Follows a rise immediately and decays in 300 ms.
+  /// Updates a held peak: rises immediately, decays with a time constant of 300 ms / fresh.
   void hold(T& held, T now, T fresh) const {
     held = held < now ? now : held + release_ * fresh * (now - held);
     if (held < T(1e-6F)) held = T(0.0F);
@@ -297,7 +298,7 @@ class Voicing {
   }
 
   static constexpr float kMinEnergy = 1e-12F;
-  static constexpr float kMinSquare = 1e-24F;  // squared energy, below which sound counts as silent
+  static constexpr float kMinSquare = 1e-24F;  // product of two energies, below which sound counts as silent
 
   int first_lag_;
   int length_;

@@ -6,13 +6,13 @@
 namespace wisp::wind {
 namespace {
 
-/// sin and cos of x, |x| <= 4, by halving the angle eight times and doubling back; error below 1e-14. The C library's
-/// results may differ in the last bit between machines.
+/// Returns sin and cos of x, |x| <= 4: series at x / 256, then eight doublings of the angle; error below 1e-14. The C
+/// library's results may differ in the last bit between machines.
 Turn sin_cos(double x) {
   const double y = x / 256;
   const double y2 = y * y;
   double s = y * (1 - y2 / 6 * (1 - y2 / 20 * (1 - y2 / 42)));
-  double v = y2 / 2 * (1 - y2 / 12 * (1 - y2 / 30 * (1 - y2 / 56)));  // 1 − cos, separate for its small digits
+  double v = y2 / 2 * (1 - y2 / 12 * (1 - y2 / 30 * (1 - y2 / 56)));  // 1 − cos: cos itself would lose digits
   for (int i = 0; i < 8; ++i) {
     const double c = 1 - v;
     v = 2 * s * s;
@@ -21,7 +21,7 @@ Turn sin_cos(double x) {
   return {s, 1 - v};
 }
 
-/// sin for any positive angle.
+/// Returns sin for any positive angle.
 double sine(double x) {
   const double turns = std::floor(x / (2 * kPi) + 0.5);
   return sin_cos(x - turns * 2 * kPi).sin;

@@ -7,7 +7,7 @@ namespace wisp::wind {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Coefficients of one second-order section: gain · zeros / (1 + a1 z⁻¹ + a2 z⁻²), with zeros that depend on its kind.
+/// Coefficients of one second-order section: gain · zeros / (1 + a1 z⁻¹ + a2 z⁻²); Filter has the zeros of each kind.
 /// The gain is applied once to the band's power, not to every sample.
 struct Section {
   float a1 = 0;
@@ -23,7 +23,7 @@ Section high_pass(double frequency_hz, double q, double rate_hz);
 Section low_pass(double frequency_hz, double q, double rate_hz);
 Section band_pass(double frequency_hz, double q, double rate_hz);
 
-/// A linear-phase low-pass: windowed sinc (Hamming), symmetric about its middle, with gain 1 at 0 Hz.
+/// Returns the taps of a linear-phase low-pass: windowed sinc (Hamming), with gain 1 at 0 Hz.
 ///
 /// Precondition: taps >= 1, 0 < cutoff < 0.5 (as a share of the sample rate).
 std::vector<float> windowed_sinc(int taps, double cutoff);
@@ -35,10 +35,10 @@ struct Turn {
 };
 Turn turn_of(double share);
 
-/// Power gain of x(t) − zero · x(t−1) at a frequency.
+/// Returns the power gain of the filter x(t) − zero · x(t−1) at a frequency.
 double power_of_zero(double zero, double frequency_hz, double rate_hz);
 
-/// 1 − e^(−step / time constant), the weight of one step in an exponential average; 1 if the constant is <= 0.
+/// Returns 1 − e^(−step / time constant), the weight of one step in an exponential average; 1 if the constant is <= 0.
 double approach(double step_seconds, double constant_seconds);
 
 /// State of a section (direct form II), without its gain.
@@ -72,7 +72,7 @@ class Filter {
   }
 
   /// Sets state below −300 dB (1e-15) to 0. Called once per hop, it prevents denormal numbers (below 1e-38), which only
-  /// some machines flush to zero: in a hop even the fastest filter decays by less than 18 of the 23 decades between.
+  /// some machines flush to zero: in a hop even the fastest filter decays by less than 18 of these 23 decades.
   void hush() {
     const T least = T(1e-15F);
     const bool quiet = d1_ < least && T(-1e-15F) < d1_ && d2_ < least && T(-1e-15F) < d2_;

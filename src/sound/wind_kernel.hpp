@@ -1,8 +1,8 @@
 #pragma once
 // Arithmetic of the wind estimator, over any number type: from samples to the observation of a frame.
 //
-// Features follow C. M. Nelke et al. (wind noise distinguished from speech by its low band and by the lack of
-// harmonics); tools/fit_blowing.py fits the classifier, docs/explanation/wind.md has figures.
+// The features follow C. M. Nelke et al., who distinguish wind noise from speech by its low band and by the lack of
+// harmonics. tools/fit_blowing.py fits the classifier; docs/explanation/wind.md has figures.
 
 #include <cmath>
 #include <cstddef>
@@ -20,12 +20,12 @@ namespace wisp::wind {
 /// Features of the last 50 ms of sound.
 template <class T>
 struct Features {
-  T low_db = T(0.0F);          ///< power near 126 Hz relative to all above 100 Hz
-  T high_db = T(0.0F);         ///< power near 2.6 kHz relative to all above 100 Hz
+  T low_db = T(0.0F);          ///< power near 126 Hz relative to the total above 100 Hz
+  T high_db = T(0.0F);         ///< power near 2.6 kHz relative to the total above 100 Hz
   T voicing = T(0.0F);         ///< periodicity with peak hold, 0 to 1
   T tone = T(0.0F);            ///< steadiness of periodicity, 0 to 1
   T peaked = T(0.0F);          ///< log of the voice band's kurtosis relative to a Gaussian's, −1 to 3
-  T voice_db = T(0.0F);        ///< power of the voice band relative to all above 100 Hz
+  T voice_db = T(0.0F);        ///< power of the voice band relative to the total above 100 Hz
   T newest_db = T(0.0F);       ///< power of the voice band in the newest 10 ms relative to the 50 ms
   T flutter_db = T(0.0F);      ///< mean absolute change of the newest power from hop to hop, over 150 ms
   T clipped = T(0.0F);         ///< share of samples at full scale: a blow overloads the capsule
@@ -36,14 +36,14 @@ struct Features {
 template <class T>
 struct Observation {
   T rms = T(0.0F);             ///< root mean square of all samples
-  T band_power = T(0.0F);      ///< mean square of the level band
+  T band_power = T(0.0F);      ///< mean square of the whitened voice band (100–900 Hz), smoothed as in WindOptions
   T clipped = T(0.0F);         ///< share of samples at full scale
   T loudness_db = T(-120.0F);  ///< as in Features, at the frame's end
-  T likeness = T(0.0F);        ///< probability from 0 to 1 of blowing rather than talking, whatever its strength
+  T likeness = T(0.0F);        ///< probability, 0 to 1, that the sound is blowing, independent of its strength
   T likeness_now = T(0.0F);    ///< likeness of the newest hop alone, without a gust's tail
 };
 
-/// Classifier for blowing, 0 to 1: a layer of rectified sums, then a logistic unit.
+/// Returns the classifier's probability of blowing, 0 to 1: a layer of rectified sums, then a logistic unit.
 template <class T>
 T likeness_of(const Features<T>& f) {
   const T features[] = {f.low_db,   f.high_db,   f.voicing,    f.tone,   f.peaked,
@@ -57,9 +57,9 @@ T likeness_of(const Features<T>& f) {
   return sigmoid(z);
 }
 
-/// Keeps likeness at the end of a gust, whose soft puffs the classifier alone cannot distinguish from other sounds. For
-/// half a second after certain blowing (50 ms of it), likeness is kept while the sound only gets softer; a beginning
-/// voice gets louder.
+/// Extends the likeness over the soft end of a gust, which the classifier alone cannot distinguish from other sounds.
+/// After 50 ms of likeness above 0.8, the last such likeness is a minimum for half a second, or until the sound is 3 dB
+/// louder than its softest since, as a beginning voice is.
 template <class T>
 class Tail {
  public:
@@ -112,7 +112,7 @@ class Kernel {
     return due && analyse();
   }
 
-  /// Observation of the samples since the last frame; starts the next frame.
+  /// Returns the observation of the samples since the last frame, and starts the next frame.
   Observation<T> end_frame() {
     gather();
     Observation<T> seen;
@@ -142,7 +142,7 @@ class Kernel {
   /// Declares that the stream begins during an unknown sound.
   void begin_unknown() { sudden_.begin_unknown(); }
 
-  /// One channel's differenced voice band over the last hop, at the rate of the voicing analysis.
+  /// Returns one channel's differenced voice band over the last hop, at the rate of the voicing analysis.
   std::span<const T> voice_hop(std::size_t channel) const {
     return {channels_[channel].history.hop(), static_cast<std::size_t>(d_.hop / d_.voice_step)};
   }
@@ -173,7 +173,7 @@ class Kernel {
     return channel.decimator.push(x);
   }
 
-  // Sums in two stages, so that a second at 192 kHz keeps its digits in single precision.
+  // Adds the sum of squares since the last call to the frame's: one float sum of 192000 squares would lose digits.
   void gather() {
     power_ = power_ + group_power_;
     group_power_ = T(0.0F);
@@ -184,8 +184,9 @@ class Kernel {
     for (auto& channel : channels_) {
       const T voice = channel.bands.push(channel.decimator.value());
       channel.history.push(voice);
-      // A level is the power of the voice band after a filter that rises above 300 Hz. The filter flattens the falling
-      // spectrum, so a frame's level varies less; below, it is flat for microphones that pass mainly low frequencies.
+      // A level is the power of the voice band after a filter that rises above 300 Hz, to flatten wind's falling
+      // spectrum, so that a frame's level varies less. Below it is flat, for microphones that pass few high
+      // frequencies.
       const T levelled = voice - T(d_.level_zero) * channel.before;
       channel.before = voice;
       frame_band_ = frame_band_ + levelled * levelled;
@@ -218,13 +219,13 @@ class Kernel {
     likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
   }
 
-  /// Whether there is sound, and it began more than two hops ago: in the first two hops a voice shows no period yet.
+  /// Returns whether the sound is loud enough and began more than two hops ago: before, a voice shows no period yet.
   bool judged(T voice_sum) const {
     const T newest = T(d_.power_approach) * voice_sum * per_hop_;
     return T(kMinJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
   }
 
-  /// Power of a hop over its 50 ms mean, at most 1.
+  /// Returns the ratio of a hop's power to the 50 ms mean, at most 1.
   T fresh(T voice_sum) const {
     const T power = voice_sum * per_hop_;
     return power < mean_.voice ? power / mean_.voice : T(1.0F);
@@ -265,7 +266,7 @@ class Kernel {
     features_.peaked = peaked;
   }
 
-  static constexpr float kMinJudged = 1e-11F;  // −110 dB: below, the sound counts as silent
+  static constexpr float kMinJudged = 1e-11F;  // mean power (−110 dB) below which the likeness is 0
   static constexpr float kFullScale = 0.999F;  // 16-bit clipping gives 32767 or, after an encoder, slightly less
 
   Design d_;

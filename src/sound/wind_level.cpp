@@ -15,7 +15,7 @@ struct WindLevel::State {
     next_frame_at = end_of(0);
   }
 
-  /// Index of the first sample after a frame.
+  /// Returns the index of the first sample after a frame.
   std::int64_t end_of(std::int64_t index) const {
     return static_cast<std::int64_t>(static_cast<double>(index + 1) * format.rate_hz / options.frame_rate_hz + 0.5);
   }

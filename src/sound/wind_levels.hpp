@@ -1,10 +1,10 @@
 #pragma once
-// Levels that the estimator adapts while listening: the background's, that is the sound without wind, and the gust
-// level of a microphone, which equals wind 1.
+// Levels that the live estimator adapts: that of the background (sound without wind), and the reference level, at which
+// wind is 1.
 //
 // A gust must not be its own reference: a person who blows hard from the start would calibrate the estimator to hard
-// blowing. So the level starts at a typical value for microphones at arm's length and is constant during a gust. After
-// each gust it moves towards the level at which the gust was a soft breath or a hard blow, whichever is likelier.
+// blowing. So the reference level starts at a typical value for microphones at arm's length and is constant during a
+// gust. After it, the level moves to where the gust is a soft breath or a hard blow, weighted by their likelihoods.
 
 #include <array>
 #include <cstddef>
@@ -15,12 +15,12 @@
 
 namespace wisp::wind {
 
-constexpr float kMinFloorDb = -95;  ///< minimum floor: only a gated microphone's is lower
-constexpr float kQuietDb = 6;       ///< minimum loudness of wind over the floor
-constexpr float kSwellDb = 3;       ///< maximum distance of the floor below the room's recent loudness
+constexpr float kMinFloorDb = -95;  ///< lower bound of the floor: only gated microphones are quieter
+constexpr float kQuietDb = 6;       ///< sound less than this over the floor is quiet: background without wind
+constexpr float kSwellDb = 3;       ///< floor_db() is at most this far below the background's recent maximum
 
-/// Floor of loudness. It starts at the first loudness heard, falls to softer sound within 50 ms, and rises: fast during
-/// sound unlike blowing, slowly during blowing.
+/// Floor of loudness. It starts at the loudness after the first kWarmHops hops of sound, falls to softer sound with a
+/// time constant of 50 ms, and rises slowly during blowing, nine times as fast during other sound.
 template <class T>
 class Floor {
  public:
@@ -57,7 +57,7 @@ class Floor {
   bool known_ = false;
 };
 
-/// Means over quiet frames: unweighted at first, with forgetting later.
+/// Means over quiet frames: arithmetic over the first `span_frames`, later exponential with this time constant.
 template <class T>
 class QuietMean {
  public:
@@ -109,29 +109,29 @@ class Background {
     last_floor_ = floor;
     run_ = quiet ? run_ + 1 : 0;
     if (run_ <= d.quiet_run_frames) return;
-    // A room quieter than assumed resets the means: a long blow had been taken for the background.
+    // If it is quieter than the mean background, the mean was that of a long blow, and starts again.
     if (mean_.known() && seen.loudness_db < mean_.loudness_db() - T(kQuietDb)) mean_ = {};
     mean_.add(seen, d.quiet_span_frames);
   }
 
-  /// Sets the means from earlier knowledge; `loudness_db` is the background's. The floor is still measured.
+  /// Sets the means from earlier knowledge; `loudness_db` is the background's. The floor itself is still measured.
   void set(T rms, T band_power, T loudness_db, const Design& d) {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
   }
 
-  /// Loudness of the room, including its recent swells (sea, a labouring fan), which may recur.
+  /// Returns the background's loudness: the floor, or 3 dB below the recent maximum of sound that swelled (sea, fan).
   T floor_db() const {
     const T swell = swell_db_ - T(kSwellDb);
     return floor_.level_db() < swell ? swell : floor_.level_db();
   }
 
-  /// Rise of the floor above the room's, dB, ≥ 0.
+  /// Returns the rise of the floor above room_db_ (see follow_room()), dB, at least 0.
   T rise_db() const { return room_db_ < floor_.level_db() ? floor_.level_db() - room_db_ : T(0.0F); }
 
   const QuietMean<T>& mean() const { return mean_; }
 
  private:
-  /// Tracks the room's floor: the mean over the first seconds, later it only falls.
+  /// Updates room_db_: the floor's mean over the first 3 s; afterwards it follows the floor only downwards.
   void follow_room(const Design& d) {
     const T floor = floor_.level_db();
     if (room_hops_ == 0) room_db_ = floor;
@@ -149,7 +149,7 @@ class Background {
   int room_hops_ = 0;
 };
 
-/// Level of one gust, as a histogram over decibels.
+/// Histogram of one gust's frames over their level in dB.
 template <class T>
 class GustLevel {
  public:
@@ -168,7 +168,7 @@ class GustLevel {
 
   int frames() const { return frames_; }
 
-  /// 80th percentile, dB, since a gust is soft at its ends.
+  /// Returns the 80th percentile, dB: a gust's beginning and end are soft.
   T high_db() const {
     int above = frames_ / 5;
     std::size_t bin = counts_.size() - 1;
@@ -195,7 +195,7 @@ class Reference {
     end();
   }
 
-  /// Takes a frame: whether it certainly blows, and its level in dB.
+  /// Adds a frame, of level `db`, to the gust if it certainly blows; after enough other frames, learns from the gust.
   void hear(bool blows, T db, const Design& d) {
     if (blows) {
       rest_frames_ = 0;
@@ -207,8 +207,9 @@ class Reference {
     end();
   }
 
-  /// Sets the level from a guided calibration's soft breath, or hard blow: halfway between both where both are known
-  /// and far enough apart, else from the breath, which must not extinguish a flame. Adaptation continues from there.
+  /// Set the level of wind 1 from a guided calibration: 4 dB above a soft breath, 17 dB below a hard blow. With both
+  /// known, it is their mean if the blow gives the higher level, otherwise the breath's. Adaptation continues from
+  /// there.
   void set_soft(T gust_db) {
     soft_db_ = gust_db + T(kSoftDb);
     knows_soft_ = true;
@@ -222,14 +223,14 @@ class Reference {
 
   T level_db() const { return level_db_; }
 
-  static constexpr float kKnownGusts = 3;  ///< weight of a given or calibrated level, in gusts
+  static constexpr float kKnownGusts = 3;  ///< weight of a stored or calibrated level against heard gusts, in gusts
 
  private:
-  static constexpr float kHardDb = 17;     ///< level of a hard blow above wind 1
-  static constexpr float kSoftDb = 4;      ///< level of a soft breath below wind 1
+  static constexpr float kHardDb = 17;     ///< mean level of a hard blow above that of wind 1
+  static constexpr float kSoftDb = 4;      ///< mean level of a soft breath below that of wind 1
   static constexpr float kSpreadDb = 6;    ///< standard deviation of both levels
-  static constexpr float kNeither = 0.1F;  ///< likelihood of a gust of neither kind, which hardly moves the level
-  static constexpr float kMaxGusts = 6;    ///< memory, in gusts
+  static constexpr float kNeither = 0.1F;  ///< likelihood of neither kind: gusts far from both move the level little
+  static constexpr float kMaxGusts = 6;    ///< maximum weight of the past, in gusts
   static constexpr float kFallDb = 8;      ///< maximum fall below the initial level
   static constexpr float kRiseDb = 12;     ///< maximum rise above the initial level
 

@@ -1,5 +1,5 @@
 #pragma once
-// The live estimator without its clock: takes samples, returns frames on request, over any number type.
+// The live estimator, over any number type: takes samples and ends a frame when its caller (WindLevel) says so.
 
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
@@ -65,8 +65,8 @@ class Listener {
   }
 
   static constexpr float kGustConfidence = 0.8F;
-  static constexpr float kSureLikeness = 0.65F;  ///< likeness of a frame from which strong wind is accepted
-  static constexpr float kFirstGusts = 0.6F;     ///< weight of the initial level of wind 1, in gusts
+  static constexpr float kSureLikeness = 0.65F;  ///< minimum likeness_now of a frame that proves strong wind
+  static constexpr float kFirstGusts = 0.6F;     ///< weight of the option first_gust_rms against heard gusts, in gusts
 
   Design d_;
   Kernel<T> kernel_;

@@ -11,7 +11,7 @@ namespace wisp::wind {
 // Only plain() accesses a number's value; a counting type overloads it.
 inline float plain(float x) { return x; }
 
-/// Decomposition of x as m · 2^e with m in [1/√2, √2). For finite x >= 2^-126.
+/// Decomposition of a number x as mantissa · 2^exponent with mantissa in [1/√2, √2). For finite x >= 2^-126.
 struct Split {
   float mantissa;
   int exponent;

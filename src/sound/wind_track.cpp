@@ -17,14 +17,14 @@ namespace {
 
 // Wind of a recording during other sounds, from the bands between a voice's harmonics. A voice occupies few of the
 // narrow bands between 60 and 1000 Hz; wind occupies all of them, with exponentially distributed power: a quarter of
-// the bands are below 0.288 of their means. With S the spectrum of wind 1 and N the room's, the wind's power q is
-// therefore that for which a quarter of the bands are below 0.288 · (q S + N), whatever sounds in the others.
+// the bands are below 0.288 of their means. With S the spectrum of wind 1 and N that of the background, the wind's
+// power is therefore the q at which a quarter of the bands are below 0.288 · (q S + N), however loud the others are.
 constexpr double kWindowSeconds = 0.093;
 constexpr double kLowestHz = 60;
 constexpr double kHighestHz = 1000;
 constexpr double kQuarter = 0.2876820724517809;  // first quartile of an exponential distribution of mean 1
 
-/// One period of cosine and sine over the window's length, and the window.
+/// Tables over the window's length: one period of cosine and of sine, and the Hann window.
 struct Tables {
   explicit Tables(std::size_t length) : cosine(length), sine(length), window(length) {
     for (std::size_t i = 0; i < length; ++i) {
@@ -90,13 +90,13 @@ class Spectra {
   std::vector<float> powers_;
 };
 
-/// Mean spectra of wind and room, in the bands of Spectra.
+/// Mean powers in the bands of Spectra.
 struct BandMeans {
-  std::vector<double> wind;  ///< of wind 1, without the room's
-  std::vector<double> room;
+  std::vector<double> wind;  ///< of wind 1, without the background
+  std::vector<double> room;  ///< of the background
 };
 
-/// Power of the wind in a frame, relative to wind 1.
+/// Returns the power of the wind in a frame relative to wind 1: the lower quartile over bands of each band's q.
 float power_between(const float* powers, const BandMeans& means) {
   std::vector<double> needed;
   for (std::size_t b = 0; b < means.wind.size(); ++b) {
@@ -111,23 +111,23 @@ float power_between(const float* powers, const BandMeans& means) {
 
 using Seen = std::vector<wind::Observation<float>>;
 
-constexpr float kFloorShare = 0.05F;        // share of the softest frames, which define the floor
+constexpr float kFloorShare = 0.05F;        // the floor is this quantile of the frames' loudness
 constexpr float kQuietSeconds = 0.25F;      // minimum duration of a stretch without wind
-constexpr float kSilentDb = -80;            // loudness below which a track counts as silent
-constexpr float kBlowingConfidence = 0.5F;  // threshold of probable blowing
-constexpr float kWindHeard = 0.05F;         // in wind units: minimum that is reported as wind
-constexpr double kShortestPuff = 0.1;       // minimum seconds above half of a puff's maximum
+constexpr float kSilentDb = -80;            // a track is silent if the loudness of every frame is below
+constexpr float kBlowingConfidence = 0.5F;  // frames of higher confidence count as blowing
+constexpr float kWindHeard = 0.05F;         // frames of more wind count in blowing_share
+constexpr double kShortestPuff = 0.1;  // seconds: a knock is above half of its peak for at most this, a puff longer
 
-// A knock exceeds `wind` for at most `seconds` and reaches `peak`. Around it, unlike around the short peaks of a gust,
-// the wind is below `wind` for `seconds`. Knocks far stronger than wind (the first entry) ring in the room and so last
-// longer.
+// Criteria of a knock: the wind exceeds `wind` for at most `seconds`, reaches `peak`, and does not exceed `wind` for
+// `seconds` before and after (between the short peaks of a gust it does). The first entry is for knocks far stronger
+// than wind, which last longer as the room reverberates.
 struct Knock {
   float wind, peak;
   double seconds;
 };
 constexpr Knock kKnocks[] = {{1.5F, 6, 0.3}, {0.15F, 0, 0.1}};
 
-/// Loudness of the softest frames that contain any sound.
+/// Returns the kFloorShare quantile of loudness over frames that contain any sound; at least kMinFloorDb.
 float find_floor(const Seen& seen) {
   std::vector<float> loudness;
   for (const auto& one : seen) {
@@ -141,7 +141,7 @@ bool is_quiet(const wind::Observation<float>& one, float floor_db) {
   return one.loudness_db >= wind::kNothingDb && one.loudness_db < floor_db + wind::kQuietDb;
 }
 
-/// Marks frames of quiet stretches of at least `least` frames.
+/// Marks the frames of all quiet stretches that have at least `least` frames.
 std::vector<bool> quiet_stretches(const Seen& seen, float floor_db, std::size_t least) {
   std::vector<bool> marks(seen.size(), false);
   for (std::size_t begin = 0; begin < seen.size();) {
@@ -189,7 +189,7 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
   return true;
 }
 
-/// Mean spectra of wind and room, from frames with probable blowing and from quiet ones.
+/// Computes BandMeans: `room` from quiet frames, `wind` from those with confidence above kBlowingConfidence.
 BandMeans band_means(const Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
                      const wind::Surroundings<float>& around) {
   BandMeans means;
@@ -214,8 +214,8 @@ BandMeans band_means(const Spectra& spectra, const Seen& seen, const std::vector
   return means;
 }
 
-/// Wind of a frame: `measured` for sound like wind. For foreign sound, and where `measured` is far above `between` (a
-/// voice over wind), the smaller of both. `between` is estimated between a voice's harmonics.
+/// Returns the wind of a frame: `measured` from the level, or, if smaller, `between` from the bands between a voice's
+/// harmonics; the latter only for sound unlike blowing, or if `measured` is far above it (a voice over wind).
 float wind_of(float measured, bool foreign, float between) {
   constexpr float kMuch = 1.35F;
   constexpr float kAtLeast = 0.08F;
@@ -237,9 +237,9 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   return frames;
 }
 
-/// Replaces knocks on the table by the larger of the wind before and after. They are measured as wind, in nearly calm
-/// recordings as many times the real maximum, but are shorter than any blow: above half of their peak for at most
-/// kShortestPuff. `seconds_at` gives the beginning of a frame.
+/// Replaces the wind during knocks on the table by the larger wind of the frames before and after. Knocks are measured
+/// as wind, in nearly calm recordings as many times the real maximum, but stay above half of their peak for at most
+/// kShortestPuff, less than any blow. `seconds_at` returns the beginning of a frame.
 template <class SecondsAt>
 void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const SecondsAt& seconds_at) {
   using Place = std::vector<WindFrame>::iterator;
@@ -249,7 +249,7 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const Knock& knock, const 
     return seconds_at(to - frames.begin()) - seconds_at(from - frames.begin());
   };
   const auto rise = [&](Place from) { return std::find_if(from, frames.end(), above(knock.wind)); };
-  Place last = frames.begin();  // end of the wind before
+  Place last = frames.begin();  // end of the previous run above knock.wind
   for (Place begin = rise(last), next = begin; begin != frames.end(); begin = next) {
     const Place end = std::find_if_not(begin, frames.end(), above(knock.wind));
     next = rise(end);
@@ -281,7 +281,7 @@ struct WindTracker::State {
 
   std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
 
-  /// End of the current frame, seconds.
+  /// Returns the end of the current frame, seconds.
   double end_seconds() const { return seconds_at(seen.size() + 1); }
 
   void feed(std::span<const float> samples) {
@@ -303,7 +303,7 @@ struct WindTracker::State {
     }
   }
 
-  /// Beginning of frame k, which is the end of frame k − 1.
+  /// Returns the beginning of frame k, which is the end of frame k − 1, seconds.
   double seconds_at(std::size_t k) const { return static_cast<double>(k) / options.frame_rate_hz; }
 
   Spectra spectra() const {

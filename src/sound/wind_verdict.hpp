@@ -1,11 +1,11 @@
 #pragma once
-// From an observation, given background and gust level, to the wind of a frame: the measurement, the wind during other
-// sounds, and proof of strong wind.
+// Computes the wind of a frame from its observation and the reference levels: measurement, wind during other sounds,
+// and proof of strong wind.
 //
 // Other sounds only add to the level: during a voice or a knock the wind is at most the measured level, and most likely
-// what it was just before (and, where known, just after). Strong wind has to last and to sound like blowing throughout:
-// a knock, a sneeze or a spark are as loud as hard blowing for a tenth of a second, and a drum or a plosive resembles
-// it until the following note is recognised.
+// as strong as just before. Strong wind has to last and to sound like blowing throughout: a knock, a sneeze or a spark
+// is as loud as hard blowing for a tenth of a second, and a drum or a plosive resembles blowing until the note or vowel
+// after it is recognised.
 
 #include <array>
 #include <cmath>
@@ -27,10 +27,10 @@ struct Surroundings {
   T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
-constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing is distinguished from the room
+constexpr float kSureDb = 10;        ///< loudness over the floor at which audibility halves the confidence of blowing
 constexpr float kMinPower = 1e-12F;  ///< band power below which there is no wind
 
-/// Confidence, 0 to 1, that the loudness exceeds the floor by `sure_db`; 0.5 if it does exactly.
+/// Returns a weight of loudness over the floor: logistic from 0 to 1, 0.5 at `sure_db`, of scale `width_db`.
 template <class T>
 T audible(T over_floor_db, float sure_db, float width_db) {
   return sigmoid((over_floor_db - T(sure_db)) * T(1 / width_db));
@@ -41,7 +41,7 @@ T confidence_of(const Observation<T>& seen, T floor_db) {
   return seen.likeness * audible(seen.loudness_db - floor_db, kSureDb, 1.5F);
 }
 
-/// Band power in excess of the background's.
+/// Returns the band power in excess of the background's, at least 0.
 template <class T>
 T power_over(const Observation<T>& seen, T background) {
   return background < seen.band_power ? seen.band_power - background : T(0.0F);
@@ -66,8 +66,8 @@ WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, flo
   return frame;
 }
 
-constexpr float kHeardDb = 8;    ///< loudness over the floor from which a sound counts
-constexpr float kForeignDb = 3;  ///< live: loudness over the floor from which a sound may be foreign
+constexpr float kHeardDb = 8;    ///< loudness over the floor at which heard_speed() halves the speed
+constexpr float kForeignDb = 3;  ///< live: above this loudness over the floor, sound unlike blowing counts as foreign
 constexpr float kBlowingLikeness = 0.5F;
 
 template <class T>
@@ -75,17 +75,17 @@ bool sounds_like_blowing(const Observation<T>& seen) {
   return T(kBlowingLikeness) < seen.likeness;
 }
 
-/// Speed times the confidence that the sound exceeds the floor by kHeardDb: the background's fluctuation is no wind.
+/// Returns the speed, reduced towards 0 below kHeardDb over the floor: fluctuations of the background are no wind.
 template <class T>
 T heard_speed(T speed, const Observation<T>& seen, T floor_db) {
   return speed * audible(seen.loudness_db - floor_db, kHeardDb, 1.0F);
 }
 
-/// Live estimate. Frames that sound like blowing, or in which nothing is heard, pass unchanged. In others the wind is
-/// at most the wind before them, decaying within half a second.
+/// Bounds the live wind during foreign sound (heard, but unlike blowing). Other frames pass unchanged. In foreign ones
+/// the wind is at most its mean before the sound, which decays with a time constant of half a second.
 ///
-/// "Before" is 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a few
-/// frames, so after blowing the measurement is still accepted for as long as the blowing lasted, at most 80 ms.
+/// The mean ends about 50 ms earlier, as detecting a voice takes time. Rapidly varying wind also sounds foreign for a
+/// few frames, so after blowing the speed still passes for as long as the blowing lasted, at most 80 ms.
 template <class T>
 class LiveBridge {
  public:
@@ -109,7 +109,7 @@ class LiveBridge {
   void end_frame(T wind) { before_[at_++ % before_.size()] = wind; }
 
  private:
-  /// Mean of the frames 50 to 100 ms ago.
+  /// Returns the mean wind of n frames (n: bridge_delay_frames, about 50 ms), of which the last is n + 1 frames ago.
   T settled(const Design& d) const {
     T sum = T(0.0F);
     const std::size_t n = static_cast<std::size_t>(d.bridge_delay_frames);
@@ -117,16 +117,16 @@ class LiveBridge {
     return sum / T(static_cast<float>(n));
   }
 
-  std::array<T, 128> before_{};  ///< past frames; at most 102 are used
+  std::array<T, 128> before_{};  ///< winds of past frames; at most 102 are used
   std::size_t at_ = 0;
   int believed_frames_ = 0;
   int foreign_frames_ = 0;
   T most_ = T(0.0F);
 };
 
-/// Wind takes 0.08 s to rise to 1. Wind above 1 passes after sufficient evidence: 0.24 s of wind 1, or less time the
-/// stronger it is (0.15 s of 1.6, 0.08 s of 3.2), until a pause of 0.24 s. Softer blowing counts neither as evidence
-/// nor as pause. Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
+/// Limits the live wind: it takes 0.08 s to rise to 1, and passes 1 only after evidence, which is the sum of wind above
+/// 1 over time: 0.15 s of wind 1.6 or 0.08 s of 3.2 suffice. Evidence ends after 0.24 s without blowing; blowing below
+/// 1 leaves it unchanged. Wind inferred from earlier sound (a gust's tail, under another sound) counts as no blowing.
 template <class T>
 class Sustained {
  public:
@@ -150,7 +150,7 @@ class Sustained {
   }
 
  private:
-  T evidence_ = T(0.0F);  ///< sum of strong wind, minus one per frame without blowing
+  T evidence_ = T(0.0F);  ///< sum of wind above 1, minus one per frame without blowing
   bool lasts_ = false;
   T before_ = T(0.0F);  ///< the wind that passed in the last frame
 };

@@ -39,7 +39,7 @@ class PendingFile {
   PendingFile& operator=(const PendingFile&) = delete;
   ~PendingFile();
 
-  /// Path of the temporary file to write to before commit(): beside the final name, with the same extension.
+  /// Returns the path of the temporary file, to be written before commit(): beside the final name, same extension.
   const std::filesystem::path& path() const { return pending_; }
 
   /// Flushes the pending file to the disk and renames it to its final name.
@@ -52,7 +52,7 @@ class PendingFile {
 
   std::filesystem::path pending_;
   std::filesystem::path final_;
-  int listed_ = -1;  // index in the list of files to remove on interruption
+  int listed_ = -1;  // index in the list of files to remove on interruption; −1: not listed
 };
 
 /// Makes SIGINT, SIGTERM and, on POSIX, SIGHUP, SIGQUIT, SIGPIPE and the like remove all pending files (32 at most)

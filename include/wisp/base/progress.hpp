@@ -7,7 +7,7 @@
 namespace wisp {
 
 /// Called now and then from the working thread with the stage in words ("capturing", "searching orders") and the
-/// finished share of it, 0 to 1, or negative where its length is unknown. Returns whether to continue: after false the
+/// stage's finished share, 0 to 1, or negative if its length is unknown. Returns whether to continue: after false the
 /// work ends with the error kStopped and leaves no partial output. An empty Progress receives no reports.
 using Progress = std::function<bool(std::string_view stage, double share)>;
 

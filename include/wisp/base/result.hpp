@@ -17,7 +17,7 @@ using MisuseHandler = void (*)(const char* sentence);
 /// Returns the previous handler.
 MisuseHandler set_misuse_handler(MisuseHandler handler);
 
-/// Pass a sentence to the handler; end_on_misuse() ends the program if the handler returns.
+/// Both pass a sentence to the handler; end_on_misuse() also ends the program if the handler returns.
 void report_misuse(const char* sentence);
 [[noreturn]] void end_on_misuse(const char* sentence);
 
@@ -30,7 +30,7 @@ struct Error {
   std::string message;
 };
 
-/// A value of type T, or the Error that stands in its place.
+/// A value of type T, or the Error that explains why there is none.
 ///
 /// Precondition of value(): holds a value. Otherwise the error's sentence is reported as misuse, and the program ends.
 /// Precondition of error(): holds an error.

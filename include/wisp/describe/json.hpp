@@ -11,7 +11,7 @@ namespace wisp {
 /// a list of objects; the verdict is `usable` {`verdict`, `reason`, `code` if there is one}, warnings are `warnings`.
 /// Numbers that are not finite are null. Series, and entries and tables without an id, are omitted.
 ///
-/// Precondition: no id is both a figure and the beginning of another's ("stable" beside "stable.radius").
+/// Precondition: no id of a figure is the beginning of another id ("stable" beside "stable.radius").
 std::string to_json(const Report& report, int indent = 2);
 
 }  // namespace wisp

@@ -15,14 +15,14 @@
 namespace wisp {
 
 /// Interpretation of a table that does not describe itself. The file's own statements take precedence, except over
-/// `columns`, `inputs` and `outputs`. If `inputs` or `outputs` is given, they select all channels except motion.
+/// `columns`, `inputs` and `outputs`. With `inputs` or `outputs`, other u: and y: columns need `every_column`.
 struct CsvOptions {
   double rate_hz = 0;                        ///< samples per second; 0: from a time column, or usual_rate_hz
-  double usual_rate_hz = 0;                  ///< rate assumed if the file has neither; 0: an error then
+  double usual_rate_hz = 0;                  ///< rate assumed if nothing else states one; 0: an error then
   std::vector<std::string> inputs{};         ///< columns that are inputs
   std::vector<std::string> outputs{};        ///< columns that are outputs
-  std::vector<std::string> usual_inputs{};   ///< columns that are inputs if a plain table has them
-  std::vector<std::string> usual_outputs{};  ///< columns that are outputs if a plain table has them
+  std::vector<std::string> usual_inputs{};   ///< inputs among columns without a stated role; may be absent
+  std::vector<std::string> usual_outputs{};  ///< outputs among columns without a stated role; may be absent
   bool every_column = false;                 ///< read all numeric columns, as outputs unless their role is stated
   std::vector<std::string> columns{};        ///< names of all columns in order, in place of a header or without one
 };
@@ -48,7 +48,7 @@ class CsvReader {
   /// Returns the recording without its rows: rate, channels, flags and attributes.
   const Recording& header() const;
 
-  /// Appends up to `max_rows` further rows to `recording`, which is the header or was read before.
+  /// Appends up to `max_rows` further rows to `recording`: a copy of header(), with the rows of earlier calls or none.
   /// Returns their number; 0 at the end.
   /// An empty cell, NaN or NA is a missing sample.
   /// Errors: uneven time steps, a wrong number of columns, text or infinity in place of a number, decimal points and
@@ -70,8 +70,8 @@ class CsvReader {
 /// Reads a recording from a CSV file.
 /// Returns it with missing samples as NaN; numbers are the nearest doubles to the text. A time column with uneven
 /// steps, as written by a PC's logger, is resampled to its typical step by linear interpolation; `rate_note` reports
-/// that, with the error. Gaps above 1.5 steps are missing samples. Errors: those of CsvReader, except for uneven time;
-/// no rows, time that decreases or has no typical step, and a file that cannot be opened.
+/// this and its error. Gaps above 1.5 steps are missing samples. Errors: those of CsvReader, except for uneven time;
+/// no rows, time that does not increase or has no typical step, and a file that cannot be opened.
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
 /// Reads a recording from a stream; `name` stands for the file in messages. Uneven time needs a seekable stream.

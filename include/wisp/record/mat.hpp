@@ -14,7 +14,7 @@ namespace wisp {
 /// `data.u`, one column of a matrix as `u(:,2)`. A matrix of several columns yields one channel per column: u1, u2, …
 struct MatOptions {
   double rate_hz = 0;         ///< samples per second; 0: by a scalar `fs` or `Ts` (seconds), or a vector `t` or `time`
-  std::size_t max_bytes = 0;  ///< bytes of unpacked numbers; 0: 64 times the file's, at least 64 MB, at most 1 GB
+  std::size_t max_bytes = 0;  ///< maximum of unpacked bytes; 0: 64 times the file's size, within 64 MB and 1 GB
   std::vector<std::string> inputs;   ///< variables that are inputs
   std::vector<std::string> outputs;  ///< variables that are outputs
 };

@@ -23,7 +23,7 @@ enum class Role {
 /// One named time series. A missing sample is a quiet NaN.
 struct Channel {
   std::string name;
-  std::string unit;  ///< as written between brackets; empty: none stated
+  std::string unit;  ///< as written between the brackets of a column's name; empty: none stated
   Role role = Role::kOutput;
   std::vector<double> samples;
 };
@@ -55,7 +55,7 @@ struct Episode {
 /// How the rate was determined; not written to a file.
 struct RateNote {
   std::string text{};    ///< empty: the file or the caller stated the rate
-  bool guessed = false;  ///< a person should check it
+  bool guessed = false;  ///< true: the rate is a guess that a person should check
 };
 
 /// Inputs, outputs and motion over time. All channels and flags have `rows()` entries.
@@ -72,7 +72,7 @@ struct Recording {
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
 };
 
-/// Returns the episodes of a recording: maximal runs of rows with one episode id. History never crosses their borders.
+/// Returns the episodes of a recording: maximal runs of rows with one episode id. No model's history crosses a border.
 std::vector<Episode> episodes(const Recording& recording);
 
 /// Returns indices into `recording.channels` of all channels with a role, in their order.
@@ -81,7 +81,7 @@ std::vector<std::size_t> channels_with_role(const Recording& recording, Role rol
 /// Returns the index of the channel of that name, or nothing.
 std::optional<std::size_t> find_channel(const Recording& recording, std::string_view name);
 
-/// Whether the flag of that name marks a row; false without such a flag.
+/// Returns whether the flag of that name marks a row; false without such a flag.
 bool is_flagged(const Recording& recording, std::string_view flag, std::size_t row);
 
 /// Returns the attribute's value, or nothing.

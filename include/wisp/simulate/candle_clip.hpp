@@ -47,7 +47,7 @@ struct VirtualMicrophoneOptions {
   double level = 0.12;     ///< root mean square of the sound at 1 m/s, full scale 1, 1e-6 … 1; gusts exceed 1 m/s
   double corner_hz = 300;  ///< corner of the spectrum, flat below, −12 dB per octave above, 20 … 5000, ≤ 0.4 rate_hz
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
-  double other_sounds = 0.05;  ///< mean number of sounds other than wind per second, 0 … 10: half voice, half knocks
+  double other_sounds = 0.05;  ///< other sounds (half voice, half knocks): 1 / mean pause in s, 0 … 10; 0: none
   std::uint64_t seed = 1;
 };
 
@@ -62,9 +62,9 @@ enum class WindKind {
 /// Parameters of the wind. Speeds in m/s.
 struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
-  double most = 1.0;         ///< clamp of gusts and noise together, 0 … 10; a candle survives 1 m/s
-  double noise = 0.35;       ///< typical standard deviation of the wideband part while it blows, 0 … 10
-  double bandwidth_hz = 6;   ///< bandwidth of that noise, two poles, 0.1 … 50; slow wind excites no resonance
+  double most = 1.0;         ///< upper bound of gusts and noise together, 0 … 10; a candle survives 1 m/s
+  double noise = 0.35;       ///< typical standard deviation of the wideband part outside rests, 0 … 10
+  double bandwidth_hz = 6;   ///< bandwidth of the noise, two poles, 0.1 … 50; slow wind excites no resonance
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10
   double rest_share = 0.25;  ///< share of calm time, 0 … 0.9
   bool both_sides = false;   ///< gusts from the right as well (negative); a microphone hears only strength

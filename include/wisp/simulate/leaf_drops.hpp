@@ -18,16 +18,16 @@ struct LeafAir {
   double translational_lift = 2.66;  ///< C_T, 0 … 10
   double drag_broadside = 3.09;      ///< C_D90, 0 … 20
   double drag_edgewise = 0.20;       ///< C_D0, 0 … drag_broadside
-  double damping_by_speed = 0.57;    ///< μ, of rotation in a stream, 0 … 20
-  double damping_by_spin = 5.7;      ///< C_r, of rotation in still air, 0 … 100
-  double spin_drag = 0.05;           ///< C_3, of rotation in the leaf's own plane, 0 … 20
+  double damping_by_speed = 0.57;    ///< μ: torque about the axes in the leaf's plane ∝ spin · speed, 0 … 20
+  double damping_by_spin = 5.7;      ///< C_r: torque about these axes ∝ spin², 0 … 100
+  double spin_drag = 0.05;           ///< C_3: both torques about the leaf's normal, 0 … 20
 };
 
 /// Properties of the leaf and the air in which it falls. The default is the leaf of the training recordings.
 struct Leaf {
   double length = 0.073;        ///< full axis along the midrib (body x), metres, 0.001 … 1
   double width = 0.049;         ///< full axis across it (body y), metres, 0.001 … length
-  double areal_density = 0.07;  ///< kg/m², 0.001 … 10; 0.07 is office paper and many a dry leaf
+  double areal_density = 0.07;  ///< kg/m², 0.001 … 10; 0.07 is typical of office paper and dry leaves
   double air_density = 1.2;     ///< kg/m³, 0.01 … 100
   double gravity = 9.81;        ///< m/s², 0 … 100
   LeafAir air{};
@@ -40,13 +40,13 @@ struct MeasuredWind {
   double begins = 0;                        ///< time of the first row, seconds
 };
 
-/// Falls of one leaf from random attitudes, velocities and spins. All falls have one leaf, since segments of different
-/// leaves must not be joined.
+/// Options for falls of one leaf from random attitudes, velocities and spins. A chain learned from the recording joins
+/// pieces of its falls, which is valid only for one leaf.
 struct LeafDropsOptions {
   Leaf leaf{};
   bool gusts = false;         ///< each drop has its own gusts of random strength, length and direction, with rests
                               ///< between them
-  MeasuredWind track{};       ///< if it has rows, the wind of every drop, from the recording's beginning
+  MeasuredWind track{};       ///< if it has rows, the wind of every drop in place of gusts; time 0: first recorded row
   int drops = 200;            ///< episodes, 1 … 100000
   double seconds = 20;        ///< recorded duration of each drop, 0.1 … 3600
   double settle_seconds = 2;  ///< simulated before the recording, 0 … 60: until the initial state is forgotten
@@ -62,21 +62,21 @@ struct LeafDropsOptions {
 /// Errors: an option outside its range, more than 2^31 rows, or a state that is no longer finite (the drop is named).
 Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options);
 
-/// Gusts that hit a leaf in many states, each repeated over clones. Falls are chaotic, and only the mean over clones
-/// with slightly different states separates the effect of the wind from chance.
+/// Options for gusts that hit a leaf in many states. Each gust is repeated with clones, leaves whose states differ
+/// slightly: falls are chaotic, and only the mean over clones separates the effect of the wind from chance.
 struct LeafPairsOptions {
   LeafDropsOptions drops{};  ///< `drops` is the number of gusts; its own `gusts` and `track` are ignored
   int clones = 32;           ///< clones per gust, 1 … 10000
 };
 
-/// The same falls with one gust each and without: episode k starts from one state in both. Clones are consecutive.
+/// Falls with one gust each, and without: episode k starts alike in both. The clones of a gust are consecutive.
 struct LeafPairs {
   Recording windy;
   Recording calm;
 };
 
-/// Simulates the pairs. The recordings share the value of their attribute `pair`; `clones` is the number of consecutive
-/// episodes per gust.
+/// Simulates the pairs. Both recordings have the same attributes `pair` (an identifier) and `clones` (the number of
+/// consecutive episodes per gust).
 /// Errors: those of simulate_leaf_drops().
 Result<LeafPairs> simulate_leaf_pairs(const LeafPairsOptions& options);
 

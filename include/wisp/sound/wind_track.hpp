@@ -17,7 +17,7 @@ namespace wisp {
 struct WindTrack {
   std::vector<WindFrame> frames;  ///< one per video frame that the sound covers; a last part frame is dropped
   WindCalibration calibration;    ///< background and gust level of the whole recording
-  float one_rms = 0;              ///< RMS of the band at speed 1: the gust level, or the option's if nothing blows
+  float one_rms = 0;              ///< RMS of the whitened band at speed 1; without blowing, the option first_gust_rms
   double seconds = 0;             ///< length of the sound
   float quiet_share = 0;          ///< share of frames taken as background
   float blowing_share = 0;        ///< share of frames whose wind is above 0.05
@@ -26,11 +26,11 @@ struct WindTrack {
   bool background_found = false;  ///< false: no stretch without wind was found; the background is then the softest part
 };
 
-/// Computes a WindTrack from sound that comes in blocks; stores its wind band (16 kB per second and channel), not the
-/// sound.
+/// Computes a WindTrack from sound that comes in blocks. Stores the band below 900 Hz at about 4 kHz (16 kB per second
+/// and channel) in place of the sound.
 class WindTracker {
  public:
-  /// For video at a fixed frame rate (options.frame_rate_hz). Errors: those of WindLevel::create().
+  /// Returns a tracker for video at a fixed frame rate (options.frame_rate_hz). Errors: those of WindLevel::create().
   static Result<WindTracker> create(const SoundFormat& format, const WindOptions& options = {});
 
   WindTracker(WindTracker&&) noexcept;

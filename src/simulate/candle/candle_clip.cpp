@@ -20,9 +20,9 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kFramesAhead = 16;  // largest lead of the simulation over the camera, frames
+constexpr std::size_t kFramesAhead = 16;  // maximum number of simulated frames that wait for the camera
 
-// Output of the rig after each frame.
+// Output of the rig for one frame.
 struct Shot {
   RigLight light;
   CandleState state;
@@ -32,7 +32,7 @@ struct Shot {
 // Queue of frames from the simulating thread to the filming thread.
 class ShotQueue {
  public:
-  /// Waits for room. Returns false once the reader has gone.
+  /// Appends a frame, waiting for room. Returns false after close().
   bool push(Shot shot) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return shots_.size() < kFramesAhead || closed_; });
@@ -64,7 +64,7 @@ class ShotQueue {
   bool closed_ = false;
 };
 
-// The candle in its wind, frame by frame.
+// The candle in its wind: simulates a frame per call of next(), and relights the candle when the wind says so.
 class Scene {
  public:
   Scene(CandleRig rig, const WindSignal& wind, double settle_seconds) : rig_(std::move(rig)), wind_(wind) {
@@ -92,7 +92,7 @@ class Scene {
   std::uint64_t frame_ = 0;
 };
 
-// Columns of the ground truth.
+// Builder of the ground-truth recording, one row per frame.
 class Truth {
  public:
   Truth(const CandleClipOptions& options, const CameraView& view) : view_(view) {
@@ -181,7 +181,7 @@ class Crew {
                               camera_.picture(shot.light, frame_)});
   }
 
-  // Makes the sound from the end of the last frame to the end of this one.
+  // Makes the sound from the end of the previous frame to the end of this one.
   Result<void> listen() {
     if (!outputs_.on_sound) return {};
     const double rate = options_.microphone.rate_hz;
@@ -208,7 +208,7 @@ class Crew {
   std::vector<float> wind_block_, sound_;
 };
 
-// A second thread simulates while the calling one draws and writes.
+// Simulates all frames on a second thread, while the calling one draws and writes them.
 Result<void> shoot(Scene& scene, Crew& crew, std::uint64_t frames) {
   ShotQueue queue;
   std::thread simulation([&] {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;  // K
-constexpr float kLighterFuel = 0.6F;            // share of the fuel rate drawn from the wick by a lighter's heat
+constexpr float kLighterFuel = 0.6F;  // minimum fuel while the lighter heats the wick, as a share of fuel_rate
 constexpr int kMaxIterations = 40;
 constexpr float kWickTime = 0.15F;          // s, calibrated: time constant of the fuel's response to the wick's heat
 constexpr float kFuelTemperature = 600.0F;  // K
@@ -30,8 +30,8 @@ struct Box {
   double left, right, bottom, top;
 };
 
-// A smooth hump over an ellipse of kReach times the box's size, averaged over cell (i, j): 0 outside, 1 in the middle.
-// The corners of a plain box would be visible in the flame's base in wind.
+// Returns the mean over cell (i, j) of a smooth hump over an ellipse of kReach times the box's size: 0 outside, 1 in
+// the middle. With a plain box in place of the hump its corners would be visible in the flame's base in wind.
 double hump(int i, int j, const Box& box) {
   constexpr int kSamples = 4;
   const double across = kReach * (box.right - box.left) / 2;
@@ -50,8 +50,8 @@ bool inside(int i, int j, const Box& box) {
   return i + 0.5 > box.left && i + 0.5 < box.right && j + 0.5 > box.bottom && j + 0.5 < box.top;
 }
 
-// The axis lies on a line between cells if the candle is an even number of cells wide, else in the middle of one, so
-// that the wax is symmetric about it.
+// Returns the x of the candle's axis, in cells: between two cells if the wax is an even number of cells wide, otherwise
+// in the middle of a cell, so that the wax is symmetric about it.
 double axis_of(const FlowGrid& grid, const CandleRigOptions& options) {
   const int width = static_cast<int>(std::lround(kCandleWidthMm / options.cell_mm));
   const double wanted = options.position * grid.nx;
@@ -259,8 +259,8 @@ void CandleFlow::mix() {
   diffuse(grid_, {nx, ny + 1, corner_.data(), conductance_.data() - grid_.stride()}, scale_, stages, v_, v_scratch_);
 }
 
-// Fuel vapour displaces hot gas, so its volume source has the factor T/T0. Without this factor a cooled wick would emit
-// three times too much fuel.
+// Adds fuel vapour at the wick. It displaces hot gas, so its volume source has the factor T/T0; without this factor a
+// cooled wick would emit three times too much fuel.
 void CandleFlow::release_fuel() {
   const Float4 vapour = {1.0F, 1.0F, kFuelTemperature, 0.0F};
   for (const int k : body_.fuel_cells) {

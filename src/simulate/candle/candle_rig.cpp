@@ -12,7 +12,7 @@ namespace {
 constexpr double kMaxWind = 10;  // m/s
 constexpr double kLighterSeconds = 0.25;
 constexpr double kLitShare = 0.1;
-constexpr double kExposure = 0.5;  // exposure time as a share of a frame's
+constexpr double kExposure = 0.5;  // exposure time as a share of the frame's duration
 
 Result<void> check_options(const CandleRigOptions& o) {
   return flow::check_ranges("candle rig", {

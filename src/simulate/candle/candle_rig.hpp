@@ -18,13 +18,13 @@ namespace wisp::flow {
 // others are material properties.
 inline constexpr double kCandleWidthMm = 12;  ///< width of the solid wax
 inline constexpr double kCandleHeightMm = 10;
-inline constexpr double kWickGapMm = 4;     ///< from the wax to the box that emits fuel
-inline constexpr double kWickWidthMm = 5;   ///< calibrated: width of that box; at 6 mm the flame is near puffing
-inline constexpr double kWickHeightMm = 4;  ///< calibrated
+inline constexpr double kWickGapMm = 4;     ///< distance from the wax to the box around the wick that emits fuel
+inline constexpr double kWickWidthMm = 5;   ///< calibrated: width of the box; at 6 mm the flame is near puffing
+inline constexpr double kWickHeightMm = 4;  ///< calibrated: height of the box
 
 struct CandleBody {
   Plane open_x, open_y;         ///< 1 on faces open to air, 0 on those of the wax
-  Plane fuel_share;             ///< per cell, 1/m²: proportional to `drag`, sums to 1 over the area
+  Plane fuel_share;             ///< per cell, 1/m²: proportional to `drag`, with integral 1
   Plane drag;                   ///< per cell, 0 … 1: a smooth hump over the wick's box
   std::vector<int> fuel_cells;  ///< cells with a fuel share
   std::vector<int> near_wick;   ///< cells within 2 mm of the box and outside the wax
@@ -89,7 +89,7 @@ class CandleFlow {
   ScalarPlane cells_, cells_scratch_;
   Plane u_, v_, u_scratch_, v_scratch_;
   Plane way_x_, way_y_;
-  Plane temperature_;              // cells; outside, copies of the rim left, right and above, ambient below
+  Plane temperature_;              // of cells; border: copies of the rim left, right and above, ambient below
   Plane moved_temperature_;        // after advection, before combustion
   Plane keep_u_, keep_v_;          // factor of drag on a velocity per step
   Plane conductance_, corner_;     // (T/T0)^0.75 in cells, and at their lower left corners
@@ -112,7 +112,7 @@ struct RigLight {
   double wick_x_mm = 0;     ///< x of the candle's axis, from the grid's left edge
   double wick_y_mm = 0;     ///< y of the candle's upper rim, from the grid's lower edge
   std::vector<float> soot;  ///< yellow light of glowing soot; about 1 in the body of a calm flame
-  std::vector<float> blue;  ///< faint blue of the reaction itself, 1/s of fuel burnt
+  std::vector<float> blue;  ///< fuel burnt, 1/s: the reaction itself glows faintly blue
 };
 
 /// State of the rig after the last frame.
@@ -124,7 +124,7 @@ struct CandleState {
   double wick_temperature = 0;     ///< K, mean within 2 mm of the wick's box
   double hottest = 0;              ///< maximum temperature, K
   double fastest = 0;              ///< maximum speed, m/s
-  bool finite = true;              ///< no NaN or infinity anywhere: false would be a defect
+  bool finite = true;              ///< false: the flow has NaN or infinity, which would be a defect
   double pressure_iterations = 0;  ///< mean per step
 };
 
@@ -135,8 +135,8 @@ class CandleRig {
   /// Errors: an option outside its range, or a candle that does not fit into the grid.
   static Result<CandleRig> create(const CandleRigOptions& options = {});
 
-  /// Simulates one frame of 1/rate_hz with a wind in m/s, positive towards +x, that changes linearly from the last
-  /// frame's value to this one. Clamped to ±10 m/s; NaN counts as calm.
+  /// Simulates one frame of 1/rate_hz. The wind, m/s, positive towards +x, changes linearly from the last call's value
+  /// to this one. Winds are clamped to ±10 m/s; NaN counts as calm.
   void step_frame(double wind);
 
   /// Holds a lighter's flame to the wick for a quarter of a second.

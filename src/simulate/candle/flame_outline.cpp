@@ -24,7 +24,7 @@ struct Lattice {
 
   float at(int i, int j) const { return values[static_cast<std::size_t>(j) * columns + i]; }
 
-  // Index of a square's edge in the lattice, by its lower left end: even ones go right, odd ones go up.
+  // Returns the index of a square's edge: twice the index of its lower or left end, plus 1 if the edge is vertical.
   int edge(int i, int j, int side) const {
     switch (side) {
       case kLower:
@@ -49,7 +49,7 @@ struct Lattice {
   }
 };
 
-// Links the contour through square (i, j): next[edge of entry] = edge of exit, with the inside on its right.
+// Links the contour's edges in square (i, j): next[edge of entry] = edge of exit. The inside is on the contour's right.
 void link_square(const Lattice& lattice, int i, int j, std::vector<int>& next) {
   const std::array<bool, 4> inside = {lattice.at(i, j) > lattice.level, lattice.at(i + 1, j) > lattice.level,
                                       lattice.at(i + 1, j + 1) > lattice.level, lattice.at(i, j + 1) > lattice.level};
@@ -176,7 +176,7 @@ std::vector<PointMm> largest_contour(const RigLight& light, double level) {
   return largest;
 }
 
-// The part of a closed, clockwise contour above a height, from one crossing over the highest point to the other.
+// Returns the part of a closed, clockwise contour above a height, from the left crossing over the top to the right one.
 std::vector<PointMm> cut_open(const std::vector<PointMm>& closed, double height) {
   const auto n = static_cast<int>(closed.size());
   const auto higher = [](PointMm a, PointMm b) { return a.y < b.y; };
@@ -249,7 +249,7 @@ void solve_normal_equations(std::vector<double>& a, std::vector<PointMm>& b) {
 std::vector<PointMm> fit_at(const std::vector<PointMm>& line, const std::vector<double>& s,
                             const std::vector<double>& knots, int points) {
   std::vector<double> normal(static_cast<std::size_t>(points) * points, 0.0);
-  // A small ridge term keeps the system solvable if a control point has hardly any samples.
+  // A small ridge term keeps the system solvable if a control point has few samples or none.
   for (int k = 0; k < points; ++k) normal[k * points + k] = 1e-9;
   std::vector<PointMm> right(points);
   for (std::size_t m = 0; m < line.size(); ++m) {
@@ -264,8 +264,8 @@ std::vector<PointMm> fit_at(const std::vector<PointMm>& line, const std::vector<
   return right;
 }
 
-// Least squares over arc length, then a few rounds in which every sample's parameter moves towards the nearest point of
-// the spline (Hoschek's intrinsic parametrisation): at a pointed tip parameters must advance faster.
+// Fits a spline by least squares over arc length, then refits after moving every sample's parameter towards its nearest
+// point of the spline (Hoschek's intrinsic parametrisation): at a pointed tip parameters must advance faster.
 std::vector<PointMm> fit_spline(const std::vector<PointMm>& line, int points) {
   const std::vector<double> knots = uniform_knots(points);
   std::vector<double> s(line.size());

@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-inline constexpr int kOutlinePoints = 8;  ///< control points
+inline constexpr int kOutlinePoints = 8;  ///< control points of an outline
 
 /// A point in millimetres: x from the candle's axis, y up from its upper rim.
 struct PointMm {
@@ -24,7 +24,7 @@ struct FlameOutline {
   bool found = false;
   std::vector<PointMm> contour;  ///< the largest closed contour, cut at the base: from the base's left over the tip to
                                  ///< the base's right, about evenly spaced
-  std::vector<PointMm> control_points;  ///< of an open, clamped, uniform cubic B-spline along it, least squares
+  std::vector<PointMm> control_points;  ///< of the open, clamped, uniform cubic B-spline fitted to the contour
   PointMm base;                         ///< midpoint of the contour's ends
   PointMm tip;                          ///< mean of the 2 % of the contour farthest from the base
   double height = 0;                    ///< height of the tip above the base, mm
@@ -35,7 +35,7 @@ struct FlameOutline {
 
 /// Extracts the outline from a frame's light.
 ///
-/// Precondition: light.soot has columns × rows entries, each of at least 4.
+/// Precondition: light.soot has columns × rows entries; columns and rows are at least 4.
 FlameOutline flame_outline(const RigLight& light);
 
 namespace flow {

@@ -61,7 +61,7 @@ void centre_velocity(const FlowGrid& grid, const Plane& u, const Plane& v, float
   copy_rim(grid, y);
 }
 
-// to = mu · from + nu · to + rate · scale · L(from), over rows of elements of one float or of four.
+// Sets to = mu · from + nu · to + rate · scale · L(from), where L sums flux times difference over the four neighbours.
 template <class T>
 void stage(const FlowGrid& grid, const Diffusion& d, const Plane& scale, float mu, float nu, T rate, const T* from,
            T* to) {
@@ -106,11 +106,11 @@ constexpr float kMaxSoot = 1.2F;
 constexpr float kStoichiometric = 0.08F;         // mixture fraction of stoichiometric combustion
 constexpr float kHeat = 1700 / 0.08;             // K per unit of fuel burnt: 1700 K at stoichiometry
 constexpr float kReactionRate = 2000.0F;         // 1/s at the full rate
-constexpr float kIgnitionLow = 900.0F;           // K: no reaction below; soot forms and burns from 1000 K on
+constexpr float kIgnitionLow = 900.0F;           // K: no reaction below; soot burns from 1000 K, forms from 1250 K
 constexpr float kIgnitionWidth = 400.0F;         // K: width of the rise to the full rate
-constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated
+constexpr float kSootRate = 60, kBurnout = 400;  // 1/s, calibrated: maximum rates of formation and burnout
 
-// Smooth step from 0 at a to 1 at a + width.
+// Returns a smooth step: 0 up to a, 1 from a + width.
 float smoothstep(float x, float a, float width) {
   const float t = std::clamp((x - a) / width, 0.0F, 1.0F);
   return t * t * (3.0F - 2.0F * t);
@@ -147,7 +147,7 @@ void sweep(const PressureLevel& level, float weight, const Plane& from, Plane& t
   }
 }
 
-// Dot product by eight running sums, each over its own columns: a fixed order that can be vectorised.
+// Returns the dot product, by eight running sums, each over its own columns: a fixed order that can be vectorised.
 double dot(const FlowGrid& grid, const Plane& a, const Plane& b) {
   double total = 0;
   for (int j = 0; j < grid.ny; ++j) {
@@ -172,7 +172,7 @@ void add_scaled(const FlowGrid& grid, Plane& to, float factor, const Plane& what
   }
 }
 
-// direction = z + factor · direction
+// Sets direction = z + factor · direction.
 void new_direction(const FlowGrid& grid, Plane& direction, float factor, const Plane& z) {
   for (int j = 0; j < grid.ny; ++j) {
     float* __restrict out = direction.data() + grid.at(0, j);
@@ -181,7 +181,7 @@ void new_direction(const FlowGrid& grid, Plane& direction, float factor, const P
   }
 }
 
-// out = A x, or out = b − A x if a right side is given.
+// Sets `to` to A · from, or with kResidual to b − A · from.
 template <bool kResidual>
 void apply(const PressureLevel& level, const Plane& from, Plane& to) {
   const FlowGrid& grid = level.grid;

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a step of the flow: its grid, advection and diffusion, combustion, pressure.
+// Numerical parts of a step of the flow: grid, advection, diffusion, combustion, pressure.
 //
 // Sources: F. Harlow & J. Welch, Phys. Fluids 8 (1965) 2182, for the grid of markers and cells: scalars at cell
 // centres, velocity on cell faces, in one common padded layout. J. Stam, Stable Fluids (SIGGRAPH 1999), for advection,
@@ -39,16 +39,16 @@ struct FlowGrid {
 using Plane = std::vector<float>;
 using ScalarPlane = std::vector<Float4>;
 
-/// Computes, for each cell, the displacement in cells of the parcel that ends the step at its centre. The border holds
-/// copies of the rim. `u`, `v` in metres per second, `step` in seconds; displacements are clamped to a quarter of the
-/// grid's shorter side.
+/// Computes for each cell the displacement, in cells, of the parcel that reaches the cell's centre at the end of the
+/// step; the border gets copies of the rim. `u`, `v` in m/s, `step` in seconds. Each component is clamped to a quarter
+/// of the grid's shorter side.
 void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Plane& way_x, Plane& way_y,
            Plane& scratch_x, Plane& scratch_y);
 
-/// Advects the cells' scalars. The border of `from` is the inflow.
+/// Advects the cells' scalars. The border of `from` states the scalars of inflowing air.
 void advect(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const ScalarPlane& from, ScalarPlane& to);
 
-/// Advects the velocities. Inflow has the velocity of the rim.
+/// Advect the velocities. Inflowing air has the velocity of the rim.
 void advect_u(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to);
 void advect_v(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to);
 
@@ -56,29 +56,29 @@ void advect_v(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, cons
 struct Diffusion {
   int columns = 0;
   int rows = 0;
-  const float* flux_x = nullptr;  ///< at element (i, j): between it and its left neighbour; 0 is a wall
-  const float* flux_y = nullptr;  ///< at element (i, j): between it and its lower neighbour
+  const float* flux_x = nullptr;  ///< between element (i, j) and its left neighbour; 0: wall
+  const float* flux_y = nullptr;  ///< between element (i, j) and its lower neighbour; 0: wall
 };
 
-/// Returns the number of stages that keep a step stable when `strength` is the largest step × scale × flux of a face:
-/// an odd number of at least 3 (even numbers damp worse).
+/// Returns the number of stages that keep a step stable: odd, as even numbers damp worse, and at least 3. `strength`:
+/// largest product of step, scale and flux of a face.
 int rkl1_stages(float strength);
 
-/// Makes one step in place. `scale` includes the step's length; `scratch` is as large as `values` and its border must
-/// hold finite numbers.
+/// Makes one step of diffusion in place. `scale` includes the step's length; `scratch` is as large as `values` and its
+/// border must hold finite numbers.
 void diffuse(const FlowGrid& grid, const Diffusion& diffusion, const Plane& scale, int stages, Plane& values,
              Plane& scratch);
 
-/// Makes one step for the scalars of cells; those where `lanes` is 0 stay unchanged.
+/// Makes one step in place for the scalars of cells. Scalars whose component of `lanes` is 0 stay unchanged.
 void diffuse(const FlowGrid& grid, const Diffusion& diffusion, const Plane& scale, int stages, Float4 lanes,
              ScalarPlane& values, ScalarPlane& scratch);
 
-/// One-step combustion of a mixture fraction, soot, and the light of both.
+/// Combustion: a one-step reaction in terms of mixture fraction, formation and burnout of soot, light.
 struct Combustion {
   explicit Combustion(float step);
 
   /// Burns fuel, forms and burns soot in all hot cells. Adds the fuel burnt per second to `blue`, if given.
-  /// Returns the volume of cold fuel burnt, summed over cells.
+  /// Returns the volume of cold fuel burnt, in cells.
   double burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const;
 
   /// Adds the glow of hot soot to `light`.
@@ -98,7 +98,7 @@ struct PressureSolve {
   float residual = 0;  ///< root mean square over cells, in the unit of the right side
 };
 
-/// The equation on one of the grids, with its coefficients.
+/// The pressure equation on one grid of the multigrid: coefficients, right side, solution `x`, scratch `other`.
 struct PressureLevel {
   FlowGrid grid;
   Plane beta_x, beta_y, diagonal, inverse_diagonal, right_side, x, other;
@@ -113,7 +113,7 @@ class PressureSolver {
   explicit PressureSolver(const FlowGrid& grid);
 
   /// Face coefficients, to be set before prepare(): zero on closed faces. Outside the left, right and upper rim φ is 0;
-  /// a lower rim of zeros is a wall.
+  /// zeros on the lower rim make it a wall.
   Plane& beta_x() { return levels_.front().beta_x; }
   Plane& beta_y() { return levels_.front().beta_y; }
 

@@ -71,7 +71,7 @@ constexpr int kNoiseValues = 1 << 14;
 constexpr std::array<float, 3> kSootColour = {1.0F, 0.56F, 0.21F};
 constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
 constexpr float kBlueGain = 0.013F;  // exposure per 1/s of fuel burnt
-constexpr float kBlueVeil = 5.0F;    // attenuation of the blue by soot
+constexpr float kBlueVeil = 5.0F;    // attenuation of the blue light: by 1 / (1 + kBlueVeil · soot light)
 constexpr double kBlueFullMm = 4;    // height above the rim up to which blue is full: a candle is blue at its base
 constexpr double kBlueGoneMm = 16;   // height above which there is no blue: a planar flow has more than a camera sees
 constexpr double kGlowReachMm = 2.5;
@@ -152,7 +152,7 @@ void VirtualCamera::set_places(const RigLight& light) {
   mixed_blue_.resize(light.columns);
 }
 
-// Adds light scattered in the lens: three running means approximate a Gaussian.
+// Sets soot_ to the soot's light plus its scatter in the lens: three running means approximate a Gaussian.
 void VirtualCamera::scatter(const RigLight& light) {
   soot_ = light.soot;
   if (options_.glow <= 0) return;

@@ -17,14 +17,14 @@ constexpr double kLongest = 86400;     // longest wind, s
 constexpr double kFadeSeconds = 0.12;  // rise and decay time of a blow
 constexpr double kBlowOutSpeed = 3;    // speed of a blow-out, m/s
 constexpr double kBlowOutSeconds = 0.3;
-constexpr double kBlowOutRamp = 0.03;  // rise and decay time of a blow-out, s
-constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that only the puff extinguishes the flame
+constexpr double kBlowOutRamp = 0.03;  // rise and decay time of a puff or blow-out, s
+constexpr double kQuietBefore = 0.5;   // s of calm before a puff, so that no other wind extinguishes the flame
 constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame survives
-constexpr double kWeakestPuff = 1.2;   // m/s: a candle survives it
+constexpr double kWeakestPuff = 1.2;   // speed of the weakest puff, m/s: a candle survives it
 constexpr double kStrongestPuff = 4;
 constexpr double kShortestPuff = 0.05;  // duration of the shortest puff, s
 constexpr double kLongestPuff = 0.6;
-constexpr double kClosestPuffs = 2;  // least interval between puffs, s
+constexpr double kClosestPuffs = 2;  // minimum of the option puff_every, s
 
 Result<void> check(const WindSignalOptions& o, double seconds) {
   return flow::check_ranges("wind", {
@@ -83,8 +83,8 @@ std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
   return wind;
 }
 
-// Draughts of a closed room, independent of the options for gusts. A flame's brightness then varies by 0.6 to 1.6 %
-// over ten seconds (mean of eight: 1.0 %). With a third of these draughts a capture mistakes the flame for a lamp.
+// Returns the options for draughts of a closed room; of `o` only the seed is used. A flame's brightness then varies by
+// 0.6 to 1.6 % over ten seconds (mean of eight: 1.0 %). With a third of these draughts a capture takes it for a lamp.
 WindSignalOptions draughts(const WindSignalOptions& o) {
   return {
       .most = 0.05, .noise = 0.015, .bandwidth_hz = 1, .gust = 0, .rest_share = 0, .both_sides = true, .seed = o.seed};
@@ -102,7 +102,7 @@ std::vector<double> air(const WindSignalOptions& o, std::size_t count) {
   return {};
 }
 
-// A puff, with calm from kQuietBefore before it until kQuietAfter after the candle is relit.
+// A puff. The wind is calm from kQuietBefore before the puff until kQuietAfter after the candle is relit.
 struct Puff {
   double at = 0;
   double speed = kBlowOutSpeed;
@@ -175,11 +175,11 @@ class Resonance {
   double a1_ = 0, a2_ = 0, gain_ = 0, y1_ = 0, y2_ = 0;
 };
 
-// Generates occasional sounds other than wind, of about unit level, with silence between: a few syllables of a voice, a
-// knock or two on the table.
+// Generates occasional sounds other than wind, of about unit level, with silence between: syllables of a voice, or a
+// few knocks on the table.
 class OtherSounds {
  public:
-  /// `a_second`: mean number of sounds per second.
+  /// `a_second`: reciprocal of the mean pause between sounds, 1/s; 0: no sounds.
   OtherSounds(double rate_hz, double a_second, std::uint64_t seed)
       : rate_hz_(rate_hz), a_second_(a_second), random_(seed, 3) {
     wait();
@@ -247,7 +247,7 @@ class OtherSounds {
   double a_second_;
   RandomNumbers random_;
   std::array<Resonance, 3> resonances_;
-  std::int64_t gap_ = 0;    // samples until the next sound
+  std::int64_t gap_ = 0;    // samples until the next sound begins
   std::int64_t place_ = 0;  // position in the sound, samples
   std::int64_t length_ = 0;
   bool is_voice_ = false;

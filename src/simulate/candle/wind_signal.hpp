@@ -12,8 +12,8 @@
 
 namespace wisp::flow {
 
-/// Coloured noise: a Butterworth low-pass of order 2 by the bilinear transform, whose output has the power of its white
-/// input.
+/// Filter that colours white noise: a Butterworth low-pass of order 2 by the bilinear transform, scaled so that the
+/// output has the power of the white input.
 class LowPass {
  public:
   /// Precondition: 0 < corner_hz < rate_hz / 2.

@@ -18,11 +18,11 @@ namespace {
 using flow::RandomNumbers;
 
 constexpr double kMaxRows = 2147483648.0;
-constexpr double kMaxGust = 30;            // m/s
-constexpr double kCloneDifference = 0.05;  // deviation of clones' starts: rad, m/s; 10 times as many rad/s
-constexpr double kLeadSeconds = 0.5;       // from the start to the gust's onset, ± 20 %
+constexpr double kMaxGust = 30;            // m/s, of each component of a measured wind
+constexpr double kCloneDifference = 0.05;  // standard deviation of a clone's start: rad, m/s; of its spin 0.5 rad/s
+constexpr double kLeadSeconds = 0.5;       // from the start of a fall to the onset of its gust, ± 20 %
 
-// Purposes of random streams.
+// Random streams, one per purpose.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
 
 Result<void> check(const LeafDropsOptions& o, double episodes) {
@@ -94,7 +94,7 @@ Recording empty_recording(const LeafDropsOptions& o, std::size_t episodes) {
   return recording;
 }
 
-// Writes a fall into its rows of the recording.
+// Writes a fall into the rows of its episode in the recording.
 class EpisodeWriter {
  public:
   EpisodeWriter(Recording& recording, std::size_t episode, std::size_t rows)
@@ -139,7 +139,7 @@ Result<void> record(LeafFlight& flight, const LeafWind& wind, const LeafDropsOpt
   return {};
 }
 
-// Simulates from a random start until the recording begins.
+// Returns a flight from a random start, advanced by settle_seconds, to the beginning of the recording.
 Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std::uint64_t drop) {
   RandomNumbers random(o.seed, (kStart << 32) + drop);
   auto flight = LeafFlight::begin(o.leaf, wind, random_start(random));
@@ -191,7 +191,7 @@ Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work
   return {};
 }
 
-// Returns a gust like those of a train, but with its onset after about kLeadSeconds and in any direction.
+// Returns a gust like those of LeafWind::gusty(), but with its onset after about kLeadSeconds and in any direction.
 Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   const std::uint64_t seed = flow::random_word(o.drops.seed + 1, kWindSeed, index);
   Gust gust = LeafWind::gusty(seed, 2 * LeafWind::kRestSeconds).gusts().front();
@@ -208,7 +208,7 @@ Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   return gust;
 }
 
-// Simulates all clones of one gust, with and without it.
+// Simulates the falls of all clones of one gust, each with the gust and without.
 Result<void> fall_in_pairs(const LeafPairsOptions& o, std::size_t index, LeafPairs& pairs) {
   const LeafDropsOptions& d = o.drops;
   const LeafWind calm, windy = LeafWind::of_gusts({one_gust(o, index)});

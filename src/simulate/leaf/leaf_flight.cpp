@@ -17,7 +17,7 @@ constexpr double kGustSeconds = 0.3;   // duration of a typical gust; each is 0.
 constexpr double kEdgeSeconds = 0.06;  // rise and decay time of a gust: a jump would have no derivative
 constexpr double kTravelSpeed = 8;     // m/s: travel speed of a gust's front
 
-// Height and slope of a gust: 0 outside, 1 between the edges, smooth steps at both.
+// A gust's share of its maximum velocity (0 outside, 1 between the edges, smooth between) and its slope, 1/s.
 struct Bump {
   double height = 0;
   double slope = 0;
@@ -36,7 +36,7 @@ Vec towards(double degrees) {
   return {std::cos(radians), std::sin(radians), 0};
 }
 
-// Catmull-Rom cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
+// Value and slope of a Catmull-Rom cubic between the second (0) and third (1) of four rows; the slope is continuous.
 struct Cubic {
   double value;
   double slope;  // slope per row
@@ -68,7 +68,7 @@ WindSample sample_of(const MeasuredWind& track, double seconds) {
 using std::numbers::pi;
 
 // Lamb's integrals for the long and the short axis of an ellipsoid, divided by its thickness, in the limit of zero
-// thickness. With λ = b² tan²θ they become integrals of smooth functions over a quarter of their period, where
+// thickness. With λ = b² tan²θ they become integrals of smooth, even functions of θ over half of their period, where
 // equidistant sums converge faster than any power of the step.
 struct LambIntegrals {
   double long_axis = 0;
@@ -193,10 +193,10 @@ std::array<double, 3> leaf_normal(const LeafState& state) { return leaf::rotatio
 namespace wisp::leaf {
 namespace {
 
-// Force of the relative air flow, in body axes. `v` is the leaf's velocity relative to the air.
+// Returns the force of the relative air flow, in body axes. `v` is the leaf's velocity relative to the air.
 Vec air_force(const Constants& c, const Vec& v, double speed, const Vec& spin) {
   const double along2 = v[0] * v[0] + v[1] * v[1], normal2 = v[2] * v[2];
-  // The small number avoids 0 / 0 at rest, where there is no force.
+  // Adding 1e-12 avoids 0 / 0 at rest, where there is no force.
   const double over = 1 / (speed + 1e-12);
   const double lift = c.lift * v[2] * over;
   const double drag = c.drag * speed + c.drag_normal * normal2 * over;
@@ -265,13 +265,13 @@ LeafState rate_of(const Constants& c, const LeafState& s, const WindSample& wind
 namespace wisp {
 namespace {
 
-// Wind, m/s, above which steps shrink in inverse proportion: drag damps motion at a rate proportional to the speed of
-// the air. At 2.5 m/s, steps of 1/60 s are unstable.
+// Wind, m/s, above which steps shrink in inverse proportion to it: drag damps motion at a rate proportional to the
+// speed of the air. At 2.5 m/s, steps of 1/60 s are unstable.
 constexpr double kFastestForWholeSteps = 1.6;
 
 constexpr double kStableRates = 1.2;  // maximum of step · fastest_rate(): above about 1.5, steps diverge
 
-// Rate of the fastest motions, 1/s: rotation across the width, and drag, both at the speed of a leaf that falls flat.
+// Returns the rate of the fastest motions, 1/s: rotation across the width plus drag, at the speed of a flat fall.
 double fastest_rate(const Leaf& leaf) {
   const double drag = leaf.air_density / leaf.areal_density, speed = std::sqrt(2 * leaf.gravity / drag);
   return speed * (1 / leaf.width + 1.5 * drag);
@@ -287,7 +287,7 @@ bool finite(const LeafState& s) {
 
 double squared_length(const leaf::Quaternion& q) { return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]; }
 
-// state + h · rate.
+// Returns state + h · rate.
 LeafState moved(const LeafState& s, double h, const LeafState& rate) {
   LeafState out{{}, s.position + h * rate.position, s.velocity + h * rate.velocity, s.spin + h * rate.spin};
   for (std::size_t k = 0; k < 4; ++k) out.attitude[k] = s.attitude[k] + h * rate.attitude[k];
@@ -334,7 +334,7 @@ void LeafFlight::step(double h) {
 }
 
 Result<void> LeafFlight::advance(double seconds) {
-  // The tolerance prevents rounding from adding a step.
+  // The tolerance 1e-9 prevents rounding from adding a step.
   const double steps = std::max(1.0, std::ceil(seconds / longest_step_ - 1e-9));
   for (int k = 0; k < static_cast<int>(steps); ++k) step(seconds / steps);
   if (!finite(state_)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds_) + " s"};

@@ -69,10 +69,10 @@ inline Quaternion normalised(const Quaternion& q) {
 
 namespace wisp {
 
-/// Errors: a field outside its range.
+/// Checks the leaf's fields. Errors: a field outside its range.
 Result<void> check(const Leaf& leaf);
 
-/// Pose and motion of the leaf. Body axes: x along the midrib, y across, z the leaf's upper side.
+/// Pose and motion of the leaf. Body axes: x along the midrib, y across it, z normal to the leaf's upper side.
 struct LeafState {
   std::array<double, 4> attitude{1, 0, 0, 0};  ///< unit quaternion, w first, leaf to world
   std::array<double, 3> position{};            ///< metres, z up
@@ -91,7 +91,7 @@ struct LeafInertia {
 /// Precondition: check(leaf) succeeds.
 LeafInertia leaf_inertia(const Leaf& leaf);
 
-/// Returns the energy of leaf and added mass, kinetic and potential above z = 0, joules. Never grows in still air.
+/// Returns the energy of leaf and added mass, kinetic and potential above z = 0, joules; in still air it never grows.
 double leaf_energy(const Leaf& leaf, const LeafState& state);
 
 /// Returns the velocity in world axes, m/s.
@@ -103,10 +103,10 @@ std::array<double, 3> leaf_normal(const LeafState& state);
 /// The wind at a leaf, in world axes.
 struct WindSample {
   std::array<double, 3> velocity{};  ///< m/s
-  std::array<double, 3> change{};    ///< m/s², along the leaf's path
+  std::array<double, 3> change{};    ///< rate of change at the moving leaf, m/s²
 };
 
-/// One gust of a train: its front passes the origin at `start`.
+/// One gust, whose front passes the origin at `start`.
 struct Gust {
   double start = 0;                  ///< seconds
   double seconds = 0;                ///< duration from start to end, edges included
@@ -118,15 +118,15 @@ struct Gust {
 /// The wind at any position and time.
 class LeafWind {
  public:
-  /// Creates a calm.
+  /// Creates still air.
   LeafWind() = default;
 
   static constexpr double kRestSeconds = 1.5;  ///< typical calm between gusts, seconds
 
-  /// Creates a train of random gusts for `seconds`, in random horizontal directions.
+  /// Creates a sequence of random gusts for `seconds`, each in a random horizontal direction.
   static LeafWind gusty(std::uint64_t seed, double seconds);
 
-  /// Creates a train of given gusts.
+  /// Creates the sum of given gusts.
   ///
   /// Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
   static LeafWind of_gusts(std::vector<Gust> gusts);
