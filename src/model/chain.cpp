@@ -83,7 +83,7 @@ Result<void> check_heights(const ChainSegments& segments) {
   return check_scales({segments.height_scale}, 1, "scale of heights");
 }
 
-// A bank normalises stored orientations once, when it is created; a norm far from 1 shows a damaged file.
+// Checks that stored quaternions have norm 1 up to rounding. A larger deviation shows a damaged file.
 Result<void> check_orientations(const ChainSegments& segments) {
   for (std::size_t row = 0; 7 * row < segments.rows.size(); ++row) {
     double square = 0;

@@ -56,8 +56,8 @@ struct ArxOrders {
   friend bool operator==(const ArxOrders&, const ArxOrders&) = default;
 };
 
-/// Recorded residuals, replayed instead of Gaussian shocks: rows in time order, all outputs of a row together, which
-/// preserves their cross-correlation, autocorrelation and tails. An instance replays consecutive rows while its input
+/// Recorded residuals, replayed instead of Gaussian shocks: stretches of rows without a gap, all outputs of a row
+/// together, which preserves cross-correlation, autocorrelation and tails. An instance replays rows while its input
 /// history resembles the recorded one, and otherwise jumps to a row with a nearer history. The distance of two
 /// histories is the mean absolute difference over a few lags. A jump does not move the outputs discontinuously, since
 /// the dynamics filter residuals. Without a driving input, an instance jumps every 0.4 to 1.2 s to a row with similar
@@ -124,8 +124,8 @@ Result<void> check(const ArxModel& model);
 std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
 
 /// Returns the largest absolute eigenvalue of the companion matrix of A(q), with coefficients rounded to single
-/// precision as `run/` uses them: below 1 the model is stable. 0 for a model without feedback. Independent blocks of
-/// outputs are detected and solved separately.
+/// precision as `run/` uses them: below 1 the model is stable. Returns 0 for a model without feedback. Blocks of
+/// outputs that do not feed each other are solved separately.
 double spectral_radius(const ArxModel& model);
 
 }  // namespace wisp

@@ -1,7 +1,8 @@
 #pragma once
 // Record of a model's making: source recordings, recipe, scales, and quality.
 //
-// Behaviour may depend on the typed fields. `recipe` and `figures` are for people; only kCandleFigures are read.
+// Programs may depend on the typed fields. `recipe` and `figures` are for people; of them, programs read only the
+// figures that kCandleFigures names.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace wisp {
 
-/// Whether a model may be used, with the reason.
+/// Verdict on whether a model may be used, with the reason.
 struct Usable {
   bool verdict = false;
   std::string reason;
@@ -53,7 +54,7 @@ struct MotionTraining {
   bool operator==(const MotionTraining&) const = default;
 };
 
-/// Origin of a rule or a duration.
+/// Origin of the rule of extinction.
 enum class Origin : std::uint8_t {
   kDefault,  ///< no data to learn it from
   kGiven,    ///< set by the recipe
@@ -82,7 +83,7 @@ struct Preparation {
   bool operator==(const Preparation&) const = default;
 };
 
-/// Names of the figures of a flame's own candle, if the film showed one: its width in mean flame heights, and its red,
+/// Names of the figures that describe the filmed candle, if the film shows it: width in mean flame heights, and red,
 /// green and blue, 0 to 255, as lit in the film.
 inline constexpr std::array<const char*, 4> kCandleFigures{"candle.width", "candle.red", "candle.green", "candle.blue"};
 
@@ -95,11 +96,11 @@ struct Training {
   Usable usable;
   std::vector<InputTraining> inputs;  ///< one per input of the model; empty: the model was not learned from recordings
   std::vector<double> residual_sd;    ///< one-step residual standard deviation per output; chains: empty
-  std::optional<bool> underside;      ///< outlines: whether they include the flame's underside; none: mixed
+  std::optional<bool> underside;      ///< whether outlines include the flame's underside; none: unknown or mixed
   Preparation preparation{};
   bool own_levels = false;                       ///< every recording was centred on its own means
-  std::optional<MotionTraining> motion;          ///< chains: cutting of motion
-  std::optional<ExtinctionTraining> extinction;  ///< present if there is a rule
+  std::optional<MotionTraining> motion;          ///< for chains
+  std::optional<ExtinctionTraining> extinction;  ///< present if the model has a rule of extinction
   std::int64_t multiply_adds_per_frame = 0;      ///< number of nonzero coefficients; 0: not counted
   std::int64_t operations_per_frame = 0;         ///< all arithmetic; 0: not counted
 
