@@ -6,7 +6,8 @@
 namespace wisp {
 namespace {
 
-// Converts cumulative probabilities to 32-bit words. The last mode of positive probability takes the rounding error.
+// Converts probabilities to thresholds: cumulative probabilities as 32-bit words. The last mode of positive probability
+// has kAnyWord, whatever the rounding of the sum.
 void fill_thresholds(std::span<const double> probabilities, std::uint32_t* thresholds) {
   double sum = 0;
   std::size_t last = 0;
