@@ -24,7 +24,7 @@ struct ModeProgram {
   std::span<std::uint32_t> thresholds;
 };
 
-/// Lays the program out and, unless the arena measures, fills it.
+/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ModeProgram make_mode_program(const SwitchedArxModel& switched, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`.
