@@ -1,8 +1,8 @@
 #pragma once
 // The rule of extinction (wisp/model/extinction.hpp), applied block by block.
 //
-// An instance has a damage, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes
-// three operations, and one to read a scalar wind; in a recorded event, more for each component and displayed output.
+// The state of an instance: damage, 0 … 1; whether it is lit, 1 or 0; and the size at which it is drawn, 0 … 1. A step
+// takes three operations, and one to read a scalar wind; in an event, more for each component and displayed output.
 
 #include <cstdint>
 #include <span>
