@@ -1,6 +1,5 @@
 #pragma once
-// All headers for playing a model: reading a model, creating a bank, setting its wind, also from a microphone, and
-// reading its outputs.
+// All headers for playing a model: read it, create a bank, set its wind, also from a microphone, and read its outputs.
 //
 //   const auto model = wisp::read_model("flame.wisp");
 //   auto bank = wisp::Bank::create(*model, {.capacity = 100});

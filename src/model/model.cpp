@@ -9,8 +9,7 @@ namespace {
 
 constexpr int kPowers = 3;  // regressors of a wind's magnitude, and of each component: size, root, square
 
-// Maps outputs of the body's dynamics to those of the plane model. The body's outputs are the symmetric components, the
-// vectors' x components and their z components. A z component has the row of coefficients of its x component.
+// Outputs of the body's dynamics: symmetric components, vectors' x, vectors' z. x and z have equal coefficients.
 struct Places {
   int symmetric;
   int vectors;

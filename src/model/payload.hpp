@@ -32,8 +32,7 @@ Result<Model> read_payload(std::span<const std::byte> payload);
 wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBuilder& builder,
                                                   const ChainModel& chain);
 
-/// Reads a chain. Errors: an unknown kind of motion; too few or too many successors, rows or rates; a drift not of 3
-/// axes.
+/// Reads a chain. Errors: an unknown kind of motion; too few or many successors, rows or rates; a drift not of 3 axes.
 Result<ChainModel> read_chain(const file::Chain& stored);
 
 }  // namespace wisp

@@ -53,8 +53,7 @@ struct Extinction {
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
 
-/// Return the extinctions and the re-ignitions to play: recorded ones, at the rate of the model, or if the rule has
-/// none, those of a simulated candle, converted to `rate_hz`.
+/// Return the rule's recorded extinctions and re-ignitions or, if it has none, a simulated candle's, at `rate_hz`.
 FlameEvents dying_of(const Extinction& rule, double rate_hz);
 FlameEvents catching_of(const Extinction& rule, double rate_hz);
 

@@ -1,8 +1,7 @@
 #pragma once
 // Record of a model's making: source recordings, recipe, scales, and quality.
 //
-// Programs may depend on the typed fields. `recipe` and `figures` are for people; of them, programs read only the
-// figures that kCandleFigures names.
+// Programs may depend on the typed fields. Of `recipe` and `figures`, for people, they read only kCandleFigures.
 
 #include <array>
 #include <cstdint>

@@ -28,8 +28,7 @@ class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
 
-/// Identifies one instance of a bank. The id of an ended instance stays invalid: the next instance in its slot has
-/// another generation.
+/// Identifies one instance of a bank. The next instance in the slot of an ended one has another generation.
 struct InstanceId {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;  ///< 0 names no instance
@@ -76,9 +75,9 @@ struct Crew {
 
 /// A bank of instances of one model.
 ///
-/// Precondition of functions for all instances: a span has room for slots() rows or more; of those for one instance: it
-/// has exactly the stated size. Checked in every build: a call that violates this is reported (wisp/base/result.hpp)
-/// and does nothing. Precondition of all functions but move and destruction: the bank has not been moved from.
+/// Precondition: a span for all slots has room for slots() rows or more, any other span exactly the stated size.
+/// Checked in every build: a call that violates this is reported (wisp/base/result.hpp) and does nothing. Precondition
+/// of all functions but move and destruction: the bank has not been moved from.
 class Bank {
  public:
   struct State;  ///< private to run/
@@ -207,8 +206,7 @@ class Bank {
   /// Returns the number of bytes that save() writes for a bank with this model and capacity.
   std::size_t save_bytes() const;
 
-  /// Writes the whole state of the bank, settings included, so that a bank restored from it continues with the same
-  /// bits.
+  /// Writes the state of the bank, settings included: a bank restored from it continues with the same bits.
   ///
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;

@@ -20,9 +20,8 @@ inline constexpr std::size_t kRingNumbers = 6;
 /// Number of values per vertex: position and normal.
 inline constexpr std::size_t kVertexNumbers = 6;
 
-/// Writes the vertices (kVertexNumbers) of the surface of two or more rings: `segments` = 3 to 256 vertices per ring,
-/// each `stride` numbers after the one before. Returns false, and writes nothing, for an argument out of range or if
-/// there is room for fewer than rings × segments × stride numbers.
+/// Writes the vertices of the surface of two or more rings: 3 to 256 (`segments`) per ring, `stride` numbers apart.
+/// Returns false, and writes nothing, for an argument out of range or room below rings × segments × stride numbers.
 bool ring_mesh(std::span<const float> rings, int segments, std::span<float> numbers,
                std::size_t stride = kVertexNumbers);
 

@@ -148,8 +148,7 @@ class LookupLanes {
     }
   }
 
-  // Returns whether a candidate is near the row after `end`, the block's last row, or will have been played recently
-  // when the block ends.
+  // Returns whether `row` is near the row after `end`, the block's last, or was played recently when the block ends.
   bool is_barred(std::uint32_t row, std::uint32_t end, std::span<const PlayedRows> played, std::uint32_t ahead) const {
     if (row + program_.beside > end && row <= end + 1 + program_.beside) return true;
     std::uint32_t room = program_.recent;

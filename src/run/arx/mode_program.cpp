@@ -6,8 +6,7 @@
 namespace wisp {
 namespace {
 
-// Converts probabilities to thresholds: cumulative probabilities as 32-bit words. The last mode of positive probability
-// has kAnyWord, whatever the rounding of the sum.
+// Converts probabilities to cumulative ones, as 32-bit words; kAnyWord from the last mode of positive probability on.
 void fill_thresholds(std::span<const double> probabilities, std::uint32_t* thresholds) {
   double sum = 0;
   std::size_t last = 0;

@@ -72,8 +72,8 @@ class ResampledLanes {
   /// Advances every block's input past by `samples`.
   void turn(int samples = 1) { past_.turn(samples); }
 
-  /// Records the driving input of a block in its past, from its regressors, [regressor][lane]. Called in every step,
-  /// with or without noise.
+  /// Records a block's driving input, given all regressors, [regressor][lane]; called in every step, even without
+  /// noise.
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
     for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {

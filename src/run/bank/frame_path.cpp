@@ -47,8 +47,7 @@ void Bank::State::take_inputs(int block, const LanesOf& lanes_of) {
   store(blowing<LiveNumbers>(extinction, lanes_of), wind.data() + block * kLanes);
 }
 
-// Sets a block's inputs from its rows of `all_rows`. Also writes lanes beyond the last slot; spawn() clears these
-// later.
+// Sets a block's inputs from its rows of `all_rows`. Also writes lanes beyond the last slot; spawn() clears them.
 void Bank::State::set_inputs(int block, const float* all_rows) {
   const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
   const int count = std::min(kLanes, rows - block * kLanes);
@@ -268,8 +267,7 @@ void Bank::State::play_event(int slot, const float* newest) {
   event[slot] = recorded == kEventEnds ? kNoEvent : next + 1.0f;
 }
 
-// Extinguishes an instance and stores its displayed shape, which is then drawn shrinking: the dynamics have not learned
-// such strong wind.
+// Extinguishes an instance and stores its shape, to be drawn shrinking: the dynamics have not learned such strong wind.
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   out_at[slot] = moment;
   lit[slot] = 1.0f;  // as it was in the step before

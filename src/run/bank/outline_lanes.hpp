@@ -41,14 +41,12 @@ struct PolylineProgram {
   std::span<PolylineRun> runs;
 };
 
-/// Lays out the program of `points` points at equal steps of the spline's parameter and, unless the arena measures,
-/// fills it.
+/// Compiles an outline for `points` points at equal steps of the spline's parameter, with arrays from the arena.
 ///
 /// Precondition: points >= 2.
 PolylineProgram make_polyline(const OutlineView& view, int points, Arena& arena);
 
-/// Calls show(point, values) for one coordinate (0 x, 1 y) of every point in order; `controls` is [control point][x,
-/// y][lane].
+/// Calls show(point, values) for one coordinate (0: x, 1: y) of every point; `controls`: [control point][x, y][lane].
 template <class N, class Show>
 inline void polyline_lanes(const PolylineProgram& program, int coordinate, const typename N::Real* controls,
                            const Show& show) {

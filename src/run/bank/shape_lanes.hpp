@@ -33,8 +33,7 @@ struct LevelView {
   float z = 0;
 };
 
-/// Takes the program's arrays from the arena and, unless the arena only measures, fills them. The program is empty for
-/// a model without a shape.
+/// Takes the program's arrays from the arena and, unless the arena only measures, fills them; none without a shape.
 ShapeProgram make_shape_program(const Model& model, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`; returns `before` if the program is empty.

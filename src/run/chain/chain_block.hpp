@@ -164,8 +164,7 @@ class ChainBlock {
  private:
   static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
 
-  // Finds the stored rows of the lanes. Row numbers are clamped, since a manipulated saved bank may exceed the last
-  // row.
+  // Finds the stored rows of the lanes. Row numbers of a manipulated saved bank may be too large, so they are clamped.
   void find_rows(const Reals<N>& at, ChainCourse<N>& course) const {
     typename N::Word own[kLanes];
     store(whole(smaller(at, number(segments_.steps))), own);

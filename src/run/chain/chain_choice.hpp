@@ -49,8 +49,8 @@ class ChainChoice {
     return static_cast<float>(width) * (1.0f / 4294967296.0f);
   }
 
-  /// Returns candidate k among the successors of a mode: the k-th in the list of the best-joining ones, or without such
-  /// lists a segment of the mode drawn by `words`.
+  /// Returns a candidate among a mode's segments: the k-th best-joining one or, without such lists, one drawn at
+  /// random.
   std::uint32_t candidate(const ChainProgram& program, std::uint32_t before, std::uint32_t mode, std::uint32_t k,
                           const ChainWords& words) const {
     if (program.breadth == 0) return any(program, mode, words.segment + k * 0x9E3779B9U);

@@ -109,8 +109,7 @@ class ChainJoining {
     lives_.note_segment(block, lane);
   }
 
-  // Draws the successors of the lanes' segments, and stores the joins to these successors. `turn`: rotation of the
-  // lanes' segments.
+  // Draws the successors of the lanes' segments, whose rotations are `turn`, and stores the joins to these successors.
   ChainAhead<Values> prepare(const Party& party, const Segments& segments, const ChainTurn<Values>& turn,
                              const Drawn& words) {
     const Segments next = draw_next(party, segments, words);

@@ -10,8 +10,7 @@
 // Inertialization, GDC 2018); recorded motion has little curvature. A segment fades towards its successor, so the
 // successor is drawn when the segment begins.
 //
-// The curve of each number is two parabolas, stored as differences from row to row: a step takes two additions a
-// number.
+// The curve of each number is two parabolas, stored as differences from row to row: a step takes two additions.
 
 #include <algorithm>
 #include <array>
@@ -57,8 +56,8 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// Returns the rotations of segments `next`, which follow segments `before` that are rotated by `turn`, and the gaps
-  /// at these joins.
+  /// Returns the rotations of segments `next` after segments `before` with rotations `turn`, and the gaps at these
+  /// joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);

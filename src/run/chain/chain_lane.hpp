@@ -189,8 +189,7 @@ class ChainMover {
     return {Real(0.0f), Real(0.0f), height_of(segment)};
   }
 
-  /// Places a segment's beginning at a position, rotated about z; half_cos, half_sin: cosine and sine of half the
-  /// angle.
+  /// Places a segment's start at a position, rotated about z; half_cos, half_sin: cosine and sine of half the angle.
   void place(Lane& lane, std::uint32_t segment, const Vector3<Real>& position, Real half_cos, Real half_sin) const {
     lane.segment = Real(static_cast<float>(segment));
     lane.row = Real(0.0f);
@@ -290,8 +289,7 @@ class ChainMover {
     return sum + dot(twist, twist) * spin_unit * spin_unit + Real(8.0f) * (Real(1.0f) - nearness);
   }
 
-  /// Returns the rotation about z that aligns a segment's beginning with a body. Stored units suffice, since a scale
-  /// does not change the angle.
+  /// Returns the rotation about z that aligns a segment's start with a body. Stored units suffice to find an angle.
   HalfTurn<Real> turn_to(std::uint32_t segment, const Body& body) const {
     if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
     if (program_.channels < 7) return turn_between(vector(rates_at(segment, false)), body.rates.velocity);

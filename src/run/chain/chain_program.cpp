@@ -55,9 +55,8 @@ double usual_step(const ChainProgram& program) {
   return program.position_scale * std::sqrt(sum / steps);
 }
 
-// Solves for the second differences a and b of the two halves, of m and n steps. The first difference begins at the
-// first slope + a/2, then grows m − 1 times by a and n times by b. The sum of all first differences and the last slope
-// are given.
+// Solves for the second differences a and b of the two halves, of m and n steps. The first difference begins at slope +
+// a/2, then grows m − 1 times by a and n times by b. The sum of all first differences and the last slope are given.
 ChainSpread spread_over(std::uint32_t steps) {
   const double m = first_half(steps), n = steps - m;
   const double way[] = {m * m / 2 + n * (m - 0.5), n * (n + 1) / 2}, slope[] = {m - 0.5, n + 0.5};

@@ -275,8 +275,7 @@ class ChainStepper : private ChainLives<N> {
       visit(*x, -most, most);
   }
 
-  // Clamps offsets before visiting them: after a manipulated bank was restored, they could grow beyond the range that
-  // restore() accepts.
+  // Clamps offsets: after restoring a manipulated bank they could grow beyond the range that restore() accepts.
   template <class Numbers, class Visit>
   static void visit_difference(Numbers& numbers, Visit visit) {
     numbers = Mover::bounded(numbers);

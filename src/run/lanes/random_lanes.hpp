@@ -62,8 +62,7 @@ inline void philox(const RandomKeys& keys, Pack<Part, kParts> (&words)[4]) {
       [&](auto i) { philox_part(keys, words[0].part[i], words[1].part[i], words[2].part[i], words[3].part[i]); });
 }
 
-/// Values that distinguish the lanes' random numbers: per lane the instance's stream and, from `born`, its age in
-/// steps.
+/// Values that distinguish the lanes' random numbers: the instance's stream, and its age in steps (step − born).
 struct LaneCounters {
   const std::uint64_t* stream;
   const std::uint64_t* born;  ///< the bank's step at which the instance was spawned or reset

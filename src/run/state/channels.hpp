@@ -79,8 +79,7 @@ struct OperatingPoint {
 /// Lays the channels out and, unless the arena measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
-/// Checks the channels' ranges and means. Errors: one too large or small for single precision, a reversed range, a mean
-/// of a vector's input that is not 0.
+/// Errors: a range or mean too large or small for single precision, a reversed range, a vector's input with a mean.
 Result<void> check_channels(const Model& model, const OperatingPoint& point);
 
 /// Hashes the channels, continuing from the hash `before`.

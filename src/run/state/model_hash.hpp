@@ -1,6 +1,5 @@
 #pragma once
-// Conversion of numbers to little-endian bytes on any machine, and hashes of these bytes, by which a saved bank
-// identifies its model.
+// Conversion of numbers to little-endian bytes, and hashes of these bytes, by which a saved bank identifies its model.
 
 #include <bit>
 #include <cstddef>
