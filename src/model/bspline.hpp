@@ -39,7 +39,7 @@ struct BasisWeights {
 /// Precondition: 0 <= s <= 1.
 BasisWeights basis(std::span<const double> knots, double s);
 
-/// Returns the first derivatives of the basis functions with respect to s. Weights sum to 0. Preconditions: as basis().
+/// Returns the derivatives of the basis functions with respect to s; they sum to 0. Preconditions: those of basis().
 BasisWeights basis_derivative(std::span<const double> knots, double s);
 
 }  // namespace wisp

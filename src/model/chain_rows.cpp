@@ -161,7 +161,7 @@ void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int
   }
 }
 
-// Returns the factors that best predict the rates of these segments from their rows.
+// Returns the least-squares factors from told_rate() to the rates of a chain.
 RateFactors factors_of(const ChainModel& chain) {
   std::array<double, 2> product{}, square{};
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));

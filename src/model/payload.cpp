@@ -258,7 +258,7 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   return model;
 }
 
-// Unknown values are read as kDefault.
+// Converts a stored origin; unknown values become kDefault.
 Origin read_origin(file::Origin origin) {
   return origin == file::Origin::Learned ? Origin::kLearned
          : origin == file::Origin::Given ? Origin::kGiven

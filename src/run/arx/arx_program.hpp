@@ -20,7 +20,7 @@ struct TapRun {
   std::uint32_t channel;    ///< outputs first, then regressors
   std::uint32_t first_lag;  ///< largest lag of the run
   std::uint32_t count;
-  std::uint32_t coefficient;  ///< index of the run's first coefficient, in taps
+  std::uint32_t coefficient;  ///< index of the run's first tap; ArxProgram::coefficients has `modes` numbers per tap
 };
 
 struct ArxProgram {
@@ -34,7 +34,7 @@ struct ArxProgram {
   std::span<std::uint32_t> twin;       ///< per output, number of taps if the next output has the same taps, else 0
   std::span<float> coefficients;       ///< taps × modes; those of A are negated: a step only adds
   std::span<float> constant;           ///< outputs × modes
-  std::span<std::uint32_t> shock;      ///< per shock, output whose standard normal number it scales
+  std::span<std::uint32_t> shock;      ///< per shock, index of the standard normal number (one per output) it scales
   std::span<std::uint32_t> shock_end;  ///< per output, one past its last shock
   std::span<float> shock_size;         ///< shocks × modes
   ResampledProgram resampled;          ///< residuals that replace Gaussian shocks; empty: Gaussian shocks
@@ -42,12 +42,12 @@ struct ArxProgram {
 
 /// A tap's or shock's coefficient in every mode, in channel units.
 struct ModeWeights {
-  std::uint32_t channel;  ///< of a tap as in TapRun; of a shock the output whose standard normal number it scales
+  std::uint32_t channel;  ///< for a tap as in TapRun; for a shock the index of the standard normal number it scales
   std::uint32_t lag;
   std::vector<float> of_mode;
 };
 
-/// A regression in channel units, before layout.
+/// A regression in channel units, from which the arrays of an ArxProgram are filled.
 struct Regression {
   std::vector<std::vector<ModeWeights>> taps;    ///< per output
   std::vector<std::vector<ModeWeights>> shocks;  ///< per output

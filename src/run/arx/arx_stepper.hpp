@@ -67,7 +67,7 @@ class ArxStepper : public ChannelHistory<N> {
   static constexpr int kGroup = Modes::kGroup;
   static constexpr bool kGroupsVary = false;
 
-  /// Computes the newest samples of kBlocks consecutive blocks (1 or kGroup); `moment` is that of the first. Each
+  /// Computes the newest samples of kBlocks consecutive blocks (1 or kGroup); `moment` is that of the first block. Each
   /// coefficient is read once for all blocks, and independent sums fill the processor's pipelines.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
@@ -193,7 +193,8 @@ class ArxStepper : public ChannelHistory<N> {
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
 
-  // Whether to compute two rows at once: only if registers hold both rows' sums and as many other values.
+  // Whether two outputs with equal taps are computed at once: only if registers hold both sums and as many other
+  // values.
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 
@@ -366,7 +367,7 @@ class ArxStepper : public ChannelHistory<N> {
   ResampledLanes<N> resampled_;
   TimeLanes<N> alone_;
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether any output uses it
-  std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
+  std::span<int> quiet_;            // [block][regressor]: number of last steps with 0 in all lanes, at most the depth
   std::span<float> shock_size_;     // shock sizes of the program times the scale of the noise
   bool noisy_ = false;
   bool own_shocks_;  // every output has exactly one shock, that of its own standard normal number

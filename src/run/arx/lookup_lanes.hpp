@@ -1,7 +1,7 @@
 #pragma once
-// Searches for the row to jump to from the end of the current block of rows, lane by lane: near in position and speed,
-// not played recently, preferably in a little-used part. Since a block's end is known at its beginning, the candidates
-// are compared a few per step, which bounds the cost of a step.
+// Searches for the row to jump to from the end of the current block of rows (played consecutively), lane by lane: a row
+// that is near in position and speed, not played recently, preferably in a little-used part. Since a block's end is
+// known at its beginning, a few candidates are compared per step, which bounds the cost of a step.
 //
 // Sources: A. Schödl, R. Szeliski, D. Salesin, I. Essa, "Video Textures", SIGGRAPH 2000; for the penalty of repeated
 // play, W. Li, X. Chen, P. Li, O. Sorkine-Hornung, B. Chen, "Example-Based Motion Synthesis via Generative Motion
@@ -40,7 +40,7 @@ class LookupLanes {
     forget_places(block, lane);
   }
 
-  /// Returns whether a lane has played its current block of rows to the end; `played`: rows played of it.
+  /// Returns whether a lane's current block of rows ends, of which it has played `played` rows.
   bool is_over(int block, int lane, std::uint32_t played) const { return played >= length(block, lane); }
 
   /// Compares this step's share of candidates. `played`: the rows played so far of the current block, then those of

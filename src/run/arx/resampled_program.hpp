@@ -45,7 +45,7 @@ struct LookupProgram {
 inline constexpr std::uint32_t kCandidates = 8;
 /// Number of best candidates among which a jump chooses at random.
 inline constexpr int kNearestRows = 3;
-/// Number of earlier blocks whose rows a jump avoids.
+/// Number of earlier runs of rows, each from one jump to the next, that a jump avoids.
 inline constexpr int kRecentBlocks = 3;
 
 /// A node of the tree: the half of its rows with smaller inputs at lags[`lag`] is on the left. `value` is in between.
@@ -64,7 +64,7 @@ struct Candidates {
 struct ResampledProgram {
   int outputs = 0;  ///< 0: no resampling
   int across = 0;   ///< for a body: the last `across` outputs are z components, the `across` before them x components
-  int sides = 1;    ///< 2: input of the opposite sign plays mirror images
+  int sides = 1;    ///< 2: `rows` also holds mirror images, which are played for input of the opposite sign
   int toward = -1;  ///< index of the driving regressor; −1: none
   float tolerance = 0;  ///< tolerated sum over lags of absolute input differences
   float margin = 0;     ///< distance from a node's value within which a search takes a random side

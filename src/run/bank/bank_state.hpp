@@ -146,17 +146,17 @@ struct Bank::State {
   std::span<float> previous_left;   // share before the last step
   std::span<float> offset;          // [block][moved][lane]: shown variables minus those of the event or the dynamics;
                                     // for an extinguished instance the shown variables themselves
-  std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
-  std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
+  std::span<std::uint64_t> lit_at;  // value of `steps` at the last relighting, or kNeverInSteps
+  std::span<std::uint64_t> out_at;  // value of `steps` at the last extinction, or kNeverInSteps
   std::span<std::uint8_t> by_hand;  // whether relight() or extinguish() acted since the last step() or advance()
 
   int living = 0;
   int rows = 0;         // one more than the highest slot in use
-  int lowest_free = 0;  // no slot below it is free
+  int lowest_free = 0;  // no slot below this one is free
   std::uint64_t spawned = 0;
   std::uint64_t steps = 0;   // steps of the bank
   std::uint64_t called = 0;  // value of `steps` before the last call of step() or advance()
-  float rest_area = 0;       // area of an outline at the operating point
+  float rest_area = 0;       // area of the outline at the operating point
   std::int64_t longest;      // longest time that advance() plays, nanoseconds
   std::int64_t passed = 0;   // nanoseconds since the last step
   LevelView view;            // view of a body

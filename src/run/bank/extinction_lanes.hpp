@@ -18,7 +18,7 @@ namespace wisp {
 struct ExtinctionProgram {
   bool present = false;  ///< false: instances are never extinguished, and the fields below are unused
   std::int32_t input = 0;
-  bool vector = false;  ///< whether the input is the first component of a vector
+  bool vector = false;  ///< whether `input` is the first component of a wind vector
   float level = 0;
   float most = 0;  ///< upper limit of the wind
   float base = 0;  ///< in wind of at least the level a step adds the damage base + slope · wind
@@ -62,7 +62,7 @@ struct LifeLanes {
   Real* lit;
 };
 
-/// Interpolates between two numbers.
+/// Interpolates linearly: `from` at share 0, `to` at share 1.
 template <class Real>
 inline Real nearer(Real from, Real to, float share) {
   return share == 1.0f ? to : from + Real(share) * (to - from);

@@ -74,7 +74,7 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahe
           rows - block * kLanes};
 }
 
-// Makes all steps of one group of blocks before those of the next group, while its history is in the cache.
+// Makes all steps of a group of blocks, while the group's history is in the cache, before those of the next group.
 std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::visit(

@@ -1,6 +1,6 @@
 #pragma once
 // The work of a frame for a range of blocks. frame_path.cpp is compiled once for every vector width that the machine
-// may have (src/run/CMakeLists.txt); a bank chooses one when it is created. All give the same bits.
+// may have (src/run/CMakeLists.txt); a bank chooses one width when it is created. All widths give the same bits.
 
 #include <cstdint>
 #include <span>
@@ -8,7 +8,7 @@
 #include "wisp/base/result.hpp"
 #include "wisp/run/bank.hpp"
 
-// The shared library exports symbols that begin with wisp_; these stay hidden.
+// Hides the symbols of frame paths: the shared library would export them, as their names begin with wisp_.
 #ifdef __ELF__
 #define WISP_INSIDE __attribute__((visibility("hidden")))
 #else

@@ -210,7 +210,7 @@ class ChainLives {
 
   const ChainProgram& program() const { return program_; }
 
-  /// Returns the outputs of the last step, and of the one before: [output][lane].
+  /// Return the outputs of the last step, and of the step before: [output][lane].
   const Real* newest(int block) const { return newest_.data() + block * sample_size(); }
   const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
 

@@ -51,7 +51,7 @@ class ChainJoining {
     return drawn;
   }
 
-  /// Joins lanes whose segment ends to their next segments, and draws the successors of these.
+  /// Joins lanes whose segment ends to their next segments, and draws the successors of the next segments.
   void follow(const Party& party, int first, const Moment<N>& moment) {
     for (std::size_t k = 0; k < party.count; ++k) {
       const int block = party.block[k], lane = party.lane[k];

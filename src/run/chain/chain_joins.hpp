@@ -56,8 +56,7 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// Returns the rotations of segments `next` after segments `before` with rotations `turn`, and the gaps at these
-  /// joins.
+  /// Returns the rotations of segments `next` after segments `before` of rotations `turn`, and the gaps at the joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);
@@ -225,7 +224,7 @@ class ChainJoins {
     Curves out;
     out.slip[1] = scaled(added(to.slip, from.slip), load<Values>(slope));
     out.slip[0] = from.slip;
-    if (program_.channels < 7) return {{}, out.slip};  // saved state must be initialised
+    if (program_.channels < 7) return {{}, out.slip};  // zeros, since save() writes lean for positions too
     Values shares[4];
     columns_of<N>(row, 0, shares);
     for (std::size_t k = 0; k < 4; ++k) {

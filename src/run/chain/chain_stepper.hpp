@@ -75,7 +75,7 @@ class ChainStepper : private ChainLives<N> {
   /// Computes the newest sample of a block.
   void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
 
-  /// Computes the newest samples of `count` <= kGroup consecutive blocks; `moment` is that of the first.
+  /// Computes the newest samples of `count` <= kGroup consecutive blocks; `moment` is that of the first block.
   void step(int first, int count, const Moment<N>& moment) {
     ChainCourse<N> courses[kGroup];
     for (int b = 0; b < count; ++b) set_out(first + b, moment.later(b), courses[b]);
@@ -364,8 +364,8 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Finds the lanes that need more than display and joining: those that come to rest, are too far away, or near the
-  // ground. Returns whether there are any.
+  // Finds the lanes that need more than display and joining, since they come to rest, are too far away, or near the
+  // ground. Returns whether there are such lanes.
   bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
@@ -465,7 +465,7 @@ class ChainStepper : private ChainLives<N> {
     return q;
   }
 
-  // Settles a lane whose displayed body has reached the ground; `reach`: its extent below its centre.
+  // Starts settling a lane whose displayed body has reached the ground; `reach`: the body's extent below its centre.
   void land(int block, int lane, Real reach) {
     Lane life = lane_of(block, lane);
     Body body;
@@ -516,7 +516,7 @@ class ChainStepper : private ChainLives<N> {
 
   ChainChoice choice_;
   ChainSteering<Real> steering_;
-  std::span<std::uint8_t> stirred_;  // per block: whether a response to wind may remain
+  std::span<std::uint8_t> stirred_;  // per block: whether a velocity change due to wind may remain
   std::span<GustLane<Real>> gusts_;
   bool steered_ = false;  // an instance is or was steered
   std::span<Real> regressors_;

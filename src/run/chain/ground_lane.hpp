@@ -22,8 +22,7 @@ inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   return across * Real(program.half_width) + along * Real(program.half_length);
 }
 
-/// Returns the extent of a displayed body below its centre if it has reached the ground, else nothing. A body far above
-/// takes one comparison.
+/// Returns the extent of a displayed body below its centre if the body has reached the ground, else nothing.
 template <class Real>
 inline std::optional<Real> reach_touching(const ChainProgram& program, const Real* shown, int stride, float ground) {
   const Real& height = shown[2 * stride];
@@ -61,7 +60,7 @@ inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
 /// Advances a settling lane by one step and writes its pose to `out`; `stride`: distance between channels in `out`.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
-  // Computed in the first step after touchdown, since the touchdown step is the most expensive.
+  // `laid` is computed in the first step after touchdown, since the touchdown step is the most expensive.
   if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.laid = lean_to_ground(lane.touched);
   if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));

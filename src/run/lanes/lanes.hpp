@@ -2,9 +2,9 @@
 // Number types of kernels, and the number of instances that a kernel processes in parallel.
 //
 // A block is kLanes instances. All its data is laid out as [variable][lane], and a kernel does the same operations in
-// the same order in every lane. Lanes are the compilers' vector types, since gcc 12 and clang 14 unroll plain loops
-// over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of the
-// machine's vectors changes no bit.
+// the same order in every lane. Lanes are elements of the compilers' vector types, since gcc 12 and clang 14 unroll
+// plain loops over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of
+// the machine's vectors changes no bit of a result.
 
 #include <bit>
 #include <cfloat>
@@ -376,9 +376,8 @@ inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>&
   return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
 }
 
-/// State below kMinState in magnitude is set to zero, so that an engine that flushes denormals gets the same numbers.
-/// Coefficients below kMinCoefficient are zero too; so products are multiples of 2^−123, and their sums cannot be
-/// denormal.
+/// State below kMinState in magnitude is set to zero, and so are coefficients below kMinCoefficient. Their products are
+/// multiples of 2^−123, no sum is denormal, and an engine that flushes denormals gets the same numbers.
 inline constexpr float kMinState = 1e-20f;
 inline constexpr float kMinCoefficient = 1e-10f;
 

@@ -76,7 +76,7 @@ struct OperatingPoint {
   std::span<const double> regressors;
 };
 
-/// Lays the channels out and, unless the arena measures, fills them.
+/// Takes the channels' arrays from the arena and, unless the arena only measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
 /// Errors: a range or mean too large or small for single precision, a reversed range, a vector's input with a mean.

@@ -42,7 +42,7 @@ class SampleRing {
 
   std::size_t bytes() const { return values_.size_bytes(); }
 
-  /// Distance, in numbers, from a sample of one block to the same sample of the next.
+  /// Returns the distance, in numbers, from a sample of one block to the same sample of the next block.
   std::size_t stride() const { return static_cast<std::size_t>(depth_) * row_; }
 
   /// Return the address of a block's numbers, and a table of offsets: the sample of `lag` steps ago is at back()[lag].
