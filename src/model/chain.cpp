@@ -8,7 +8,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxRounding = 1e-6;  // tolerance of sums of probabilities written with at least seven digits
+constexpr double kMaxRounding = 1e-6;  // tolerance of a sum of probabilities, for ones written with seven digits
 constexpr double kMaxStretch = 0.005;  // tolerance of a quaternion's norm: 20 times the rounding error of 1/4096 steps
 constexpr double kLargestScale = 1e9;
 constexpr int kMaxBlendSteps = 4096;

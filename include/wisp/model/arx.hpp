@@ -94,7 +94,7 @@ inline constexpr std::size_t kMaxResampledRows = std::size_t{1} << 22;
 struct ResidualNoise {
   std::vector<double> sd;                      ///< standard deviation per output, in the output's unit
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
-  ResampledResiduals resampled;                ///< if it has rows, they are e(t), and sd only describes them
+  ResampledResiduals resampled;                ///< if not empty, e(t) is replayed from its rows, which sd describes
 };
 
 /// Coefficients of output row i are contiguous: for each output j its na(i,j) lags of A in the equation's own sign and

@@ -47,7 +47,7 @@ struct InputTraining {
 struct MotionTraining {
   std::string event;             ///< event in the syntax of parse_event(), such as "zero:forward_speed"
   double min_seconds = 0;        ///< shortest segment; ≥ 0
-  double debounce = 0;           ///< standard deviations; ≥ 0
+  double debounce = 0;           ///< minimum excursion around an event, in the signal's standard deviations; ≥ 0
   std::int32_t smooth_rows = 0;  ///< number of rows over which velocities are estimated; 0: no smoothing
 
   bool operator==(const MotionTraining&) const = default;
@@ -55,7 +55,7 @@ struct MotionTraining {
 
 /// Origin of the rule of extinction.
 enum class Origin : std::uint8_t {
-  kDefault,  ///< no data to learn it from
+  kDefault,  ///< default rule: no data to learn a rule from
   kGiven,    ///< set by the recipe
   kLearned,  ///< learned from the recordings
 };

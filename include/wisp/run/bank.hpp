@@ -45,7 +45,7 @@ struct BankOptions {
   std::uint64_t seed = 1;    ///< seed of all random streams of the bank
   int polyline_points = 32;  ///< points of an outline's polyline; 2 to 4096. 32 is smooth at a height of 500 pixels
   std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< longest pause that advance() plays, > 0, ≤ 10 s
-  std::span<std::byte> memory = {};  ///< memory for the bank, at least bank_bytes(); empty: it allocates once
+  std::span<std::byte> memory = {};  ///< memory for the bank, at least bank_bytes(); empty: create() allocates it
 };
 
 /// Returns the number of bytes that a bank with these options needs; `options.memory` is ignored.
@@ -60,8 +60,8 @@ inline constexpr double kRangeMargin = 0.5;
 
 /// A flame as a light source.
 struct FlameLight {
-  std::array<float, 3> position{};  ///< centroid of the outline, in its units; z is 0 unless the model is a body
-  float intensity = 0;              ///< area relative to that of the flame at rest
+  std::array<float, 3> position{};  ///< centroid of the outline's control points as a polygon; z of a body, else 0
+  float intensity = 0;              ///< area of the control polygon relative to that of the flame at rest
   float kelvin = 0;                 ///< colour temperature: 1900 K at rest, times the 16th root of the intensity
 };
 
@@ -75,9 +75,9 @@ struct Crew {
 
 /// A bank of instances of one model.
 ///
-/// Precondition: a span for all slots has room for slots() rows or more, any other span exactly the stated size.
-/// Checked in every build: a call that violates this is reported (wisp/base/result.hpp) and does nothing. Precondition
-/// of all functions but move and destruction: the bank has not been moved from.
+/// Precondition: a bulk buffer has room for slots() rows or more, any other span has exactly the stated size. Checked
+/// in every build: a call that violates this is reported (wisp/base/result.hpp) and does nothing. Precondition of all
+/// functions but move and destruction: the bank has not been moved from.
 class Bank {
  public:
   struct State;  ///< private to run/
@@ -129,8 +129,8 @@ class Bank {
   /// Sets the scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper, and a
   /// switched model takes the likeliest transition. A segment chain has only random choices, no residual noise: at 0 it
   /// takes the likeliest mode, and of this mode's segments the best-joining or, without a list of successors, the
-  /// first. Instances then differ by their initial heading alone, and their motion eventually becomes periodic. All
-  /// scales above 0 are equal for a chain.
+  /// first. Instances then differ by their initial heading alone, and their motion eventually becomes periodic. For a
+  /// chain, all scales above 0 have the same effect.
   void set_noise(float scale);
   float noise() const;
 
@@ -180,8 +180,8 @@ class Bank {
   /// and for other models.
   std::optional<int> mode(InstanceId id) const;
 
-  /// Facets offer the functions of particular kinds of model; null for another kind. They live as long as the bank,
-  /// move with it, and are cheap enough to be requested every frame.
+  /// Return facets, the functions for one kind of model; null for a model of another kind. Facets live as long as the
+  /// bank, move with it, and are cheap enough to be requested every frame.
   ChainFacet* chain();  ///< for a segment chain (wisp/run/chain_facet.hpp)
   const ChainFacet* chain() const;
   ExtinctionFacet* extinction();  ///< for a model with a rule of extinction (wisp/run/extinction_facet.hpp)
@@ -189,8 +189,8 @@ class Bank {
   BodyFacet* body();  ///< for a model of a body (wisp/run/body_facet.hpp)
   const BodyFacet* body() const;
 
-  /// Resets one instance, or all instances and the time passed since the last step, to the state at spawning, lit;
-  /// streams and inputs stay. Returns false when `id` is not valid.
+  /// Resets one instance, or all instances and the time passed since the last step, to the state after spawn(); streams
+  /// and inputs stay. Returns false when `id` is not valid.
   bool reset(InstanceId id);
   void reset();
 

@@ -13,12 +13,12 @@ namespace wisp {
 /// Position of an instance in its segment chain, and its motion.
 struct ChainPlace {
   std::uint32_t segment = 0;        ///< index into ChainModel::segments
-  std::uint32_t step = 0;           ///< step within that segment; 0: where it joined the previous one
+  std::uint32_t step = 0;           ///< step within that segment; 0: the join with the previous segment
   std::uint32_t mode = 0;           ///< mode of that segment
   std::array<float, 3> velocity{};  ///< mean over the last step, metres per second
   std::array<float, 3> spin{};      ///< mean angular velocity over the last step, radians per second, world axes
   bool lies = false;                ///< at rest on the ground
-  bool landed = false;              ///< touched ground in the last 0.35 s of the last call of step() or advance()
+  bool landed = false;              ///< touched ground in the last call of step() or advance(), and does not lie yet
 };
 
 /// A body at one moment, in the world: metres, seconds, radians, z up.
