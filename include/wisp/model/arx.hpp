@@ -63,8 +63,8 @@ struct ArxOrders {
 /// the dynamics filter residuals. Without a driving input, an instance jumps every 0.4 to 1.2 s to a row with similar
 /// outputs, preferring little-used rows (run/arx/lookup_lanes.hpp).
 struct ResampledResiduals {
-  std::vector<double> scale;        ///< per output: value of a stored 1, in the output's unit, >= 0
-  std::vector<std::int8_t> rows;    ///< rows × outputs, row-major
+  std::vector<double> scale;        ///< per column of `rows`: value of a stored 1, in the output's unit, >= 0
+  std::vector<std::int8_t> rows;    ///< rows × (outputs − across), row-major
   std::vector<std::uint32_t> ends;  ///< one past each stretch's last row, ascending; the last is the row count
   double wind_scale = 0;            ///< value of a stored 1 in `winds`, in the regressor's unit
   std::vector<std::int16_t> winds;  ///< input samples: per stretch, first as many as the largest lag from before it,
@@ -74,8 +74,8 @@ struct ResampledResiduals {
   double tolerance = 0;     ///< excess over the nearest row's distance that causes a jump, in the regressor's unit
   double margin = 0;        ///< difference at one lag below which inputs count as equal, in the regressor's unit
   int longest = 1;          ///< with a driving input, longest run of rows between jumps, 1 to 1 000 000 steps
-  std::vector<int> mirror;  ///< per output ±(1 + j): for input of the opposite sign, the residual of output j, with
-                            ///< this sign, replaces the output's own; empty: no mirror symmetry
+  std::vector<int> mirror;  ///< per column ±(1 + j): for input of the opposite sign, the residual in column j, with
+                            ///< this sign, replaces the column's own; empty: no mirror symmetry
   int across = 0;  ///< for 3-D bodies: the last `across` outputs are the z components of horizontal vectors, the
                    ///< `across` before them the x components. A row stores one number per vector, its component along
                    ///< the wind; the component across comes from a second row. Regressor `toward + 3` is the wind's z

@@ -7,8 +7,8 @@
 //   dh/dt =  (1 + haste · (w / level − 1)) / seconds   while w ≥ level, w = |wind|, limited to kMaxWind · level
 //   dh/dt =  −1 / recovery                             below it; h is never less than 0
 //
-// So a wind of exactly `level` blows the flame out in `seconds`, a stronger one sooner; a shorter gust leaves it
-// alight, and gusts in close succession add up.
+// So a wind of exactly `level` blows the flame out in `seconds`, a stronger wind sooner; a shorter gust leaves the
+// flame alight, and gusts in close succession add up.
 
 #include <cstddef>
 #include <cstdint>

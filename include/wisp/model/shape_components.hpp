@@ -37,7 +37,7 @@ struct ShapeComponents {
   std::vector<double> rest;             ///< 2N shape coordinates; 3N for a body
   std::vector<double> basis;            ///< N × symmetric, then N × antisymmetric, row-major
   std::vector<ValueRange> coordinates;  ///< one range per coordinate
-  std::vector<ValueRange> components;   ///< one range per component; play clamps to it, extended by half its width
+  std::vector<ValueRange> components;   ///< one range per component; banks clamp to it, extended by half its width
   std::size_t across = 0;               ///< number of z components: for a body as `antisymmetric`, else 0
 
   bool empty() const { return rest.empty(); }

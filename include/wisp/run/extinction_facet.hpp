@@ -19,8 +19,8 @@ inline constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max
 struct LitState {
   bool lit = true;
   float size = 1;  ///< apparent size, 0 … 1; outputs and polylines are already multiplied by it
-  std::chrono::nanoseconds since_lit = kNever;  ///< time since it was last relit; kNever if never since spawned
-  std::chrono::nanoseconds since_out = kNever;  ///< time since it was last extinguished
+  std::chrono::nanoseconds since_lit = kNever;  ///< time since the last relighting; kNever if none since spawn or reset
+  std::chrono::nanoseconds since_out = kNever;  ///< time since the last extinction; kNever if none since spawn or reset
   bool relit = false;                           ///< relit since the last call of step() or advance()
   bool went_out = false;                        ///< extinguished in the last call of step() or advance(), or since
 };

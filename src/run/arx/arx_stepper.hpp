@@ -118,7 +118,7 @@ class ArxStepper : public ChannelHistory<N> {
     }
     ring_.turn(count - 1);
     alone_.end(ring_);
-    std::fill_n(quiet_.begin(), program_.regressors, 0);  // step_alone() does not count quiet steps
+    std::fill_n(quiet_.begin(), program_.regressors, 0);  // unknown: these steps were not counted
     return clamped;
   }
 

@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Largest number of state components by which targets are compared: those that contribute most.
+/// Largest number of outputs by which targets are compared: those of largest variance in the visible motion.
 inline constexpr int kMaxTraits = 6;
 /// Largest number of targets; more rows are subsampled evenly.
 inline constexpr std::uint32_t kMaxPlaces = 128;

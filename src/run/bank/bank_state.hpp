@@ -136,7 +136,7 @@ struct Bank::State {
   std::span<float> round_lines;   // [x, z][2 · point + coordinate][lane]: scratch, their polylines
 
   // Per slot; empty for a model without extinction.
-  std::span<float> wind;  // strength of the wind in the next step
+  std::span<float> wind;  // magnitude of the wind in the next step
   std::span<float> harm;
   std::span<float> lit;  // 1 or 0
   std::span<float> size;

@@ -57,7 +57,7 @@ inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) 
 /// The state of a block's instances, [lane].
 template <class Real>
 struct LifeLanes {
-  Real* wind;  ///< wind strength in this step
+  Real* wind;  ///< magnitude of the wind in this step
   Real* harm;
   Real* lit;
 };
