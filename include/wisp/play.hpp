@@ -1,5 +1,5 @@
 #pragma once
-// All headers for playing a model: read it, create a bank, set a wind, read outputs; and wind from a microphone.
+// All headers for playing a model: read it, create a bank, set its wind, also from a microphone, and read its outputs.
 //
 //   const auto model = wisp::read_model("flame.wisp");
 //   auto bank = wisp::Bank::create(*model, {.capacity = 100});

@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-// Errors: a number of values other than `expected`, or one that is not finite; `what` names the list.
+// Checks that a list has `expected` values, all finite. `what` names the list in errors.
 Result<void> check_finite(std::span<const double> values, std::size_t expected, const std::string& what) {
   if (values.size() != expected) {
     return Error{what + " has " + std::to_string(values.size()) + " values, expected " + std::to_string(expected)};
@@ -30,7 +30,7 @@ std::string at(const char* what, int i, int j) {
   return std::string(what) + "(" + std::to_string(i) + "," + std::to_string(j) + ")";
 }
 
-// Number of past values that a block of outputs is computed from, the size of its companion matrix.
+// Returns the size of the companion matrix of a block of outputs: the largest order times the number of outputs.
 int fed_back(const OrderMatrix& na, const std::vector<int>& outputs) {
   int order = 0;
   for (int i : outputs) {
@@ -186,8 +186,8 @@ double frobenius(const Square& m) {
   return std::sqrt(sum);
 }
 
-// Gelfand's formula, rho = lim ‖Mᵏ‖^(1/k), with k doubled by squaring up to 2^39: the ratio of norm to radius is raised
-// to 2^−39. The matrix is scaled to norm 1 before each squaring, and log2 of the scales is summed.
+// Returns the spectral radius ρ by Gelfand's formula, lim ‖Mᵏ‖^(1/k), with k doubled by squaring up to 2^39: the factor
+// ‖Mᵏ‖/ρᵏ enters with the exponent 2^−39. M is scaled to norm 1 before each squaring, and log2 of the scales is summed.
 double radius(Square m, int n) {
   double log_radius = 0;
   double share = 1;

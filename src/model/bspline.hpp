@@ -2,7 +2,7 @@
 // Cubic B-splines: knots, basis functions and their derivatives.
 //
 // Source: C. de Boor, A Practical Guide to Splines, chapter IX (the recurrence); L. Piegl & W. Tiller, The NURBS Book,
-// section 2.2. Only + − × ÷ is used, so that the weights are the same bits on every machine.
+// section 2.2. Only + − × ÷ are used, so that the weights have the same bits on every machine.
 
 #include <array>
 #include <span>
@@ -27,7 +27,7 @@ std::vector<double> clamped_knots(std::span<const double> interior);
 /// with no interior knot of multiplicity above 3.
 bool valid_knots(std::span<const double> knots);
 
-/// The four nonzero basis functions at one parameter, and the index of the first one's control point.
+/// Values of the four basis functions that can be nonzero at one parameter. `first`: control point of the first one.
 struct BasisWeights {
   int first = 0;
   std::array<double, 4> weight{};
@@ -39,7 +39,7 @@ struct BasisWeights {
 /// Precondition: 0 <= s <= 1.
 BasisWeights basis(std::span<const double> knots, double s);
 
-/// Returns the first derivatives of the basis functions with respect to s. Weights sum to 0. Preconditions: as basis().
+/// Returns the derivatives of the basis functions with respect to s; they sum to 0. Preconditions: those of basis().
 BasisWeights basis_derivative(std::span<const double> knots, double s);
 
 }  // namespace wisp

@@ -8,7 +8,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMaxRounding = 1e-6;  // tolerance of sums of probabilities written with at least seven digits
+constexpr double kMaxRounding = 1e-6;  // tolerance of a sum of probabilities, for ones written with seven digits
 constexpr double kMaxStretch = 0.005;  // tolerance of a quaternion's norm: 20 times the rounding error of 1/4096 steps
 constexpr double kLargestScale = 1e9;
 constexpr int kMaxBlendSteps = 4096;
@@ -83,7 +83,7 @@ Result<void> check_heights(const ChainSegments& segments) {
   return check_scales({segments.height_scale}, 1, "scale of heights");
 }
 
-// A bank normalises stored orientations once, when it is created; a norm far from 1 shows a damaged file.
+// Checks that stored quaternions have norm 1 up to rounding. A larger deviation shows a damaged file.
 Result<void> check_orientations(const ChainSegments& segments) {
   for (std::size_t row = 0; 7 * row < segments.rows.size(); ++row) {
     double square = 0;

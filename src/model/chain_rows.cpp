@@ -10,12 +10,12 @@
 namespace wisp {
 namespace {
 
-constexpr int kEscape = 24;     // number of ones before a folded difference that is written in full
-constexpr int kWholeBits = 20;  // bits of such a difference
-constexpr std::size_t kOrders = 4;
+constexpr int kEscape = 24;         // a folded difference of this quotient or above is written in full after 24 ones
+constexpr int kWholeBits = 20;      // bits of a folded difference written in full
+constexpr std::size_t kOrders = 4;  // orders of prediction, 0 to 3
 
-// Numbers of one kind share the parameter of their Rice code. A kind is a channel of the rows with an order of
-// prediction, or an axis of the rates.
+// Returns the number of kinds of numbers. A kind is a channel of the rows with an order of prediction, or an axis of
+// the rates. Numbers of one kind share the parameter of their Rice code.
 std::size_t kinds_of(const ChainModel& chain) {
   return static_cast<std::size_t>(channel_count(chain.motion)) * kOrders +
          static_cast<std::size_t>(rate_count(chain.motion));
@@ -68,7 +68,7 @@ class BitReader {
     if (high == kEscape) return take(kWholeBits);
     return high << low | take(low);
   }
-  /// Returns whether all bits were there and nothing is left but the rest of a byte.
+  /// Returns whether no bit was read beyond the end, and fewer than eight bits are left.
   bool is_done() const { return sound_ && bytes_.size() == (used_ + 7) / 8; }
 
  private:
@@ -86,7 +86,7 @@ class BitReader {
   bool sound_ = true;
 };
 
-// Predicts a number from the `order` rows before it, which are `stride` numbers apart.
+// Predicts a number from the numbers of its channel in the `order` rows before; rows are `stride` numbers apart.
 std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_t stride) {
   const auto before = [&](std::size_t k) { return std::int32_t{*(at - k * stride)}; };
   switch (order) {
@@ -101,8 +101,7 @@ std::int32_t predicted_row(const std::int16_t* at, std::size_t order, std::size_
   }
 }
 
-// Factors that convert told_rate() to a stored rate, in units of 2^−kShifts: one for velocities, one for angular
-// velocities.
+// Factors from told_rate() to the predicted rate, in units of 2^−kShifts: for velocities and angular velocities.
 using RateFactors = std::array<std::int32_t, 2>;
 
 struct SegmentOf {
@@ -110,7 +109,7 @@ struct SegmentOf {
   std::size_t steps;
   std::size_t channels;
 
-  // Returns twice the change of a channel per step at one end.
+  // Returns twice the change of a channel per step at the segment's start or end.
   std::int64_t change(bool end, std::size_t channel) const {
     if (steps < 2) return 2 * (std::int64_t{rows[steps * channels + channel]} - rows[channel]);
     const auto row = [&](std::size_t k) -> std::int64_t { return rows[(end ? steps - k : k) * channels + channel]; };
@@ -118,7 +117,7 @@ struct SegmentOf {
   }
 };
 
-// Predicts a rate from rows, up to a factor: for an angular velocity by the vector part of q̇ q*.
+// Predicts a rate from rows, up to a constant factor; an angular velocity is predicted by the vector part of q̇ q*.
 std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
   if (axis < 3) return segment.change(end, axis);
   const std::int16_t* q = segment.rows + (end ? segment.steps * segment.channels : 0) + 3;
@@ -128,7 +127,7 @@ std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
 }
 
 constexpr std::array<int, 2> kShifts = {10, 26};  // log2 of the integer that stands for a factor of 1
-constexpr std::int32_t kMaxFactor = 10'000'000;   // its product with a told_rate() clamped to 2^38 fits in 64 bits
+constexpr std::int32_t kMaxFactor = 10'000'000;   // times a told_rate() clamped to ±2^38 it fits in 64 bits
 
 std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis, const RateFactors& factors) {
   const std::int64_t limit = std::int64_t{1} << 38;
@@ -138,7 +137,7 @@ std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded, -32768, 32767));
 }
 
-// Calls use(number, prediction, kind) for all rows and rates, each before the numbers that are predicted from it.
+// Calls use(number, prediction, kind) for each number of rows and rates, before the numbers that are predicted from it.
 template <class Use>
 void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int16_t* rows, std::int16_t* rates,
                    Use use) {
@@ -162,7 +161,7 @@ void visit_numbers(const ChainModel& chain, const RateFactors& factors, std::int
   }
 }
 
-// Returns the factors that best predict the rates of these segments from their rows.
+// Returns the least-squares factors from told_rate() to the rates of a chain.
 RateFactors factors_of(const ChainModel& chain) {
   std::array<double, 2> product{}, square{};
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
@@ -264,7 +263,7 @@ namespace {
 
 namespace fb = wisp_flatbuffers;
 
-// Serialises the successors of all segments: each as its index within its mode.
+// Serialises the lists of successors; a successor is written as its index among the segments of its mode.
 std::vector<std::uint8_t> packed_successors(const ChainModel& chain) {
   const auto first = first_of_modes(chain);
   const auto breadth = static_cast<std::size_t>(chain.segments.breadth), modes = static_cast<std::size_t>(chain.modes);
@@ -277,8 +276,8 @@ std::vector<std::uint8_t> packed_successors(const ChainModel& chain) {
   return std::move(out).bytes();
 }
 
-// Reads the successors into a chain whose segments' modes are set.
-// Errors: too few bytes, or too many; a successor that does not exist in its mode.
+// Reads the lists of successors into a chain whose modes and segments' modes are set.
+// Errors: too few or too many bytes; an index that its mode does not have.
 Result<void> unpack_successors(std::span<const std::uint8_t> bytes, ChainModel& chain) {
   const Error damaged{"is damaged: the successors of its chain's segments are cut off or too long"};
   const auto first = first_of_modes(chain);

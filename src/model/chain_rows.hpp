@@ -1,6 +1,6 @@
 #pragma once
-// Lossless serialisation of the rows and rates of a chain's segments: integers, stored as differences from a
-// prediction, in Rice codes. R. F. Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979.
+// Lossless serialisation of the rows and rates of a chain's segments: differences of integers from a prediction, in
+// Rice codes (R. F. Rice, Some practical universal noiseless coding techniques, JPL 79-22, 1979).
 //
 // Motion is smooth, so a row is predicted by the parabola through the three rows before it (with fewer rows: by a line,
 // a constant, or 0), and a rate by the parabola through the first or last three rows.

@@ -1,4 +1,4 @@
-// Check of a model's content, on which every reader of a file, and every bank, relies.
+// Check of a model's content. Reading and writing a file and creating a bank include it.
 
 #include <cmath>
 #include <initializer_list>

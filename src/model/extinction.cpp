@@ -15,7 +15,7 @@ struct Range {
   double highest;
 };
 
-// Sizes of a simulated candle in puffs of wind, 60 per second.
+// Sizes of a simulated candle, 60 per second, 255 for full size: four extinctions by puffs of wind, one re-ignition.
 constexpr double kBorrowedHz = 60;
 constexpr std::uint8_t kDying[] = {191, 128, 64, 237, 178, 119, 59, 242, 161, 121, 81, 40, 230, 173, 115, 58};
 constexpr std::uint32_t kDyingEnds[] = {3, 7, 12, 16};
@@ -24,7 +24,7 @@ constexpr std::uint8_t kCatching[] = {167, 222, 255, 255, 197, 197, 207, 220, 22
                                       254, 254, 254, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255};
 constexpr std::uint32_t kCatchingEnds[] = {42};
 
-// Returns the events at another rate: each step has the recorded size at or before its time.
+// Converts events from kBorrowedHz to `rate_hz`: each step takes the size at the same share of its event, rounded down.
 FlameEvents borrowed(std::span<const std::uint8_t> sizes, std::span<const std::uint32_t> ends, double rate_hz) {
   FlameEvents out;
   std::uint32_t begin = 0;

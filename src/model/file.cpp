@@ -1,4 +1,4 @@
-// The model file: header, hash, FlatBuffer, and the check of the content.
+// The model file: its header and hash; payload.hpp has the FlatBuffer, check() the check of the content.
 
 #include "wisp/model/file.hpp"
 

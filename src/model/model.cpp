@@ -7,9 +7,9 @@
 namespace wisp {
 namespace {
 
-constexpr int kPowers = 3;  // powers of a wind's size (1, root, square): regressors per sign or component
+constexpr int kPowers = 3;  // regressors of a wind's magnitude, and of each component: size, root, square
 
-// Indices of outputs and regressors in the model of the body. Rows of coefficients stay unchanged.
+// Outputs of the body's dynamics: symmetric components, vectors' x, vectors' z. x and z have equal coefficients.
 struct Places {
   int symmetric;
   int vectors;
@@ -17,7 +17,7 @@ struct Places {
   int outputs() const { return symmetric + 2 * vectors; }
   bool is_across(int output) const { return output >= symmetric + vectors; }
   int source(int output) const { return is_across(output) ? output - vectors : output; }
-  // Shift of a row's regressors: rows of z components take those of the wind's z, other rows stay.
+  // Returns the offset of a row's regressors: z components are driven by the wind's z instead of its x.
   int shift(int output) const { return is_across(output) ? kPowers : 0; }
 };
 
@@ -45,7 +45,7 @@ void repeat_last(std::vector<T>& values, std::size_t count) {
   values.insert(values.end(), last.begin(), last.end());
 }
 
-// The z components have mean and constant 0, since the camera does not see a lean towards it.
+// Extends the dynamics by z components. Their mean and constant are 0, as the camera sees no lean towards itself.
 void turn_dynamics(ArxModel& arx, const Places& places) {
   const auto vectors = static_cast<std::size_t>(places.vectors);
   arx.orders = orders_of(arx.orders, places);
@@ -80,7 +80,7 @@ void turn_wind(Model& model) {
   repeat_last(model.training.inputs, 1);
 }
 
-// Returns whether symmetric and antisymmetric components are decoupled.
+// Returns whether no symmetric component depends on the past of an antisymmetric one, nor the reverse.
 bool is_of_two_kinds(const ArxOrders& orders, int symmetric) {
   for (int i = 0; i < orders.outputs(); ++i) {
     for (int j = 0; j < orders.outputs(); ++j) {

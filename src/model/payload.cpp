@@ -9,7 +9,7 @@ namespace {
 
 namespace fb = wisp_flatbuffers;
 
-constexpr int kMaxStoredChannels = 4096;  // as in check(); the orders of a row, 16 bits each, then add up to an int
+constexpr int kMaxStoredChannels = 4096;  // as in check(); the sum of a row's 16-bit orders then fits in an int
 
 std::vector<std::uint16_t> flat(const OrderMatrix& matrix) { return {matrix.values().begin(), matrix.values().end()}; }
 
@@ -22,7 +22,7 @@ std::vector<double> joined(const std::vector<Row>& rows) {
 
 using Builder = fb::FlatBufferBuilder;
 
-// Empty optional vectors are absent in the file.
+// Writes a vector; an empty one is left out of the file.
 fb::Offset<fb::Vector<double>> optional_vector(Builder& builder, const std::vector<double>& values) {
   return values.empty() ? 0 : builder.CreateVector(values);
 }
@@ -168,7 +168,7 @@ Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& sto
 }
 
 ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
-  constexpr std::uint32_t kLargest = 1U << 30;  // above every field's range, so check() rejects it, and fits an int
+  constexpr std::uint32_t kLargest = 1U << 30;  // fits in an int, and check() rejects it
   ResampledResiduals resampled;
   resampled.scale = copied(stored.scale());
   resampled.rows = copied(stored.rows());
@@ -258,7 +258,7 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   return model;
 }
 
-// Unknown values are read as kDefault.
+// Converts a stored origin; unknown values become kDefault.
 Origin read_origin(file::Origin origin) {
   return origin == file::Origin::Learned ? Origin::kLearned
          : origin == file::Origin::Given ? Origin::kGiven
@@ -410,7 +410,7 @@ std::optional<Extinction> read_extinction(const file::Model& stored) {
                     read_events(rule->catching())};
 }
 
-// A member of a union: its kind and its offset.
+// A written member of a FlatBuffers union: its kind and its offset.
 template <class Kind>
 struct Member {
   Kind kind = Kind::NONE;

@@ -1,5 +1,5 @@
 #pragma once
-// A model as a FlatBuffer, and back. Shapes are checked here, contents in check().
+// Conversion of a model to a FlatBuffer, and back. Reading checks sizes of matrices; check() checks the rest.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,14 +25,14 @@ std::vector<Number> copied(const wisp_flatbuffers::Vector<Number>* stored) {
 
 std::vector<std::byte> write_payload(const Model& model);
 
-/// Errors: not a valid FlatBuffer of this schema, an unknown kind, a matrix whose size does not fit its shape, and
-/// those of read_chain().
+/// Reads a model. Errors: not a valid FlatBuffer of this schema, an unknown kind of dynamics, view or input, a matrix
+/// whose size does not fit its shape, and those of read_chain().
 Result<Model> read_payload(std::span<const std::byte> payload);
 
 wisp_flatbuffers::Offset<file::Chain> write_chain(wisp_flatbuffers::FlatBufferBuilder& builder,
                                                   const ChainModel& chain);
 
-/// Errors: an unknown kind of motion; successors, rows or rates that are cut off or too long; a drift of not 3 axes.
+/// Reads a chain. Errors: an unknown kind of motion; too few or many successors, rows or rates; a drift not of 3 axes.
 Result<ChainModel> read_chain(const file::Chain& stored);
 
 }  // namespace wisp

@@ -56,15 +56,15 @@ struct ArxOrders {
   friend bool operator==(const ArxOrders&, const ArxOrders&) = default;
 };
 
-/// Recorded residuals, replayed instead of Gaussian shocks: rows in time order, all outputs of a row together, which
-/// preserves their cross-correlation, autocorrelation and tails. An instance replays consecutive rows while its input
+/// Recorded residuals, replayed instead of Gaussian shocks: stretches of rows without a gap, all outputs of a row
+/// together, which preserves cross-correlation, autocorrelation and tails. An instance replays rows while its input
 /// history resembles the recorded one, and otherwise jumps to a row with a nearer history. The distance of two
 /// histories is the mean absolute difference over a few lags. A jump does not move the outputs discontinuously, since
 /// the dynamics filter residuals. Without a driving input, an instance jumps every 0.4 to 1.2 s to a row with similar
 /// outputs, preferring little-used rows (run/arx/lookup_lanes.hpp).
 struct ResampledResiduals {
-  std::vector<double> scale;        ///< per output: value of a stored 1, in the output's unit, >= 0
-  std::vector<std::int8_t> rows;    ///< rows × outputs, row-major
+  std::vector<double> scale;        ///< per column of `rows`: value of a stored 1, in the output's unit, >= 0
+  std::vector<std::int8_t> rows;    ///< rows × (outputs − across), row-major
   std::vector<std::uint32_t> ends;  ///< one past each stretch's last row, ascending; the last is the row count
   double wind_scale = 0;            ///< value of a stored 1 in `winds`, in the regressor's unit
   std::vector<std::int16_t> winds;  ///< input samples: per stretch, first as many as the largest lag from before it,
@@ -74,8 +74,8 @@ struct ResampledResiduals {
   double tolerance = 0;     ///< excess over the nearest row's distance that causes a jump, in the regressor's unit
   double margin = 0;        ///< difference at one lag below which inputs count as equal, in the regressor's unit
   int longest = 1;          ///< with a driving input, longest run of rows between jumps, 1 to 1 000 000 steps
-  std::vector<int> mirror;  ///< per output ±(1 + j): for input of the opposite sign, the residual of output j, with
-                            ///< this sign, replaces the output's own; empty: no mirror symmetry
+  std::vector<int> mirror;  ///< per column ±(1 + j): for input of the opposite sign, the residual in column j, with
+                            ///< this sign, replaces the column's own; empty: no mirror symmetry
   int across = 0;  ///< for 3-D bodies: the last `across` outputs are the z components of horizontal vectors, the
                    ///< `across` before them the x components. A row stores one number per vector, its component along
                    ///< the wind; the component across comes from a second row. Regressor `toward + 3` is the wind's z
@@ -94,7 +94,7 @@ inline constexpr std::size_t kMaxResampledRows = std::size_t{1} << 22;
 struct ResidualNoise {
   std::vector<double> sd;                      ///< standard deviation per output, in the output's unit
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
-  ResampledResiduals resampled;                ///< if it has rows, they are e(t), and sd only describes them
+  ResampledResiduals resampled;                ///< if not empty, e(t) is replayed from its rows, which sd describes
 };
 
 /// Coefficients of output row i are contiguous: for each output j its na(i,j) lags of A in the equation's own sign and
@@ -124,8 +124,8 @@ Result<void> check(const ArxModel& model);
 std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
 
 /// Returns the largest absolute eigenvalue of the companion matrix of A(q), with coefficients rounded to single
-/// precision as `run/` uses them: below 1 the model is stable. 0 for a model without feedback. Independent blocks of
-/// outputs are detected and solved separately.
+/// precision as `run/` uses them: below 1 the model is stable. Returns 0 for a model without feedback. Blocks of
+/// outputs that do not feed each other are solved separately.
 double spectral_radius(const ArxModel& model);
 
 }  // namespace wisp

@@ -2,8 +2,8 @@
 // A segment chain, as a value: pieces of motion between critical events, classified into modes; a Markov chain of order
 // one or two over the modes; and how one piece joins the next.
 //
-// Segments are 16-bit integers with one scale for all positions, each in a frame of its own: its position begins at the
-// origin and, in a heading-free chain, its forward direction is arbitrary.
+// Segments are stored as 16-bit integers with one scale for all positions. Each has a frame of its own: the segment
+// begins at the origin and, in a heading-free chain, its heading is arbitrary.
 
 #include <array>
 #include <cstddef>
@@ -15,19 +15,19 @@
 
 namespace wisp {
 
-/// Channels of a chain, which determine how a segment is placed at the end of the previous one.
+/// Channels of a chain's rows.
 enum class ChainMotion : std::uint8_t {
-  kPosition,  ///< x, y, z: placed by translation
+  kPosition,  ///< x, y, z
   kPose,      ///< x, y, z, then the quaternion w, x, y, z (unit, body to world)
 };
 
 /// Returns the number of channels: 3 or 7.
 int channel_count(ChainMotion motion);
 
-/// Returns the number of scales of the rows, and of the rates: 1 or 2.
+/// Returns the size of row_scale, and of rate_scale: 1 or 2.
 int scale_count(ChainMotion motion);
 
-/// Returns the number of rates at a segment's end: velocity x, y, z and, for poses, angular velocity x, y, z. 3 or 6.
+/// Returns the number of rates stored for each end of a segment: 3 of velocity and, for poses, 3 of angular velocity.
 int rate_count(ChainMotion motion);
 
 inline constexpr std::size_t kMaxSegments = 65535;
@@ -42,24 +42,24 @@ struct ChainSegments {
   std::vector<double> row_scale;      ///< scale of positions and, for poses, of quaternions: value = scale · row; > 0
   std::vector<std::int16_t> rates;    ///< per segment the rates at its start, then at its end, per second
   std::vector<double> rate_scale;     ///< scale of velocities and, for poses, of angular velocities; > 0
-  std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the best-joining successors of that mode, best
-                                      ///< first; empty where breadth is 0
-  int breadth = 0;                    ///< number of successors per mode, 0 to 256; 0: any segment of the mode
-  std::vector<std::int16_t> height;   ///< initial z per segment, for motion between a floor and a ceiling: joins lead z
-                                      ///< back to it. Empty: z continues from its current value
+  std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: per segment and mode, the segments of that mode
+                                      ///< that join best, best first; empty if breadth is 0
+  int breadth = 0;                    ///< successors per segment and mode, 0 to 256; 0: any segment of the mode
+  std::vector<std::int16_t> height;   ///< recorded initial z per segment, for motion between a floor and a ceiling:
+                                      ///< joins lead z back to this height. Empty: z continues from its current value
   double height_scale = 0;            ///< metres = scale · height; > 0 if there are heights
 
   std::size_t size() const { return mode.size(); }
 };
 
 /// Effect of wind on the velocity of a chain's body: v_windy − v_calm = F(wind, attitude), an autoregression with
-/// exogenous inputs. Regressors are the change one step before, the wind, and the normal wind n (n·u), where n is the
-/// body's normal and u the wind less the change one step before. If the coefficients of change and wind sum to 1, a
-/// steady wind carries the body along with it at any attitude, as a change of frame demands. The response is isotropic
-/// in the horizontal plane: one set of coefficients holds for x and y and turns with the heading; z has its own.
+/// exogenous inputs. Regressors are the velocity change one step before, the wind, and the normal wind n (n·u), where n
+/// is the body's normal and u the wind minus that velocity change. If the coefficients of change and wind sum to 1, a
+/// steady wind carries the body along at any attitude, as Galilean invariance demands. The response is isotropic in the
+/// horizontal plane: one set of coefficients holds for x and y; z has its own.
 struct GustResponse {
   struct Axis {
-    double change = 0;
+    double change = 0;  ///< coefficient of the velocity change one step before
     double wind = 0;
     double press = 0;  ///< coefficient of the normal wind; 0 for a chain without orientation
   };
@@ -68,15 +68,15 @@ struct GustResponse {
 };
 
 /// Predicted displacement of a walk given its present segment; steering weights successors by it. A time τ after the
-/// end of segment s the body's expected position, relative to that end, is `drift` · τ plus τ / (τ + memory) of s's
-/// lead (rotated with s), with variances that grow by `spread` per second.
+/// end of segment s the body's expected position, relative to that end, is drift · τ + lead(s) · τ / (τ + memory),
+/// where lead(s) is rotated with s. The variance of the position grows by `spread` per second.
 struct ChainDrift {
   std::vector<std::int16_t> lead;  ///< segments × 3, in the frame of each segment
   double lead_scale = 0;           ///< metres = scale · lead; > 0
   std::array<double, 3> drift{};   ///< mean velocity, metres per second; 0 horizontally if heading is free
   double spread_ground = 0;        ///< variance growth along each horizontal direction, m² per second; > 0
   double spread_height = 0;        ///< variance growth along z, m² per second; > 0
-  double memory_seconds = 0;       ///< ≥ 0
+  double memory_seconds = 0;       ///< time after which half of the lead is reached; ≥ 0
 };
 
 struct ChainModel {
@@ -88,15 +88,15 @@ struct ChainModel {
   int history = 1;                    ///< number of past modes that determine the next one, 1 or 2
   std::vector<double> probabilities;  ///< transition probabilities, rows of `modes` numbers that sum to 1: row b after
                                       ///< mode b; for history 2, row modes · (1 + a) + b after modes a and then b
-  int blend_steps = 30;  ///< largest number of steps to blend on either side of a join: neighbours meet half-way in
-                         ///< attitude and rates; 0 … 4096, 0: no blending
+  int blend_steps = 30;  ///< largest number of steps to blend on either side of a join, where both segments meet at
+                         ///< their mean attitude and rates; 0 … 4096, 0: no blending
   std::optional<GustResponse> gust;  ///< if set, the model's inputs are the wind's x, y and z, metres per second
   std::optional<ChainDrift> drift;   ///< none: the chain cannot be steered
   /// Returns transition probabilities given the last mode alone, modes × modes, row-major.
   std::vector<double> transitions() const;
 };
 
-/// Returns the row at which each segment begins, and one past the last row; a row has channel_count() numbers.
+/// Returns the index of each segment's first row, and one past the last row; a row has channel_count() numbers.
 std::vector<std::uint32_t> segment_rows(const ChainSegments& segments);
 
 /// Checks shapes, ranges of indices, order of the modes, sums of probabilities, scales and finiteness. Errors name the

@@ -1,5 +1,5 @@
 #pragma once
-// Rule of a flame's extinction, as a plain value: learned, stored, played.
+// Rule by which wind extinguishes a flame, as a plain value.
 //
 // Wind of at least `level` accumulates damage, and a flame in weaker wind recovers. Damage h grows from 0 to 1, at
 // which the flame is extinguished and stays so until it is relit:
@@ -7,8 +7,8 @@
 //   dh/dt =  (1 + haste · (w / level − 1)) / seconds   while w ≥ level, w = |wind|, limited to kMaxWind · level
 //   dh/dt =  −1 / recovery                             below it; h is never less than 0
 //
-// So a wind of exactly `level` blows the flame out in `seconds`, a stronger one sooner; a shorter gust leaves it
-// alight, and gusts in close succession add up.
+// So a wind of exactly `level` blows the flame out in `seconds`, a stronger wind sooner; a shorter gust leaves the
+// flame alight, and gusts in close succession add up.
 
 #include <cstddef>
 #include <cstdint>
@@ -40,20 +40,20 @@ struct Extinction {
   static constexpr double kMaxWind = 3;
 
   std::size_t input = 0;  ///< index of the model's wind input; its magnitude is used, not its sign
-  double level = 2;       ///< least extinguishing wind, in the input's unit, 1e-6 … 1e6. 2: twice the strong wind of
-                          ///< training, which the flame survived
-  double seconds = 0.2;   ///< time to extinction in that wind, 1e-3 … 3600; for a candle of about 30 mm
-  double haste = 2;  ///< acceleration by stronger wind, 0 … 100; 0: any wind above the level takes `seconds`. 2: at
-                     ///< twice the level a third of the time
-  double recovery = 0.3;  ///< seconds below the level in which a nearly extinguished flame recovers, 1e-3 … 3600: the
-                          ///< wick stays hot that long
-  FlameEvents dying{};    ///< recorded sizes from extinction on; empty: those of a simulated candle
+  double level = 2;  ///< least extinguishing wind, in the input's unit, 1e-6 … 1e6. Default: twice the strong wind
+                     ///< of training, which the flame survived
+  double seconds = 0.2;  ///< time to extinction in a wind of `level`, 1e-3 … 3600. Default: for a candle of about 30 mm
+  double haste = 2;  ///< acceleration by stronger wind, 0 … 100; 0: any wind above the level takes `seconds`. 2: wind
+                     ///< of twice the level takes a third of `seconds`
+  double recovery = 0.3;  ///< time in weaker wind in which damage falls from 1 to 0, 1e-3 … 3600 s: the wick stays hot
+                          ///< that long
+  FlameEvents dying{};     ///< recorded sizes from extinction on; empty: sizes of a simulated candle
   FlameEvents catching{};  ///< recorded sizes and shapes from lighting on; empty: sizes of a simulated candle
 
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };
 
-/// Returns the events to play at a rate: the rule's own, or if it has none, events of a simulated candle.
+/// Return the rule's recorded extinctions and re-ignitions or, if it has none, a simulated candle's, at `rate_hz`.
 FlameEvents dying_of(const Extinction& rule, double rate_hz);
 FlameEvents catching_of(const Extinction& rule, double rate_hz);
 

@@ -1,8 +1,8 @@
 #pragma once
-// A model as plain values: learned, stored, played.
+// A model as plain values.
 //
-// A model is dynamics, a view that says what the outputs mean, optionally a rule of extinction, and a record of how it
-// was made. Every number is in the model's own units; design notes are in docs/architecture.md.
+// A model consists of dynamics, a view that says what the outputs mean, optionally a rule of extinction, and a record
+// of how the model was made. Numbers are in the units of its inputs and outputs; docs/architecture.md has design notes.
 
 #include <cstddef>
 #include <optional>
@@ -61,7 +61,7 @@ struct PlainView {};
 /// q.x, q.y, q.z from body axes to world axes. The body is flat; its normal is its third axis.
 struct PoseView {
   double half_width = 0;   ///< metres along the body's first axis; 0: unknown
-  double half_length = 0;  ///< metres along its second axis
+  double half_length = 0;  ///< metres along the body's second axis; 0: unknown
 };
 
 /// View of outputs as an object's position pos.x, pos.y, pos.z in metres, z up.
@@ -84,14 +84,14 @@ struct Model {
   std::optional<Extinction> extinction;  ///< none: the object is never extinguished
 };
 
-/// Returns the same flame as a body, by rotational symmetry: symmetric components stay numbers, antisymmetric ones
-/// become vectors of the horizontal plane, and so does the wind, in two inputs. Wind along x reproduces the numbers of
-/// `plane`, in its camera's view, to the bit. A body's model is returned unchanged. Errors: those of check(); no ARX
-/// outline of uncoupled symmetric and antisymmetric components with resampled residuals; an input other than one wind
-/// from either side.
+/// Returns a flame's outline model as the model of a three-dimensional body, assuming rotational symmetry. Symmetric
+/// components stay numbers; antisymmetric ones, and the wind (two inputs), become vectors of the horizontal plane. Wind
+/// along x reproduces the outputs of `plane`, in its camera's view, to the bit. A body's model is returned unchanged.
+/// Errors: those of check(); no ARX model of an outline's symmetric and antisymmetric components, not coupled to each
+/// other, with resampled residuals; inputs other than none or one wind whose range is symmetric about 0.
 Result<Model> in_the_round(const Model& plane);
 
-/// Returns whether a model is a body, whose outputs are its outline seen from one side.
+/// Returns whether a model is that of a three-dimensional body, as in_the_round() makes it.
 bool is_in_the_round(const Model& model);
 
 /// Returns the number of regressors of all inputs: the number of inputs of the dynamics.
@@ -100,7 +100,7 @@ std::size_t regressor_count(const std::vector<Input>& inputs);
 /// Returns the number of regressors of one input of that shape: 1, 6 or 3.
 int regressor_count(InputShape shape);
 
-/// Returns whether magnitude and sign have regressors of their own, each with square root and square.
+/// Returns whether an input of that shape contributes size, square root and square as regressors: all but kLinear.
 bool has_powers(InputShape shape);
 
 /// Returns whether an input is one component of a vector.

@@ -3,12 +3,12 @@
 // shape coordinates (T. Cootes and C. Taylor, "Active shape models", Computer Vision and Image Understanding 61
 // (1995)).
 //
-// Shape coordinates pair the control points of the left flank with those of the right one: half their distance and
-// their mean height are invariant under reflection, their mean x and half the difference of their heights change sign.
-// Of N points the first N coordinates are the symmetric ones, the next N the antisymmetric ones.
+// Shape coordinates pair the control points of the left flank with those of the right one: half the difference of their
+// x and their mean height are invariant under reflection (symmetric), their mean x and half the difference of their
+// heights change sign (antisymmetric). N points have N symmetric coordinates, then N antisymmetric ones.
 //
-// For a body of revolution, symmetric coordinates are numbers and antisymmetric ones vectors of the horizontal plane:
-// the first N are their x, in the picture's plane, and N more their z, towards the viewer.
+// For a three-dimensional body, antisymmetric coordinates are vectors of the horizontal plane: the N antisymmetric
+// coordinates are their x, in the picture's plane, and N more coordinates their z, towards the viewer.
 
 #include <cstddef>
 #include <span>
@@ -26,7 +26,7 @@ struct ValueRange {
   friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
-/// Largest number of components of each kind.
+/// Largest number of symmetric components, and of antisymmetric ones.
 inline constexpr std::size_t kMaxShapeComponents = 256;
 
 /// Shape coordinates = rest + basis · components, each clamped to the recorded range, so that flanks neither cross each
@@ -37,7 +37,7 @@ struct ShapeComponents {
   std::vector<double> rest;             ///< 2N shape coordinates; 3N for a body
   std::vector<double> basis;            ///< N × symmetric, then N × antisymmetric, row-major
   std::vector<ValueRange> coordinates;  ///< one range per coordinate
-  std::vector<ValueRange> components;   ///< one range per component; play clamps to it, extended by half its width
+  std::vector<ValueRange> components;   ///< one range per component; banks clamp to it, extended by half its width
   std::size_t across = 0;               ///< number of z components: for a body as `antisymmetric`, else 0
 
   bool empty() const { return rest.empty(); }
@@ -53,7 +53,7 @@ struct ShapeComponents {
 std::vector<double> shape_coordinates(std::span<const double> control_points);
 std::vector<double> control_points(std::span<const double> shape_coordinates);
 
-/// Returns the control points of a shape with these component values; for a body in the view of the picture's plane.
+/// Returns the control points of a shape with these component values; for a body, projected to the picture's plane.
 ///
 /// Precondition: the shape has passed check(); one value per component.
 std::vector<double> control_points(const ShapeComponents& shape, std::span<const double> components);

@@ -31,7 +31,7 @@ struct SwitchedArxModel {
   std::vector<double> output_mean;  ///< the operating point, per output
   std::vector<double> input_mean;   ///< per regressor input
   std::vector<ArxMode> modes;       ///< 1 … kMaxArxModes
-  std::vector<double> initial;      ///< per mode, probability at an instance's first sample; sums to 1
+  std::vector<double> initial;      ///< per mode, probability that it makes an instance's first sample; sums to 1
   std::vector<double> transitions;  ///< probabilities, from × to, row-major; rows sum to 1
   /// Quantiles of recorded shocks over their standard deviation, at probabilities 0, 1/16 … 1; or empty. Only exported
   /// firmware draws from them; banks draw normal shocks.

@@ -1,7 +1,7 @@
 #pragma once
 // Record of a model's making: source recordings, recipe, scales, and quality.
 //
-// Behaviour may depend on the typed fields. `recipe` and `figures` are for people; only kCandleFigures are read.
+// Programs may depend on the typed fields. Of `recipe` and `figures`, for people, they read only kCandleFigures.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace wisp {
 
-/// Whether a model may be used, with the reason.
+/// Verdict on whether a model may be used, with the reason.
 struct Usable {
   bool verdict = false;
   std::string reason;
@@ -47,15 +47,15 @@ struct InputTraining {
 struct MotionTraining {
   std::string event;             ///< event in the syntax of parse_event(), such as "zero:forward_speed"
   double min_seconds = 0;        ///< shortest segment; ≥ 0
-  double debounce = 0;           ///< standard deviations; ≥ 0
+  double debounce = 0;           ///< minimum excursion around an event, in the signal's standard deviations; ≥ 0
   std::int32_t smooth_rows = 0;  ///< number of rows over which velocities are estimated; 0: no smoothing
 
   bool operator==(const MotionTraining&) const = default;
 };
 
-/// Origin of a rule or a duration.
+/// Origin of the rule of extinction.
 enum class Origin : std::uint8_t {
-  kDefault,  ///< no data to learn it from
+  kDefault,  ///< default rule: no data to learn a rule from
   kGiven,    ///< set by the recipe
   kLearned,  ///< learned from the recordings
 };
@@ -82,7 +82,7 @@ struct Preparation {
   bool operator==(const Preparation&) const = default;
 };
 
-/// Names of the figures of a flame's own candle, if the film showed one: its width in mean flame heights, and its red,
+/// Names of the figures that describe the filmed candle, if the film shows it: width in mean flame heights, and red,
 /// green and blue, 0 to 255, as lit in the film.
 inline constexpr std::array<const char*, 4> kCandleFigures{"candle.width", "candle.red", "candle.green", "candle.blue"};
 
@@ -95,11 +95,11 @@ struct Training {
   Usable usable;
   std::vector<InputTraining> inputs;  ///< one per input of the model; empty: the model was not learned from recordings
   std::vector<double> residual_sd;    ///< one-step residual standard deviation per output; chains: empty
-  std::optional<bool> underside;      ///< outlines: whether they include the flame's underside; none: mixed
+  std::optional<bool> underside;      ///< whether outlines include the flame's underside; none: unknown or mixed
   Preparation preparation{};
   bool own_levels = false;                       ///< every recording was centred on its own means
-  std::optional<MotionTraining> motion;          ///< chains: cutting of motion
-  std::optional<ExtinctionTraining> extinction;  ///< present if there is a rule
+  std::optional<MotionTraining> motion;          ///< for chains
+  std::optional<ExtinctionTraining> extinction;  ///< present if the model has a rule of extinction
   std::int64_t multiply_adds_per_frame = 0;      ///< number of nonzero coefficients; 0: not counted
   std::int64_t operations_per_frame = 0;         ///< all arithmetic; 0: not counted
 

@@ -28,8 +28,7 @@ class BodyFacet;
 class ChainFacet;
 class ExtinctionFacet;
 
-/// Names one instance of a bank, by value. The id of an ended instance stays invalid: the next instance in its slot has
-/// another generation.
+/// Identifies one instance of a bank. The next instance in the slot of an ended one has another generation.
 struct InstanceId {
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;  ///< 0 names no instance
@@ -37,7 +36,7 @@ struct InstanceId {
   friend bool operator==(const InstanceId&, const InstanceId&) = default;
 };
 
-/// Default of BankOptions::longest_advance and its upper bound.
+/// Default and upper bound of BankOptions::longest_advance.
 inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
 
 /// Options of creating a bank.
@@ -46,7 +45,7 @@ struct BankOptions {
   std::uint64_t seed = 1;    ///< seed of all random streams of the bank
   int polyline_points = 32;  ///< points of an outline's polyline; 2 to 4096. 32 is smooth at a height of 500 pixels
   std::chrono::nanoseconds longest_advance = kLongestAdvance;  ///< longest pause that advance() plays, > 0, ≤ 10 s
-  std::span<std::byte> memory = {};  ///< memory for the bank, at least bank_bytes(); empty: it allocates once
+  std::span<std::byte> memory = {};  ///< memory for the bank, at least bank_bytes(); empty: create() allocates it
 };
 
 /// Returns the number of bytes that a bank with these options needs; `options.memory` is ignored.
@@ -61,24 +60,24 @@ inline constexpr double kRangeMargin = 0.5;
 
 /// A flame as a light source.
 struct FlameLight {
-  std::array<float, 3> position{};  ///< middle of its outline, in the outline's units; z of a body, else 0
-  float intensity = 0;              ///< area relative to that of the flame at rest
+  std::array<float, 3> position{};  ///< centroid of the outline's control points as a polygon; z of a body, else 0
+  float intensity = 0;              ///< area of the control polygon relative to that of the flame at rest
   float kelvin = 0;                 ///< colour temperature: 1900 K at rest, times the 16th root of the intensity
 };
 
 /// Threads of the caller that step parts of a bank in parallel. `run` calls task(of, part) for every part below
 /// `parts`, each once and on any thread, and returns when all calls have returned.
 struct Crew {
-  int parts = 1;  ///< 1, or no `run`: the calling thread steps all instances
+  int parts = 1;  ///< number of parts; if it is 1, or `run` null, the calling thread steps all instances
   void (*run)(void* pool, int parts, void (*task)(void* of, int part), void* of) = nullptr;
   void* pool = nullptr;  ///< first argument of `run`
 };
 
 /// A bank of instances of one model.
 ///
-/// Precondition of every bulk function: the span has room for slots() rows or more; of every other one: exactly the
-/// stated size. Checked in every build: a call that violates it is reported (wisp/base/result.hpp) and does nothing.
-/// Precondition of all but move and destruction: the bank has not been moved from.
+/// Precondition: a bulk buffer has room for slots() rows or more, any other span has exactly the stated size. Checked
+/// in every build: a call that violates this is reported (wisp/base/result.hpp) and does nothing. Precondition of all
+/// functions but move and destruction: the bank has not been moved from.
 class Bank {
  public:
   struct State;  ///< private to run/
@@ -127,11 +126,11 @@ class Bank {
   /// Sets the inputs of one instance: input_count() values. Returns false when `id` is not valid.
   bool set_inputs(InstanceId id, std::span<const float> values);
 
-  /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper, and a switched
-  /// model takes the likeliest transition. A segment chain has no residual noise, only random choices: at 0 it always
-  /// takes the likeliest mode, and of its segments the best-joining or, without a list of successors, the first.
-  /// Instances then differ by their initial heading alone, and their motion eventually becomes periodic. Any other
-  /// scale leaves a chain unchanged.
+  /// Sets the scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step is cheaper, and a
+  /// switched model takes the likeliest transition. A segment chain has only random choices, no residual noise: at 0 it
+  /// takes the likeliest mode, and of this mode's segments the best-joining or, without a list of successors, the
+  /// first. Instances then differ by their initial heading alone, and their motion eventually becomes periodic. For a
+  /// chain, all scales above 0 have the same effect.
   void set_noise(float scale);
   float noise() const;
 
@@ -145,8 +144,8 @@ class Bank {
   /// Precondition: count >= 0; `inputs` and `outputs` have `count` rows, or none.
   void step(int count, std::span<const float> inputs = {}, std::span<float> outputs = {});
 
-  /// Advances time: makes the steps that are due in it, and interpolates outputs between the last two steps (one step
-  /// of latency). Negative time counts as 0, time above BankOptions::longest_advance as longest_advance.
+  /// Advances time: makes the steps that fall due, and interpolates outputs between the last two steps (one step of
+  /// latency). Negative time counts as 0, time above BankOptions::longest_advance as longest_advance.
   /// Returns the number of steps made.
   int advance(std::chrono::nanoseconds time);
 
@@ -181,8 +180,8 @@ class Bank {
   /// and for other models.
   std::optional<int> mode(InstanceId id) const;
 
-  /// Facets offer the functions of particular kinds of model; null for another kind. They live as long as the bank,
-  /// move with it, and are cheap enough to be requested every frame.
+  /// Return facets, the functions for one kind of model; null for a model of another kind. Facets live as long as the
+  /// bank, move with it, and are cheap enough to be requested every frame.
   ChainFacet* chain();  ///< for a segment chain (wisp/run/chain_facet.hpp)
   const ChainFacet* chain() const;
   ExtinctionFacet* extinction();  ///< for a model with a rule of extinction (wisp/run/extinction_facet.hpp)
@@ -190,14 +189,14 @@ class Bank {
   BodyFacet* body();  ///< for a model of a body (wisp/run/body_facet.hpp)
   const BodyFacet* body() const;
 
-  /// Resets one instance, or all instances and the time passed since the last step, to the state at spawning, lit;
-  /// streams and inputs stay. Returns false when `id` is not valid.
+  /// Resets one instance, or all instances and the time passed since the last step, to the state after spawn(); streams
+  /// and inputs stay. Returns false when `id` is not valid.
   bool reset(InstanceId id);
   void reset();
 
-  /// Number of instance-steps since the bank was created (or as restored), and of those in which at least one
-  /// output of a burning instance was clamped to its range. More than 1 in 1000 on ordinary input means that the model
-  /// is not usable. A chain's positions have no range: they count as clamped beyond 1000 km from the origin.
+  /// Counts since the bank was created; restore() sets them too. `steps`: steps of every instance, added up. `clamped`:
+  /// those in which at least one output of a burning instance was clamped to its range. If ordinary input gives more
+  /// than 1 in 1000, the model is not usable. A chain's positions count as clamped beyond 1000 km from the origin.
   struct Clamped {
     std::uint64_t clamped = 0;
     std::uint64_t steps = 0;
@@ -207,8 +206,7 @@ class Bank {
   /// Returns the number of bytes that save() writes for a bank with this model and capacity.
   std::size_t save_bytes() const;
 
-  /// Writes the whole state of the bank, settings included, so that a bank restored from it continues with the same
-  /// bits.
+  /// Writes the state of the bank, settings included: a bank restored from it continues with the same bits.
   ///
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;

@@ -13,12 +13,12 @@ namespace wisp {
 /// Position of an instance in its segment chain, and its motion.
 struct ChainPlace {
   std::uint32_t segment = 0;        ///< index into ChainModel::segments
-  std::uint32_t step = 0;           ///< step within that segment; 0: where it joined the previous one
+  std::uint32_t step = 0;           ///< step within that segment; 0: the join with the previous segment
   std::uint32_t mode = 0;           ///< mode of that segment
   std::array<float, 3> velocity{};  ///< mean over the last step, metres per second
   std::array<float, 3> spin{};      ///< mean angular velocity over the last step, radians per second, world axes
   bool lies = false;                ///< at rest on the ground
-  bool landed = false;              ///< touched ground in the last 0.35 s of the last call of step() or advance()
+  bool landed = false;              ///< touched ground in the last call of step() or advance(), and does not lie yet
 };
 
 /// A body at one moment, in the world: metres, seconds, radians, z up.
@@ -33,10 +33,10 @@ struct BodyMoment {
 struct SteerTarget {
   std::array<float, 3> position{};  ///< in the world, metres
   std::chrono::nanoseconds in{};    ///< time from now; above 0, at most 10 000 s
-  float near = 0.1f;                ///< tolerance, metres, 0.001 to 1000. A smaller one alters the fall more
+  float near = 0.1f;                ///< tolerance, metres, 0.001 to 1000. A smaller tolerance alters the fall more
 };
 
-/// The chain of a bank. It lives as long as the bank, and moves with it; it allocates nothing.
+/// Access to the chain of a bank. It lives as long as the bank, and moves with it. No function allocates.
 class ChainFacet {
  public:
   /// Returns the position of an instance in its chain; nothing when `id` is not valid.
@@ -44,27 +44,27 @@ class ChainFacet {
 
   /// Sets the state of an instance, as after a collision or a kick: it continues with the segment whose initial motion
   /// is nearest to the body's; the difference decays as at any join. A chain that is not heading-free searches without
-  /// the orientation; one of positions ignores orientation and spin. Searches every segment once: too expensive for
-  /// every frame. Returns false, and does nothing, when `id` is not valid, a number is not within ±10⁶, or the norm out
-  /// of range.
+  /// the orientation; one of positions ignores orientation and spin. Compares all segments: too expensive for every
+  /// frame. Returns false, and does nothing, when `id` is not valid, a position or rate is not within ±10⁶, or the
+  /// orientation's norm is out of range.
   bool place(InstanceId id, const BodyMoment& body);
 
   /// Returns whether the model has a ChainDrift, which steering needs.
   bool can_steer() const;
 
   /// Steers an instance: until the given time, joins prefer segments that lead to the target, weighed against their
-  /// probability; afterwards it falls as before. In the last second the instance is also moved to the target, at no
-  /// more than the speed of falls at joins: a target beyond that reach is missed. A new target replaces the previous
-  /// one; place() and reset() cancel it. Joins cost more meanwhile; docs/explanation/chains.md has figures. Returns
+  /// probability; afterwards it falls as before. In the last second the instance is also moved to the target, along
+  /// each axis by no more than the segments' root-mean-square speed at joins: a target beyond that reach is missed. A
+  /// new target replaces the previous one; place() and reset() cancel it. Joins of steered instances cost more. Returns
   /// false, and does nothing, when `id` is not valid, a number is out of its range, or can_steer() is false.
   bool steer(InstanceId id, const SteerTarget& target);
 
   /// Cancels steering. Returns false when `id` is not valid.
   bool release(InstanceId id);
 
-  /// Sets the height of level ground, on which instances come to rest until they are placed or reset; nothing (the
-  /// default) or a height not within ±10⁶ m: they fall for ever. A body whose size the view knows touches with its
-  /// lowest corner, and no corner sinks in while it settles.
+  /// Sets the height of level ground, on which instances come to rest until they are placed or reset. Without a height
+  /// (the default), or with one not within ±10⁶ m, there is no ground. If the model's view has the body's size, its
+  /// lowest corner touches first, and no corner sinks in while it settles.
   void set_ground(std::optional<float> height);
   std::optional<float> ground() const;
 

@@ -13,15 +13,15 @@ struct Cost {
   std::int64_t multiply_adds_per_frame = 0;  ///< number of nonzero coefficients of A and B, the paper's count
   std::int64_t operations_per_frame = 0;     ///< all arithmetic: sum of dynamics, noise, random, view and extinction
   std::int64_t dynamics_operations = 0;  ///< inputs, filters, and the record of clamping: + − × ÷ √ on numbers, logic
-  std::int64_t noise_operations = 0;   ///< from random words to noise added to the outputs, on numbers
+  std::int64_t noise_operations = 0;   ///< on numbers: from random words to noise added to the outputs
   std::int64_t random_operations = 0;  ///< arithmetic and logic on 32-bit words, for the noise
   std::int64_t view_operations = 0;    ///< interpolation between two steps (none for a chain), units, and the polyline
-  /// Largest in any frame, such as one with a segment join, a search for a residual while the input swings, or the
-  /// shrinking of an extinguished flame; in other models equal to operations_per_frame.
+  /// Operations of the most expensive frame: one with a segment join, a search for a residual while the input swings,
+  /// or the shrinking of an extinguished flame; for models without such frames equal to operations_per_frame.
   std::int64_t worst_operations = 0;
-  std::int64_t steered_operations = 0;     ///< largest in any frame of a steered chain, where a join weighs breadth ×
-                                           ///< modes candidates; 0: not steerable
-  std::int64_t extinction_operations = 0;  ///< rule of extinction while the flame burns, 0 without a rule; on numbers
+  std::int64_t steered_operations = 0;     ///< as worst_operations, while a chain is steered, whose joins then weigh
+                                           ///< breadth × modes candidates; 0: not steerable
+  std::int64_t extinction_operations = 0;  ///< on numbers: rule of extinction while the flame burns; 0 without a rule
 };
 
 /// Counts the operations of one frame of one instance, with an outline read as a polyline of `polyline_points` (0:

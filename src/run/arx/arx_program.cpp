@@ -17,8 +17,7 @@ struct ModeRows {
   const std::vector<double>& constant;
 };
 
-// Returns the taps of output i: inputs, then past outputs. Each channel's newest sample comes last, since it is
-// computed last.
+// Returns the taps of output i: inputs, then past outputs, each channel's newest sample last, as it is computed last.
 std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRows> modes,
                                  const std::vector<double>& units, int i) {
   std::vector<ModeWeights> taps;

@@ -15,12 +15,12 @@
 
 namespace wisp {
 
-/// Descending consecutive lags of one channel, with coefficients that are not zero in every mode.
+/// Descending consecutive lags of one channel. Each has a nonzero coefficient in at least one mode.
 struct TapRun {
   std::uint32_t channel;    ///< outputs first, then regressors
   std::uint32_t first_lag;  ///< largest lag of the run
   std::uint32_t count;
-  std::uint32_t coefficient;  ///< index of the run's first coefficient, in taps
+  std::uint32_t coefficient;  ///< index of the run's first tap; ArxProgram::coefficients has `modes` numbers per tap
 };
 
 struct ArxProgram {
@@ -34,20 +34,20 @@ struct ArxProgram {
   std::span<std::uint32_t> twin;       ///< per output, number of taps if the next output has the same taps, else 0
   std::span<float> coefficients;       ///< taps × modes; those of A are negated: a step only adds
   std::span<float> constant;           ///< outputs × modes
-  std::span<std::uint32_t> shock;      ///< per shock, output whose standard normal number it scales
+  std::span<std::uint32_t> shock;      ///< per shock, index of the standard normal number (one per output) it scales
   std::span<std::uint32_t> shock_end;  ///< per output, one past its last shock
   std::span<float> shock_size;         ///< shocks × modes
-  ResampledProgram resampled;          ///< residuals to play instead; empty: Gaussian shocks
+  ResampledProgram resampled;          ///< residuals that replace Gaussian shocks; empty: Gaussian shocks
 };
 
 /// A tap's or shock's coefficient in every mode, in channel units.
 struct ModeWeights {
-  std::uint32_t channel;  ///< of a tap as in TapRun; of a shock the output whose standard normal number it scales
+  std::uint32_t channel;  ///< for a tap as in TapRun; for a shock the index of the standard normal number it scales
   std::uint32_t lag;
   std::vector<float> of_mode;
 };
 
-/// A regression in channel units, before layout.
+/// A regression in channel units, from which the arrays of an ArxProgram are filled.
 struct Regression {
   std::vector<std::vector<ModeWeights>> taps;    ///< per output
   std::vector<std::vector<ModeWeights>> shocks;  ///< per output
@@ -60,20 +60,20 @@ struct Regression {
 Regression regression_of(const Model& model, const ArxModel& arx);
 Regression regression_of(const Model& model, const SwitchedArxModel& switched);
 
-/// Returns a number as the kernels store it: 0 if negligible.
+/// Converts a number to single precision; to 0 if its magnitude is below kMinCoefficient.
 float kept(double value);
 
 /// Appends the weights unless they are zero in every mode.
 void keep(std::vector<ModeWeights>& list, ModeWeights weights);
 
-/// Lays the program out and, unless the arena measures, fills it.
+/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena);
 ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before);
 
-/// Errors: coefficients so large that a step could overflow single precision.
+/// Checks that no step can overflow single precision. Errors: coefficients too large for that.
 Result<void> check_regression(const Regression& regression);
 
 }  // namespace wisp

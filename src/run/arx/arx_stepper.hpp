@@ -19,7 +19,7 @@
 
 namespace wisp {
 
-/// `Modes` selects the active mode of each lane.
+/// Stepper of an ARX model or a switched one. `Modes` selects the active mode of each lane.
 template <class N, class Modes = SingleMode<N>>
 class ArxStepper : public ChannelHistory<N> {
  public:
@@ -27,13 +27,13 @@ class ArxStepper : public ChannelHistory<N> {
   using ChannelHistory<N>::kLanes;
   static constexpr int kCountedFrames = Modes::kCountedFrames;
 
-  /// Returns the point from which the model's deviations are measured.
+  /// Returns the operating point, from which the regression measures deviations.
   template <class Dynamics>
   static OperatingPoint operating_point(const Dynamics& dynamics) {
     return {dynamics.output_mean, dynamics.input_mean};
   }
 
-  /// Errors: values that single precision cannot represent.
+  /// Errors: coefficients so large that a step could overflow single precision.
   template <class Dynamics>
   static Result<void> check(const Model& model, const Dynamics& dynamics) {
     return check_regression(regression_of(model, dynamics));
@@ -67,7 +67,7 @@ class ArxStepper : public ChannelHistory<N> {
   static constexpr int kGroup = Modes::kGroup;
   static constexpr bool kGroupsVary = false;
 
-  /// Computes the newest samples of kBlocks consecutive blocks (1 or kGroup); `moment` is that of the first. Each
+  /// Computes the newest samples of kBlocks consecutive blocks (1 or kGroup); `moment` is that of the first block. Each
   /// coefficient is read once for all blocks, and independent sums fill the processor's pipelines.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
@@ -97,12 +97,12 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  /// Returns whether step_alone() supports the model. It ignores modes, so it is not for steppers whose kGroup is 1.
+  /// Returns whether step_alone() supports the model: one with one output, one mode and no resampled residuals.
   bool steps_alone() const { return alone_.there(); }
 
-  /// Makes `count` >= 2 steps of the only instance, equal to `count` calls of step() with a turn() between. For each
-  /// regressor k, fill(k, first, of, out) writes its values for `of` steps from `first` on; take(first, of, deviations)
-  /// receives the results. Returns the number of steps in which an output was clamped.
+  /// Makes `count` >= 2 steps of the only instance, with the bits of `count` calls of step() with a turn() between.
+  /// fill(k, first, of, out) writes the values of regressor k for `of` steps from step `first` on; take(first, of,
+  /// deviations) receives the outputs of these steps. Returns the number of steps in which an output was clamped.
   template <class Fill, class Take>
   std::uint64_t step_alone(const Moment<N>& moment, int count, Fill fill, Take take) {
     const std::span<const float> shocks = noisy_ ? shock_size_ : std::span<const float>();
@@ -118,11 +118,11 @@ class ArxStepper : public ChannelHistory<N> {
     }
     ring_.turn(count - 1);
     alone_.end(ring_);
-    std::fill_n(quiet_.begin(), program_.regressors, 0);  // step_alone() does not count quiet steps
+    std::fill_n(quiet_.begin(), program_.regressors, 0);  // unknown: these steps were not counted
     return clamped;
   }
 
-  /// Returns a stepper to step some blocks ahead of others: a copy on the same memory with its own ring position.
+  /// Returns a copy on the same memory, but with its own ring position, to step some blocks ahead of others.
   ArxStepper ahead() const { return *this; }
 
   /// Sets one lane to the operating point.
@@ -151,7 +151,7 @@ class ArxStepper : public ChannelHistory<N> {
   /// restore the state.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
-    std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // restored: may not be quiet
+    std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // visit may change the history
     modes_.visit_lane(block, lane, visit);
     const auto [low, high] = resampled_bounds();
     resampled_.visit_lane(block, lane, low, high, visit);
@@ -184,16 +184,17 @@ class ArxStepper : public ChannelHistory<N> {
     std::size_t modes;
     const std::uint32_t* back;
     const Real* ring;  // ring of the first block
-    Real* newest;      // its newest sample
+    Real* newest;      // newest sample of the first block
     std::size_t stride;
     Choice choice;
-    std::uint64_t quiet;     // bit k < kQuietBits: regressor k is quiet
+    std::uint64_t quiet;     // bit k < kQuietBits: regressor k has been 0 over the whole history of all blocks
     std::uint32_t* clamped;  // one flag per lane
 
     BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
 
-  // Whether to compute two rows at once: only if registers hold both rows' sums and as many other values.
+  // Whether two outputs with equal taps are computed at once: only if registers hold both sums and as many other
+  // values.
   template <int kBlocks>
   static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 
@@ -222,14 +223,14 @@ class ArxStepper : public ChannelHistory<N> {
     if (any(clamped)) flag<kBlocks>(clamped, step.clamped);
   }
 
-  // Rarely called, so it is kept out of the step's code.
+  // Sets the flags of clamped lanes. Rarely called, so it is not inlined.
   template <int kBlocks, class Clamped>
   [[gnu::noinline]] static void flag(const Clamped& clamped, std::uint32_t* flags) {
     const BlockPlaces<std::uint32_t, kBlocks> places(flags, kLanes);
     store_blocks<N>(clamped | load_blocks<N, Clamped>(places), places);
   }
 
-  // Adds the run's products in the order of its lags.
+  // Adds the products of a run's coefficients and samples to kRows sums, the largest lag first.
   template <int kRows, int kBlocks>
   static void add_run(const Step<kBlocks>& step, const TapRun& run, std::size_t twin,
                       BlockReals<N, kBlocks> (&sum)[kRows]) {
@@ -250,8 +251,8 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  // A regressor that has been 0 in all lanes over the whole history, such as calm wind, contributes nothing. Skipping
-  // it changes no bit (settle() converts −0 to 0). Returns bit k for regressor k < kQuietBits.
+  // Counts, for each regressor of a block, the steps for which it has been 0 in all lanes. Returns bit k for regressor
+  // k < kQuietBits if these are the whole history: skipping its products changes no bit (settle() converts −0 to 0).
   std::uint64_t count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
     const Real* newest = this->regressors(block);
@@ -270,7 +271,7 @@ class ArxStepper : public ChannelHistory<N> {
     return regressor >= 0 && regressor < kQuietBits && (quiet >> regressor & 1) != 0;
   }
 
-  // Writes the initial values of the blocks' output sums to their newest samples.
+  // Writes constant plus noise to the blocks' newest samples: the initial values of the sums over regressors.
   template <int kBlocks>
   void make_shocks(int block, const Step<kBlocks>& step, const Moment<N>& moment) {
     if (!resampled_.empty()) {
@@ -304,8 +305,8 @@ class ArxStepper : public ChannelHistory<N> {
     return {toward.least, toward.most};
   }
 
-  // Calls take(channel, block, normals) for every shock that is added to an output. Words of many channels are drawn
-  // first, then converted: the steps of one conversion depend on each other, so conversions are interleaved.
+  // Calls take(channel, block, normals) for every standard normal number that an output uses. Random words of many
+  // channels are drawn first, then converted, so that independent conversions run interleaved.
   static constexpr int kDrawnAtOnce = 32;
   template <int kBlocks, class Take>
   void draw(const Moment<N>& moment, Take take) const {
@@ -341,13 +342,14 @@ class ArxStepper : public ChannelHistory<N> {
     return choice.template pick<Values>(program_.constant.data() + i * modes_.count());
   }
 
-  // In descending order: a sum takes the place of its output's standard normal number, which later outputs also use.
+  // Writes the initial sums of all outputs, the last output first: a sum overwrites its output's standard normal
+  // number, which later outputs also use.
   void start_all(int block, const Choice& choice) {
     Real* newest = ring_.sample(block, 0);
     for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
   }
 
-  // Returns the initial value of a sum: the constant and the noise.
+  // Returns the initial value of an output's sum: constant plus noise.
   Reals<N> start_shaken(int block, const Choice& choice, int i) {
     auto sum = constant<Reals<N>>(choice, i);
     for (std::uint32_t k = i == 0 ? 0 : program_.shock_end[i - 1]; k < program_.shock_end[i]; ++k) {
@@ -365,10 +367,10 @@ class ArxStepper : public ChannelHistory<N> {
   ResampledLanes<N> resampled_;
   TimeLanes<N> alone_;
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether any output uses it
-  std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
-  std::span<float> shock_size_;     // shock sizes of the program, scaled
+  std::span<int> quiet_;            // [block][regressor]: number of last steps with 0 in all lanes, at most the depth
+  std::span<float> shock_size_;     // shock sizes of the program times the scale of the noise
   bool noisy_ = false;
-  bool own_shocks_;  // every output has one shock, its own
+  bool own_shocks_;  // every output has exactly one shock, that of its own standard normal number
 };
 
 template <class N>

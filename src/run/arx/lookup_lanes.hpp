@@ -1,7 +1,7 @@
 #pragma once
-// Searches for the row to jump to from the end of the current block of rows, lane by lane: near in position and speed,
-// not played recently, preferably in a little-used part. Since a block's end is known at its beginning, the candidates
-// are compared a few per step, which bounds the cost of a step.
+// Searches for the row to jump to from the end of the current block of rows (played consecutively), lane by lane: a row
+// that is near in position and speed, not played recently, preferably in a little-used part. Since a block's end is
+// known at its beginning, a few candidates are compared per step, which bounds the cost of a step.
 //
 // Sources: A. Schödl, R. Szeliski, D. Salesin, I. Essa, "Video Textures", SIGGRAPH 2000; for the penalty of repeated
 // play, W. Li, X. Chen, P. Li, O. Sorkine-Hornung, B. Chen, "Example-Based Motion Synthesis via Generative Motion
@@ -40,11 +40,11 @@ class LookupLanes {
     forget_places(block, lane);
   }
 
-  /// Returns whether the current block of rows is finished.
+  /// Returns whether a lane's current block of rows ends, of which it has played `played` rows.
   bool is_over(int block, int lane, std::uint32_t played) const { return played >= length(block, lane); }
 
-  /// Compares this step's share of candidates. `played`: the current block's rows so far, then earlier blocks, newest
-  /// first; `left`: number of rows that follow the current one in its stretch.
+  /// Compares this step's share of candidates. `played`: the rows played so far of the current block, then those of
+  /// earlier blocks, newest first; `left`: number of rows that follow the current row in its stretch.
   void look(int block, int lane, std::span<const PlayedRows> played, std::uint32_t left) {
     const std::uint32_t all = length(block, lane), now = played[0].count;
     if (now == 0 || now > all) return;
@@ -55,7 +55,8 @@ class LookupLanes {
     for (std::uint32_t group = first; group < end; ++group) compare(block, lane, group, aim, played, ahead);
   }
 
-  /// Records a block of rows as played and draws the next one by two random words. Returns the next block's first row.
+  /// Counts `played`, the block just finished, and draws the next block by two random words: its first row, which is
+  /// returned, and its length. `left`: per row, number of rows that follow in its stretch.
   std::uint32_t jump(int block, int lane, PlayedRows played, std::uint32_t where, std::uint32_t how_long,
                      std::span<const std::uint32_t> left) {
     count(block, lane, played);
@@ -88,8 +89,8 @@ class LookupLanes {
 
  private:
   static constexpr float kNone = 1e30f;       // cost of a missing candidate
-  static constexpr float kBarred = 10;        // cost added to an excluded row, which is chosen only for want of others
-  static constexpr float kForgotten = 1e-3f;  // share of the play counts that decays per played row
+  static constexpr float kBarred = 10;        // added to an excluded row's cost: ranks it behind nearly all others
+  static constexpr float kForgotten = 1e-3f;  // share by which play counts decay per played row
   static constexpr float kMaxCounted = 1e7f;
   static constexpr int kLength = 0, kWeight = 1, kCost = 2, kPlace = kCost + kNearestPlaces;
   static constexpr int kCount = kPlace + kNearestPlaces, kValues = kCount + static_cast<int>(kPlayedParts);
@@ -106,7 +107,7 @@ class LookupLanes {
     }
   }
 
-  // Position and speed at the block's end, with which candidates are compared.
+  // Position and speed at the end of the current block, with which candidates are compared.
   struct Aim {
     Real trait[2 * kMaxTraits];
     std::uint32_t row;
@@ -147,7 +148,7 @@ class LookupLanes {
     }
   }
 
-  // Returns whether a row is near the one after `end`, or will have been played recently when the block ends.
+  // Returns whether `row` is near the row after `end`, the block's last, or was played recently when the block ends.
   bool is_barred(std::uint32_t row, std::uint32_t end, std::span<const PlayedRows> played, std::uint32_t ahead) const {
     if (row + program_.beside > end && row <= end + 1 + program_.beside) return true;
     std::uint32_t room = program_.recent;
@@ -160,7 +161,7 @@ class LookupLanes {
     return false;
   }
 
-  // Of two equal costs the first stays in front.
+  // Inserts a candidate into the list of the cheapest ones, behind those of equal cost.
   void keep(int block, int lane, Real cost, std::uint32_t place) {
     int rank = kNearestPlaces;
     while (rank > 0 && cost < at(block, kCost + rank - 1)[lane]) --rank;
@@ -173,7 +174,7 @@ class LookupLanes {
     at(block, kPlace + rank)[lane] = Real(static_cast<float>(place));
   }
 
-  // Decays the play counts and adds a block's rows; the weight of usage is relative to the sum of all counts.
+  // Decays the play counts of the parts, adds a block's rows, and sets the weight of usage to coverage / sum of counts.
   void count(int block, int lane, PlayedRows played) {
     if (played.count == 0) return;
     const std::uint32_t first = played.last + 1 - played.count;

@@ -1,5 +1,5 @@
 #pragma once
-// Active mode in every lane of a block: the only mode of an ARX model, or that of a switched model's Markov chain.
+// The active mode in every lane of a block: an ARX model has only one; a switched model's Markov chain selects it.
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +24,7 @@ struct ModeProgram {
   std::span<std::uint32_t> thresholds;
 };
 
-/// Lays the program out and, unless the arena measures, fills it.
+/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ModeProgram make_mode_program(const SwitchedArxModel& switched, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`.
@@ -35,14 +35,14 @@ template <class N>
 class SingleMode {
  public:
   using Real = typename N::Real;
-  /// Number of frames over which a cost is averaged: resampled residuals jump in some of them.
+  /// Number of frames over which a cost is averaged, since resampled residuals jump in some frames only.
   static constexpr int kCountedFrames = 60;
 
   SingleMode(const Model&, const ArxModel&, int, Arena&) {}
 
   static constexpr std::size_t count() { return 1; }
   void set_chance(bool) {}
-  /// Number of blocks that can be stepped at once, since they share coefficients.
+  /// Number of blocks stepped at once. All blocks have the same coefficients.
   static constexpr int kGroup = WISP_BLOCKS_AT_ONCE;
   struct Choice {
     template <class Values>
@@ -59,14 +59,14 @@ class SingleMode {
   std::uint64_t hash(std::uint64_t before) const { return before; }
 };
 
-/// Modes of a switched model. Coefficients are gathered lane by lane, so that the arithmetic is that of a single mode,
-/// whatever the number of modes. The chain takes one random word per step.
+/// Modes of a switched model. Each lane's coefficients are those of its mode, so the arithmetic of a step does not
+/// depend on the number of modes. The Markov chain takes one random word per step.
 template <class N>
 class ModeLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// One: every frame costs the same.
+  /// Number of frames over which a cost is averaged: one, since every frame costs the same.
   static constexpr int kCountedFrames = 1;
 
   ModeLanes(const Model&, const SwitchedArxModel& switched, int blocks, Arena& arena)
@@ -75,7 +75,7 @@ class ModeLanes {
 
   std::size_t count() const { return static_cast<std::size_t>(program_.modes); }
 
-  /// Without chance the Markov chain takes its likeliest transition.
+  /// Sets whether transitions are random; otherwise the Markov chain takes its likeliest transition.
   void set_chance(bool there) { chance_ = there; }
 
   static constexpr int kGroup = 1;
@@ -101,7 +101,7 @@ class ModeLanes {
     return choice;
   }
 
-  /// A new instance has no mode before its first step.
+  /// Starts a lane: it has no mode before its first step.
   void start(int block, int lane) { modes_[block * kLanes + lane] = Real(kNoMode); }
 
   /// Returns the mode that made the newest sample; none before the first step.

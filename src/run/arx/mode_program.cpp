@@ -6,7 +6,7 @@
 namespace wisp {
 namespace {
 
-// Converts cumulative probabilities to 32-bit words. The last mode of positive probability takes the rounding error.
+// Converts probabilities to cumulative ones, as 32-bit words; kAnyWord from the last mode of positive probability on.
 void fill_thresholds(std::span<const double> probabilities, std::uint32_t* thresholds) {
   double sum = 0;
   std::size_t last = 0;

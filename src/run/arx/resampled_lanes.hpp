@@ -1,17 +1,17 @@
 #pragma once
 // Replays recorded residuals (ResampledResiduals), lane by lane. An instance's state is its current row, the number of
-// rows played since its last jump, the blocks of rows played before, and the recent past of its input. Comparisons
-// decide whether an instance jumps; counter-based random words choose its target. Without a driving input, an instance
-// jumps after a random time to a row with similar outputs (lookup_lanes.hpp).
+// rows played since its last jump, the runs of rows played before, and the recent past of its input. Comparisons decide
+// whether an instance jumps; counter-based random words choose its target. Without a driving input, an instance jumps
+// after a random time to a row with similar outputs (lookup_lanes.hpp).
 //
 // With a driving input, an instance jumps to one of the rows whose input past is most similar to its own (related
 // methods in animation: D. Kovar, M. Gleicher, F. Pighin, "Motion Graphs", SIGGRAPH 2002, and S. Clavet, "Motion
 // Matching", GDC 2016). The search descends a k-d tree once and compares the rows of one leaf. It runs only in steps in
-// which the next row's distance exceeds the tolerance, a stretch ends, or a block has reached its longest duration.
+// which the next row's distance exceeds the tolerance, a stretch ends, or a run has reached its longest duration.
 //
 // For a 3-D body the input is a horizontal vector, and there are two searches over the same past, each with its own
-// state. The row of the first gives the components along the wind, that of the second, mirrored at random, those across
-// it. Both are rotated to the wind's direction at the jump to the row.
+// state. The row of the first search gives the residuals along the wind; the row of the second, mirrored at random, the
+// residuals across the wind. Both are rotated to the wind's direction at the jump to the row.
 
 #include <algorithm>
 #include <cstdint>
@@ -54,7 +54,7 @@ class ResampledLanes {
     return !empty() && scale != 0;
   }
 
-  /// A new instance jumps in its first step; its input past is calm.
+  /// Starts a lane: its input past is calm, and it jumps in its first step.
   void start(int block, int lane) {
     for (int k = 0; k < lives(); ++k) {
       const int life = k * blocks_ + block;
@@ -69,10 +69,11 @@ class ResampledLanes {
     if (program_.across > 0) std::fill_n(turned_.data() + (block * kLanes + lane) * stride_, stride_, 0.0f);
   }
 
-  /// Advances every block's past by `samples`.
+  /// Advances every block's input past by `samples`.
   void turn(int samples = 1) { past_.turn(samples); }
 
-  /// Records a block's input, [regressor][lane]; called in every step, with or without noise.
+  /// Records a block's driving input, given all regressors, [regressor][lane]; called in every step, even without
+  /// noise.
   void hear(int block, const Real* regressors) {
     if (!program_.driven()) return;
     for (int k = 0; k < lives(); ++k, regressors += kVectorRegressors * kLanes) {
@@ -80,7 +81,7 @@ class ResampledLanes {
     }
   }
 
-  /// Advances the lanes in use of a block.
+  /// Advances the lanes in use of a block to their next rows.
   void step(int block, const Moment<N>& moment) {
     for (int k = 0; k < lives(); ++k) {
       const Life life{block, k * blocks_ + block, k};
@@ -115,7 +116,7 @@ class ResampledLanes {
     return empty() ? 0 : program_.across > 0 ? 2 * (one + 2) : one;
   }
 
-  /// `low` and `high` bound the input.
+  /// Visits the state of a lane, as ArxStepper::visit_lane() does. `low` and `high` bound the input.
   template <class Visit>
   void visit_lane(int block, int lane, float low, float high, Visit visit) {
     if (empty()) return;
@@ -136,8 +137,8 @@ class ResampledLanes {
   }
 
  private:
-  // State layout: kPlace is 2 · row, plus 1 for the row's mirror image; kAge is the number of rows played since the
-  // jump. The same pair follows for the last row of each of the kRecentBlocks blocks before, newest first.
+  // State layout: kPlace holds 2 · row, plus 1 for the row's mirror image; kAge the number of rows played since the
+  // jump. Such pairs follow for the last row of each of the kRecentBlocks runs of rows before, the newest run first.
   static constexpr float kMaxSum = 1e15f;  // bound on the sum of an input's past, in channel units
   static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;
@@ -146,8 +147,8 @@ class ResampledLanes {
 
   static constexpr int kVectorRegressors = 3;  // regressors per component of a vector
 
-  // A search for rows: number 0 finds residuals along the wind; 1, for a body only, those across it. `at`: index of the
-  // search's state.
+  // A search for rows: number 0 finds residuals along the wind; number 1, for a body only, residuals across the wind.
+  // `at`: index of the search's state.
   struct Life {
     int block;
     int at;
@@ -196,7 +197,7 @@ class ResampledLanes {
     const auto vectors = static_cast<std::size_t>(program_.across);
     const std::size_t numbers = static_cast<std::size_t>(program_.outputs) - 2 * vectors;
     float* out = turned_.data() + (block * kLanes + lane) * stride_;
-    // Four at a time, as rows are padded; excess numbers are overwritten below.
+    // Copies four numbers at a time, as rows are padded; excess numbers are overwritten below.
     for (std::size_t k = 0; k < numbers; k += 4) std::memcpy(out + k, along + k, 4 * sizeof(float));
     const Real x = from(block, 0)[lane], z = from(block, 1)[lane];
     const Real other_x = from(blocks_ + block, 0)[lane], other_z = from(blocks_ + block, 1)[lane];
@@ -242,22 +243,22 @@ class ResampledLanes {
     bool forced[kLanes];
   };
 
-  // Input past at each lag. Where its sum is negative (`right`), its sign is reversed for the search, and the row found
-  // is played as its mirror image.
+  // Input past of each lane, at each lag. A past with a negative sum (`right`) is searched with its sign reversed, and
+  // the row that is found is played as its mirror image.
   struct Heard {
     Real wind[kMaxResampledLags][kLanes];
     bool right[kLanes];
     Real from[2][kLanes];  // for a body: wind direction, along which the past is measured
   };
 
-  // Lanes that may jump. Each stage of the search runs for all of them, to overlap their memory latencies.
+  // Lanes that may jump. Each stage of the search runs for all these lanes, to overlap their memory latencies.
   struct Seekers {
     int lane[kLanes];
     std::uint32_t leaf[kLanes] = {};
     int count = 0;
   };
 
-  // Makes lanes jump whose block has ended, or whose input is too far from the recorded one.
+  // Searches new rows for the lanes that must jump, and for those whose input is too far from the recorded input.
   void search(const Life& life, const Moment<N>& moment, Places& places) {
     Seekers seekers;
     Real ahead[kLanes];
@@ -282,14 +283,14 @@ class ResampledLanes {
     }
   }
 
-  // Computes the distance of the input's past from that of the next rows: the sum of absolute differences over lags. It
-  // chooses as well as a sum of squares and takes half of the operations.
+  // Computes the distance of the lanes' input pasts from those of the next rows: the sum of absolute differences over
+  // lags, which chooses as well as a sum of squares and takes half of the operations.
   void go_on(const Life& life, const Places& places, Real (&ahead)[kLanes]) const {
     const float* wind[kLanes];
     Real mirrored[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t next = places.next[lane];
-      // A lane that must jump may have no next row. It reads the current one; the result is unused.
+      // A lane that must jump may have no next row. The current row is read instead, and the result not used.
       wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
       mirrored[lane] = Real(next % 2 != 0 && program_.across == 0 ? 1.0f : 0.0f);
     }
@@ -326,7 +327,7 @@ class ResampledLanes {
     return load<Reals<N>>(vector) * load<Reals<N>>(x) + load<Reals<N>>(vector + kLanes) * load<Reals<N>>(z);
   }
 
-  // Measures the input's past along the direction of its vector sum; along x if the sum is 0.
+  // Measures the input past of a body along the direction of the past's vector sum; along x if the sum is 0.
   void hear_vector(int block, Heard& heard) const {
     auto x = all<Reals<N>>(0.0f), z = x, one = all<Reals<N>>(1.0f);
     for (const std::uint32_t lag : program_.lags) {
@@ -359,8 +360,8 @@ class ResampledLanes {
     for (int lane = 0; lane < kLanes; ++lane) heard.right[lane] = value_of(sides[lane]) < 0;
   }
 
-  // Descends the tree to a leaf. If the past is within the margin of a node's value, the side is chosen at random, so
-  // that all rows of calm, which are alike, are reachable.
+  // Descends the tree to a leaf for each seeker. If the past is within the margin of a node's value, the side is chosen
+  // at random, so that all calm rows, whose pasts are equal, are reachable.
   void descend(const Heard& heard, const std::uint32_t (&words)[kLanes], Seekers& seekers) const {
     std::uint32_t node[kLanes] = {}, word[kLanes] = {};
     for (int k = 0; k < seekers.count; ++k) word[k] = words[seekers.lane[k]];
@@ -379,8 +380,8 @@ class ResampledLanes {
     }
   }
 
-  // Rows that the lanes played recently, or will play without a jump: above `low`, up to `high`. A mirrored place adds
-  // half a row to both, which changes no comparison with whole rows.
+  // Rows above `low`, up to `high`: those that the lanes played recently, or would play next without a jump. A mirrored
+  // place adds half a row to both bounds, which changes no comparison with whole rows.
   struct Recent {
     float low[1 + kRecentBlocks][kLanes];
     float high[1 + kRecentBlocks][kLanes];
@@ -396,7 +397,7 @@ class ResampledLanes {
     }
   }
 
-  // Computes the distance of a lane's past from those of a leaf's rows: infinite for missing or recently played rows.
+  // Computes the distances of a lane's input past from those of a leaf's rows; infinite for missing or recent rows.
   void compare(int lane, std::uint32_t leaf, const Heard& heard, const Recent& recent,
                float (&apart)[kCandidates]) const {
     const Candidates& rows = program_.leaves[leaf];
@@ -422,8 +423,8 @@ class ResampledLanes {
     }
   }
 
-  // Distance and candidate index of the nearest rows of a leaf, best first, for every seeker. Of equal distances the
-  // first candidate precedes.
+  // Distance and candidate index of the nearest rows of a leaf, nearest first, for every seeker. Candidates of equal
+  // distance are in the order of their index.
   struct Nearest {
     float apart[kNearestRows][kLanes];
     float candidate[kNearestRows][kLanes];
@@ -445,7 +446,7 @@ class ResampledLanes {
     for (int first = 0; first < seekers.count; first += N::kPartLanes) rank_part(row + first, nearest, first);
   }
 
-  // Ranks whole vectors of seekers; results beyond the last seeker are not read.
+  // Ranks the candidates of kPartLanes seekers from `first` on. Results beyond the last seeker are not read.
   static void rank_part(const float* const* row, Nearest& nearest, int first) {
     using Values = Pack<typename N::RealPart, 1>;
     Values best[kNearestRows], which[kNearestRows];
@@ -475,8 +476,9 @@ class ResampledLanes {
     }
   }
 
-  // Chooses a seeker's next place: the next row, if its distance `ahead` exceeds the leaf's best by at most the
-  // tolerance, else a random one of the nearest. If the whole leaf is excluded: the next row, or the leaf's last.
+  // Chooses a seeker's next place: the next row, if its distance `ahead` exceeds the leaf's least by at most the
+  // tolerance, else one of the nearest rows at random. `ahead` is null for a lane that must jump. If all rows of the
+  // leaf are excluded: the next row, or the leaf's last row if the lane must jump.
   std::uint32_t jump(const Life& life, int seeker, const Seekers& seekers, const Heard& heard, const Nearest& nearest,
                      std::uint32_t word, const Real* ahead) {
     const int lane = seekers.lane[seeker];
@@ -489,8 +491,8 @@ class ResampledLanes {
     return arrive(life, lane, heard, rows.place[which], word);
   }
 
-  // Returns the place to play from after a jump to a place of the search tree: its mirror image if the past was
-  // mirrored before the search. For a body the direction is mirrored instead, and the components across at random.
+  // Returns the place to play after a jump to `place` of the tree: its mirror image if the past was mirrored before the
+  // search. For a body the direction is mirrored instead, and residuals across the wind are mirrored at random.
   std::uint32_t arrive(const Life& life, int lane, const Heard& heard, std::uint32_t place, std::uint32_t word) {
     if (program_.across == 0) return place ^ (heard.right[lane] ? 1 : 0);
     const Real side(place % 2 != 0 ? -1.0f : 1.0f);
@@ -502,7 +504,7 @@ class ResampledLanes {
   LookupLanes<N> lookup_;
   std::span<Real> state_;
   SampleRing<N> past_;       // past of the input
-  std::span<Real> from_;     // for a body [life][x, z][lane]: direction along which a row is played
+  std::span<Real> from_;     // for a body [search][x, z][lane]: wind direction to which a row is rotated
   std::span<float> turned_;  // [block][lane][output]: residuals rotated to that direction
   std::size_t stride_ = 0;
   int blocks_ = 0;

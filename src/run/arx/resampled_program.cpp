@@ -13,7 +13,7 @@ namespace wisp {
 namespace {
 
 constexpr double kMaxUnits = 1e9;      // bound on a residual or wind in channel units: no sum overflows
-constexpr std::uint32_t kMinLeft = 6;  // fewest rows after a jump's target, if any row has that many
+constexpr std::uint32_t kMinLeft = 6;  // minimum number of rows after a jump target, if any row has that many
 
 float bounded(double value) {
   if (std::abs(value) < kMinCoefficient) return 0.0f;
@@ -50,7 +50,8 @@ std::size_t count_nodes(std::size_t rows) {
   return leaves - 1;
 }
 
-// Fills in winds in the regressor's channel units, as deviations from its mean if the channel has one.
+// Fills in all that depends on the input: the lags, `now` and `turned`; in the regressor's channel units, tolerance,
+// margin and recorded inputs (deviations from the regressor's mean).
 void fill_winds(const Model& model, const ArxModel& arx, const ResampledResiduals& resampled,
                 ResampledProgram& program) {
   const double unit = resampled.wind_scale / regressor_scale(model, resampled.toward);
@@ -69,7 +70,7 @@ void fill_winds(const Model& model, const ArxModel& arx, const ResampledResidual
   });
 }
 
-// A balanced k-d tree (J. L. Bentley, Communications of the ACM 18 (1975)) over the inputs' pasts.
+// Builds a balanced k-d tree (J. L. Bentley, Communications of the ACM 18 (1975)) over the rows' input pasts.
 class PastTree {
  public:
   explicit PastTree(ResampledProgram& program) : program_(program) {}
@@ -77,8 +78,8 @@ class PastTree {
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
     if (node >= program_.nodes.size()) return;
     const std::uint32_t lag = widest(begin, end);
-    // Equal rows are shuffled, so that a leaf holds calm rows of several stretches: those of a single stretch may all
-    // be excluded as just played. Heap sort takes little code and no memory.
+    // Rows of equal input are shuffled, so that a leaf holds calm rows of several stretches: calm rows of one stretch
+    // may all be excluded as just played. Heap sort takes little code and no memory.
     const auto scattered = [](std::uint32_t row) { return row * 0x9E3779B1U; };
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
       const float x = past(a, lag), y = past(b, lag);
@@ -122,7 +123,7 @@ class PastTree {
   ResampledProgram& program_;
 };
 
-// Fills the rows of each leaf, with all data of a comparison contiguous.
+// Fills in the leaves below a node, whose rows are order[begin … end): all data of a comparison are contiguous.
 void fill_leaves(ResampledProgram& program, std::size_t node, std::size_t begin, std::size_t end) {
   if (node < program.nodes.size()) {
     const std::size_t middle = begin + (end - begin) / 2;
@@ -193,13 +194,13 @@ void fill_sides(const Model& model, const ResampledResiduals& resampled, Resampl
   }
 }
 
-// Chosen on four films (docs/studies/still-flames.md).
+// Values chosen on four films (docs/studies/still-flames.md).
 constexpr double kShortestSeconds = 0.4;  // least time between jumps
 constexpr double kLongestSeconds = 1.2;   // greatest time between jumps
-constexpr double kBesideSeconds = 0.3;    // rows this near to the next row are no targets
-constexpr double kRecentSeconds = 0.7;    // rows played within this time are no targets
-constexpr double kAheadSeconds = 0.5;     // time after a target whose usage counts
-constexpr double kCoverage = 2;           // weight of usage
+constexpr double kBesideSeconds = 0.3;    // rows within this time of the next recorded row are no jump targets
+constexpr double kRecentSeconds = 0.7;    // rows played within this time before a jump are no targets
+constexpr double kAheadSeconds = 0.5;     // usage of a target: play counts at 1/4 and 3/4 of this time after the target
+constexpr double kCoverage = 2;           // cost of usage if all rows are played equally often
 constexpr double kMaxSteps = 1e6;
 constexpr double kMaxPosition = 1e6;
 
@@ -229,7 +230,7 @@ std::vector<double> states_of(const ArxModel& arx, std::span<const std::uint32_t
   return out;
 }
 
-// Returns the contribution of each state component to the visible motion.
+// Returns how far a unit of each output moves the outline: the norm of its basis vector; 1 for a model without a shape.
 std::vector<double> weights_of(const Model& model, std::size_t count) {
   const auto* view = std::get_if<OutlineView>(&model.view);
   if (!view || view->shape.empty()) return std::vector<double>(count, 1.0);
@@ -312,8 +313,8 @@ void fill_places(const Model& model, std::span<const std::uint32_t> left, Lookup
   }
 }
 
-// Lays the program out for residuals without a driving input and, unless the arena measures, fills it. `left`: per row,
-// the number of rows that follow in its stretch; empty while measuring.
+// Compiles the lookup for residuals without a driving input; arrays are not filled while the arena only measures.
+// `left`: per row, the number of rows that follow in its stretch; empty while measuring.
 LookupProgram make_lookup_program(const Model& model, const ArxModel& arx, std::span<const std::uint32_t> left,
                                   Arena& arena) {
   const ResampledResiduals& resampled = arx.noise.resampled;

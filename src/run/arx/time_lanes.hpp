@@ -1,7 +1,7 @@
 #pragma once
 // Makes many steps of a bank's only instance, of a model with one output: lanes hold consecutive steps rather than
 // instances. Contributions of inputs and noise are computed in parallel; only sums over past outputs are sequential,
-// and are added last. Every step sums in the same order as in a block.
+// and are added last. Each step sums in the order of ArxStepper::step(), so it gives the same bits.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ class TimeLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// Whether the kernel is compiled: not in builds for size.
+  /// Whether the kernel is compiled; builds for size leave it out.
   static constexpr bool kThere = WISP_BLOCKS_AT_ONCE > 1;
   /// Largest number of steps whose inputs are read, and whose outputs are written, together.
   static constexpr int kAtOnce = 8 * kLanes;
@@ -33,7 +33,7 @@ class TimeLanes {
   /// Returns whether this kernel supports the model.
   bool there() const { return past_ > 0; }
 
-  /// Copies the history of a bank's first lane; its sample at lag 0 is still to be computed.
+  /// Copies the history of a bank's first lane from lag 1 on; the sample at lag 0 is still to be computed.
   void begin(const SampleRing<N>& ring) {
     for (int lag = 1; lag < past_; ++lag) {
       const Real* sample = ring.sample(0, static_cast<std::uint32_t>(lag));
@@ -41,7 +41,7 @@ class TimeLanes {
     }
   }
 
-  /// Copies the history back; lag 0 is the last step made.
+  /// Copies the history back to the ring; its sample at lag 0 is that of the last step made.
   ///
   /// Precondition: since begin() two steps or more were made.
   void end(SampleRing<N>& ring) const {
@@ -51,7 +51,7 @@ class TimeLanes {
     }
   }
 
-  /// Returns the address for the values of regressor k in the coming steps, at most kAtOnce.
+  /// Returns the address for the values of regressor k in the next steps, at most kAtOnce.
   Real* regressors(int k) { return newest(1 + k); }
 
   /// Makes up to kAtOnce steps. `shock_sizes`: one per entry of program.shock; empty: no shocks. Returns the outputs'
@@ -110,8 +110,9 @@ class TimeLanes {
     }
   }
 
-  // Adds past outputs to the newest value one at a time, since a vector of them would wait for the last store. Returns
-  // whether it was clamped. This is rare, so the predicted branch lets the next step start before the comparison ends.
+  // Adds the contributions of past outputs to the newest value, one at a time, since a vector load would wait for the
+  // last store. Returns whether the value was clamped: a rare case, marked as unlikely, so that the processor starts
+  // the next step before the comparison ends.
   static bool finish(const ArxProgram& program, const OutputChannel& output, Real* newest) {
     Real sum = *newest;
     for (const TapRun& run : program.runs) {

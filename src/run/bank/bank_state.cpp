@@ -101,8 +101,8 @@ void Bank::State::start(int slot) {
   show_block(block);
 }
 
-// The dynamics restart at the operating point. The random stream continues, so that the flame does not repeat its first
-// flicker.
+// Relights an instance. Its dynamics restart at the operating point. Its random stream continues, so that the flame
+// does not repeat its first flicker.
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;
   const int block = slot / kLanes, lane = slot % kLanes;
@@ -201,7 +201,7 @@ std::uint64_t Bank::State::share(Work work) {
   return task.sum;
 }
 
-// The displayed outputs depend on `passed` and `between`, which the caller sets before.
+// Makes steps of all instances. The displayed outputs depend on `passed` and `between`, which the caller sets before.
 void Bank::State::step_all(const Steps& made) {
   const auto turn = [this](int samples) { std::visit([&](auto& dynamics) { dynamics.turn(samples); }, stepper); };
   turn(1);
@@ -221,7 +221,7 @@ void Bank::State::show() {
 namespace {
 
 constexpr std::array<char, 8> kSaveMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 4, kChainVersion = 5;  // kChainVersion: of banks of chains
+constexpr std::uint32_t kVersion = 4, kChainVersion = 5;  // versions of the saved form; kChainVersion: banks of chains
 constexpr std::size_t kSaveHeaderSize = 32;
 constexpr std::size_t kFieldsSize = 11 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
@@ -274,8 +274,7 @@ struct SlotRecord {
   }
 };
 
-// Visits the saved state of a slot, in order. With extinction: the wind, the damage, whether it is lit, its sizes, its
-// event, the shares of the offset that are left, the times of lighting and extinction, and the offset.
+// Visits the saved state of a slot, in the order of its record.
 void visit_slot(Bank::State& s, int slot, SlotRecord& record) {
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   std::uint32_t alive = s.alive[slot];

@@ -1,5 +1,5 @@
 #pragma once
-// The state of a bank. All of it, this struct included, lies in one piece of memory.
+// The state of a bank. This struct and the arrays of its spans are in one piece of memory.
 
 #include "run/bank/extinction_lanes.hpp"
 #include "run/bank/frame_path.hpp"
@@ -13,11 +13,11 @@
 
 namespace wisp {
 
-// A step number that no instance reaches. Steps before a bank was restored wrap around to just below the largest
-// number, so "never" lies in the middle.
+// The step number that stands for never. In a restored bank, steps before it began wrap around to just below 2^64, so
+// this number is in the middle.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
 // Whether a block may make many steps before the next block makes its first. Builds for size make one step at a time,
-// and pass no inputs or outputs with it.
+// and Steps then has no inputs and outputs.
 inline constexpr bool kAhead = WISP_BLOCKS_AT_ONCE > 1;
 inline constexpr float kMaxNoise = 10.0f;
 inline constexpr float kMinNoise = 1e-6f;  // a smaller noise gain counts as 0
@@ -136,27 +136,27 @@ struct Bank::State {
   std::span<float> round_lines;   // [x, z][2 · point + coordinate][lane]: scratch, their polylines
 
   // Per slot; empty for a model without extinction.
-  std::span<float> wind;  // strength of the wind in the next step
+  std::span<float> wind;  // magnitude of the wind in the next step
   std::span<float> harm;
   std::span<float> lit;  // 1 or 0
   std::span<float> size;
   std::span<float> previous_size;   // size before the last step
   std::span<float> event;           // index of the next step's size in the extinction's sizes, or kNoEvent
-  std::span<float> left;            // share of the offset that is applied, 0 … 1
+  std::span<float> left;            // share of `offset` that is applied, 0 … 1
   std::span<float> previous_left;   // share before the last step
   std::span<float> offset;          // [block][moved][lane]: shown variables minus those of the event or the dynamics;
                                     // for an extinguished instance the shown variables themselves
-  std::span<std::uint64_t> lit_at;  // value of `steps` when it was last relit, else kNeverInSteps
-  std::span<std::uint64_t> out_at;  // value of `steps` when it was last extinguished, else kNeverInSteps
-  std::span<std::uint8_t> by_hand;  // whether it was relit or extinguished by hand since the last call
+  std::span<std::uint64_t> lit_at;  // value of `steps` at the last relighting, or kNeverInSteps
+  std::span<std::uint64_t> out_at;  // value of `steps` at the last extinction, or kNeverInSteps
+  std::span<std::uint8_t> by_hand;  // whether relight() or extinguish() acted since the last step() or advance()
 
   int living = 0;
   int rows = 0;         // one more than the highest slot in use
-  int lowest_free = 0;  // no slot below it is free
+  int lowest_free = 0;  // no slot below this one is free
   std::uint64_t spawned = 0;
   std::uint64_t steps = 0;   // steps of the bank
   std::uint64_t called = 0;  // value of `steps` before the last call of step() or advance()
-  float rest_area = 0;       // area of an outline at the operating point
+  float rest_area = 0;       // area of the outline at the operating point
   std::int64_t longest;      // longest time that advance() plays, nanoseconds
   std::int64_t passed = 0;   // nanoseconds since the last step
   LevelView view;            // view of a body

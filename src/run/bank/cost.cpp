@@ -34,11 +34,11 @@ std::vector<CountingReal> blowing_regressors(const Model& model, const Channels&
 // Course of the inputs while steps are counted.
 enum class Course {
   kSteady,    // every input is at its highest
-  kSwinging,  // inputs rise to their highest again and again, so that resampled residuals search
+  kSwinging,  // inputs rise from 0 nearly to their highest again and again, so that resampled residuals search
   kSteered,   // inputs as in kSteady, while a chain is steered
 };
 
-// Returns the share of the highest inputs that acts in a step.
+// Returns the factor on the regressors in a step: 1, or in kSwinging a ramp from 0 to 23/24 over every 24 steps.
 float share_of(Course course, std::uint64_t step) {
   constexpr std::uint64_t kSwing = 24;
   return course == Course::kSwinging ? static_cast<float>(step % kSwing) / kSwing : 1.0f;
@@ -120,8 +120,8 @@ OperationCount count_view(const Played<Stepper>& played) {
 }
 
 struct ExtinctionCount {
-  std::int64_t burning = 0;    // reading the wind, and a step
-  std::int64_t shrinking = 0;  // in addition, for an instance during extinction or relighting
+  std::int64_t burning = 0;    // operations to read the wind and make a step of the rule
+  std::int64_t shrinking = 0;  // additional operations of an instance in an event of extinction or re-ignition
 };
 
 ExtinctionCount count_extinction(const Model& model) {

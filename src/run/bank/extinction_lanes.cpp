@@ -11,7 +11,7 @@ namespace wisp {
 namespace {
 
 constexpr double kMaxHarm = 0.5;       // largest damage per step: no single sample blows a flame out
-constexpr double kStirs = 0.1;         // share of the level above which wind ends the replay of re-ignition
+constexpr double kStirs = 0.1;         // wind above this share of the level ends the replay of a re-ignition
 constexpr double kJoinSeconds = 0.06;  // duration of the cross-over from decay to re-ignition
 constexpr double kLeaveSeconds = 0.2;  // duration of the cross-over from re-ignition to the dynamics
 
@@ -20,7 +20,7 @@ std::size_t steps_in(double seconds, double step) {
   return static_cast<std::size_t>(std::clamp(std::round(seconds / step), 1.0, 1000.0));
 }
 
-// Lays events out one after the other, each followed by `leaving` steps of cross-over.
+// Appends events to the program's sizes and shapes, each followed by `leaving` steps of cross-over.
 void lay_out(const FlameEvents& events, std::size_t leaving, std::span<std::uint32_t> begins, std::size_t& at,
              ExtinctionProgram& program) {
   const std::size_t components = events.scale.size();

@@ -1,8 +1,8 @@
 #pragma once
 // The rule of extinction (wisp/model/extinction.hpp), applied block by block.
 //
-// An instance has a damage, 0 … 1; it is lit, 1 or 0; and it has the size at which it is drawn, 0 … 1. A step takes
-// three operations, and one to read a scalar wind; in a recorded event, more for each component and displayed output.
+// The state of an instance: damage, 0 … 1; whether it is lit, 1 or 0; and the size at which it is drawn, 0 … 1. A step
+// takes three operations, and one to read a scalar wind; in an event, more for each component and displayed output.
 
 #include <cstdint>
 #include <span>
@@ -18,18 +18,18 @@ namespace wisp {
 struct ExtinctionProgram {
   bool present = false;  ///< false: instances are never extinguished, and the fields below are unused
   std::int32_t input = 0;
-  bool vector = false;  ///< whether the input is the first component of a vector
+  bool vector = false;  ///< whether `input` is the first component of a wind vector
   float level = 0;
   float most = 0;  ///< upper limit of the wind
-  float base = 0;  ///< damage of a step at or above the level is base + slope · wind
+  float base = 0;  ///< in wind of at least the level a step adds the damage base + slope · wind
   float slope = 0;
-  float recovery = 0;       ///< reduction of the damage per step below the level
-  float stirs = 0;          ///< wind that ends the replay of re-ignition
-  float join = 0;           ///< reduction of the offset's share per step of re-ignition
-  std::span<float> sizes;   ///< kEventEnds; then for each event its sizes, and the steps of its cross-over to the
-                            ///< dynamics as negative shares, the last of them kEventEnds
-  std::span<float> shapes;  ///< components in the plane for every size; empty: no event has shapes
-  std::span<std::uint32_t> dying;     ///< start index of each event
+  float recovery = 0;              ///< reduction of the damage per step in weaker wind
+  float stirs = 0;                 ///< wind above which the replay of a re-ignition ends
+  float join = 0;                  ///< per step of a re-ignition, reduction of the share of Bank::State::offset applied
+  std::span<float> sizes;          ///< kEventEnds; then for each event its sizes, and per step of its cross-over to the
+                                   ///< dynamics minus the share reached; the last is kEventEnds
+  std::span<float> shapes;         ///< components in the plane for every size; empty: no event has shapes
+  std::span<std::uint32_t> dying;  ///< start index of each event
   std::span<std::uint32_t> catching;  ///< start index of each event
 };
 
@@ -39,13 +39,13 @@ inline constexpr float kEventEnds = -1;
 /// Index into `sizes` that stands for no event.
 inline constexpr float kNoEvent = 0;
 
-/// Lays the program out and, unless the arena measures, fills it.
+/// Takes the program's arrays from the arena and, unless the arena only measures, fills them.
 ExtinctionProgram make_extinction_program(const Model& model, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`; returns `before` without a rule.
 std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
 
-/// Returns the strength of the rule's input, at most rule.most; lanes_of(input) reads an input. NaN counts as 0.
+/// Returns the magnitude of the rule's wind, at most rule.most; lanes_of(input) reads an input. NaN counts as 0.
 template <class N, class LanesOf>
 inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) {
   const auto zero = all<Reals<N>>(0.0f);
@@ -57,18 +57,18 @@ inline Reals<N> blowing(const ExtinctionProgram& rule, const LanesOf& lanes_of) 
 /// The state of a block's instances, [lane].
 template <class Real>
 struct LifeLanes {
-  Real* wind;  ///< wind strength in this step
+  Real* wind;  ///< magnitude of the wind in this step
   Real* harm;
   Real* lit;
 };
 
-/// Interpolates between two numbers.
+/// Interpolates linearly: `from` at share 0, `to` at share 1.
 template <class Real>
 inline Real nearer(Real from, Real to, float share) {
   return share == 1.0f ? to : from + Real(share) * (to - from);
 }
 
-/// Makes one step of a block.
+/// Advances the damage of a block's instances by one step, and sets `lit` to 0 where it reaches 1.
 template <class N>
 inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real>& life) {
   const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f);
@@ -82,7 +82,7 @@ inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real
   store(lit, life.lit);
 }
 
-/// Scales displayed outputs, [output][lane], by the sizes of their instances. Size 0 gives 0.
+/// Multiplies displayed outputs, [output][lane], by the sizes of their instances; size 0 gives 0 even for NaN.
 template <class N>
 inline void shrink(const Reals<N>& size, std::size_t outputs, typename N::Real* shown) {
   const auto zero = all<Reals<N>>(0.0f);

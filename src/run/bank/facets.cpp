@@ -12,7 +12,7 @@ namespace {
 constexpr float kMinNear = 0.001f;  // metres
 constexpr float kMaxNear = 1000.0f;
 constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
-constexpr float kMinOrientation = 1e-6f;  // bound of its squared norm
+constexpr float kMinOrientation = 1e-6f;  // bounds of an orientation's squared norm
 constexpr float kMaxOrientation = 1e30f;
 
 int block_of(InstanceId id) { return static_cast<int>(id.slot) / Bank::State::kLanes; }
@@ -42,7 +42,7 @@ std::optional<ChainPlace> ChainFacet::place_of(InstanceId id) const {
   ChainPlace place = chain.place_of(block_of(id), lane_of(id));
   const auto [velocity, spin] = chain.rates(block_of(id), lane_of(id));
   place.velocity = velocity, place.spin = spin;
-  // `ago`: steps since the body touched the ground. It landed in the last call if that made more steps.
+  // `ago`: steps since the body touched the ground. The body landed in the last call if this call made more steps.
   const float settled = chain.settled(block_of(id), lane_of(id));
   const float ago = settled * kSettleSeconds / (static_cast<float>(state_->step_time) * 1e-9f);
   place.lies = settled >= 1;
@@ -111,7 +111,7 @@ namespace {
 
 constexpr int kBodyLanes = Bank::State::kLanes;
 
-// Computes a ring from four points equally far from the tip: left and right in front view, left and right in side view.
+// Computes a ring from four polyline points: `ring` points from the left and the right end, in front and in side view.
 std::array<float, kRingNumbers> ring_of(const Bank::State& s, int ring, int lane) {
   const int points = s.polyline.points;
   const auto at = [&](int side, int point, int coordinate) {

@@ -1,6 +1,6 @@
-// This file is compiled once for every vector width, each in its namespace (#define wisp wisp_avx2): templates and
-// inline functions with wide vectors must not be linked into code for a narrow machine. tests/house lists the symbols
-// of the wide objects.
+// The work of a frame (frame_path.hpp). This file is compiled once for every vector width, each in its own namespace
+// (#define wisp wisp_avx2): templates and inline functions with wide vectors must not be linked into code for a narrow
+// machine. tests/house lists the symbols of the wide objects.
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ Reals<LiveNumbers> alone(float value) {
   return lanes;
 }
 
-// For a model with few regressors a call of memcpy takes longer than this loop.
+// Copies `count` rows of one number per lane. For few rows a call of memcpy takes longer than this loop.
 inline void copy_lanes(const float* from, std::size_t count, float* to) {
   constexpr int kLanes = LiveNumbers::kLanes;
   if (!kAhead) {
@@ -47,7 +47,7 @@ void Bank::State::take_inputs(int block, const LanesOf& lanes_of) {
   store(blowing<LiveNumbers>(extinction, lanes_of), wind.data() + block * kLanes);
 }
 
-// Reads the block's rows of `all_rows`. Writes lanes beyond the last slot too; spawning an instance there clears them.
+// Sets a block's inputs from its rows of `all_rows`. Also writes lanes beyond the last slot; spawn() clears them.
 void Bank::State::set_inputs(int block, const float* all_rows) {
   const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
   const int count = std::min(kLanes, rows - block * kLanes);
@@ -74,7 +74,7 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahe
           rows - block * kLanes};
 }
 
-// Makes all steps of one group of blocks before those of the next group, while its history is in the cache.
+// Makes all steps of a group of blocks, while the group's history is in the cache, before those of the next group.
 std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::visit(
@@ -213,7 +213,7 @@ void Bank::State::begin_event(int slot, std::span<const std::uint32_t> events, s
   event[slot] = static_cast<float>(events[drawn[slot % kLanes] % events.size()]);
 }
 
-// Returns a component of a recorded shape; components across the picture were not recorded and are 0.
+// Returns a component of a recorded shape; z components of a body were not recorded and are 0.
 float Bank::State::recorded_component(std::size_t row, std::size_t component) const {
   const std::size_t plane = shape.symmetric + shape.antisymmetric;
   if (component >= plane) return 0.0f;
@@ -221,8 +221,8 @@ float Bank::State::recorded_component(std::size_t row, std::size_t component) co
                     channels.outputs[component].highest);
 }
 
-// Returns a component of the displayed shape, interpolated between the last two steps: that of the event's row or of
-// the dynamics, plus the applied share of the offset. An extinguished instance keeps its last shape.
+// Returns a component of the displayed shape, interpolated between the last two steps: the component of the event's row
+// or of the dynamics, plus the applied share of the offset. An extinguished instance keeps its last shape.
 float Bank::State::shape_in_event(int slot, std::size_t component, float dynamics, float share) const {
   const float beside = offset_of(slot, component);
   if (lit[slot] == 0.0f) return beside;
@@ -245,8 +245,8 @@ float Bank::State::newest_of(int slot, std::size_t i, const float* newest) const
   return lanes[slot % kLanes];
 }
 
-// Makes one step of an event. After its rows, or in wind, re-ignition crosses over to the dynamics. A decaying flame
-// never grows.
+// Makes one step of an event. After the event's rows, or in wind, a re-ignition crosses over to the dynamics. In an
+// extinction the size never grows.
 void Bank::State::play_event(int slot, const float* newest) {
   const bool burning = lit[slot] != 0.0f;
   const auto at = [&](float row) { return extinction.sizes[static_cast<std::size_t>(row)]; };
@@ -255,7 +255,7 @@ void Bank::State::play_event(int slot, const float* newest) {
   while (burning && wind[slot] > extinction.stirs && !(at(next) < 0.0f)) next += 1.0f;
   const float recorded = at(next);
   const bool leaves = recorded < 0.0f, shaped = burning && !extinction.shapes.empty();
-  const bool begins = shaped && leaves && (!(at(last) < 0.0f) || at(last) == kEventEnds);  // first of the cross-over
+  const bool begins = shaped && leaves && (!(at(last) < 0.0f) || at(last) == kEventEnds);  // the cross-over begins
   for (std::size_t i = 0; i < moved() && begins; ++i) {
     const float made = newest_of(slot, i, newest);
     offset_of(slot, i) = shape_in_event(slot, i, made, 1.0f) - made;
@@ -267,7 +267,7 @@ void Bank::State::play_event(int slot, const float* newest) {
   event[slot] = recorded == kEventEnds ? kNoEvent : next + 1.0f;
 }
 
-// An extinguished flame is drawn as its last shape, shrinking: the dynamics have not learned such strong wind.
+// Extinguishes an instance and stores its shape, to be drawn shrinking: the dynamics have not learned such strong wind.
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   out_at[slot] = moment;
   lit[slot] = 1.0f;  // as it was in the step before
@@ -297,7 +297,7 @@ bool Bank::State::lives_whole(int block) const {
   return (block + 1) * kLanes <= rows && std::all_of(lane, lane + kLanes, [](std::uint8_t one) { return one != 0; });
 }
 
-// Reads four outputs of all lanes at once. If their number is no multiple of four, the last four overlap others.
+// Reads four outputs of all lanes at once. If `visible` is no multiple of four, the last four outputs overlap others.
 void Bank::State::read_whole_block(int block, float* rows_of_all) const {
   using Values = Reals<LiveNumbers>;
   const std::size_t count = visible;
@@ -345,7 +345,7 @@ void Bank::State::show_shape(int block, LevelView from, float* points) const {
       from);
 }
 
-// Replaces the variables of the dynamics for instances in an event and extinguished ones.
+// Replaces displayed variables of the dynamics by shape_in_event() for instances in an event and extinguished ones.
 void Bank::State::show_events(int block) {
   if (is_whole(block)) return;
   float* out = shape.empty() ? shown_of(block) : components_of(block);

@@ -10,7 +10,7 @@ namespace {
 // Candles: 1850 to 1930 K. Soot's light at 480 nm is proportional to about the 16th power of its temperature.
 constexpr float kKelvinAtRest = 1900;
 
-// Area and centroid of a polygon in one lane, [number][lane].
+// Area and centroid of a polygon.
 struct Polygon {
   float area = 0, x = 0, y = 0;
 };

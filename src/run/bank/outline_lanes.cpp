@@ -7,10 +7,10 @@
 namespace wisp {
 namespace {
 
-constexpr double kMinWeight = 1e-8;  // smaller weights of a control point are lost in rounding
+constexpr double kMinWeight = 1e-8;  // basis weights below this are lost in rounding, and taken as 0
 
-// Factors that turn differences of control points into derivatives of the spline, in steps of the polyline. A factor is
-// 0 where knots coincide, since no point lies there.
+// Factors that turn differences of control points into derivatives of the spline, per step of the polyline. A factor is
+// 0 where its knots coincide, since no point lies there.
 struct Factors {
   std::span<const double> knots;
   double step;
@@ -26,8 +26,8 @@ struct Factors {
 
 float share(double weight, double factor) { return weight < kMinWeight ? 0.0f : static_cast<float>(weight / factor); }
 
-// Returns a run that begins at s in its span: the basis weights as factors of differences of the four control points,
-// and Taylor's series for one step and for two.
+// Returns a run that begins at parameter s: the weights of the span's slope, bends and twist in the first point, from
+// the basis weights, and in the next two points, from Taylor's series for one step and for two.
 PolylineRun run_from(const Factors& factors, const BasisWeights& weights, double s) {
   const auto span = static_cast<std::size_t>(weights.first);
   const auto& weight = weights.weight;
@@ -59,7 +59,7 @@ void for_each_run(std::span<const double> knots, int points, Add add) {
   for (int point = 0; point < points;) {
     PolylineRun run = run_from({knots, step}, basis(knots, at(point)), at(point));
     const int span = span_of(point);
-    // The last point equals a control point: it is a run of its own.
+    // The last point equals a control point and is a run of its own.
     do {
       ++run.points;
       ++point;

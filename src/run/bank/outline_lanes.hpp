@@ -21,18 +21,17 @@ inline constexpr std::uint32_t kLongestRun = 8;
 /// slope, of the bends at its two ends, and of its twist.
 struct PolylineRun {
   std::uint32_t points;
-  std::uint32_t control;  ///< index of the control point from which the first point is offset; all three weights are 0
-                          ///< if it is that point
-  float along;
-  float left;
+  std::uint32_t control;  ///< index of the control point to which the weights of the first point add
+  float along;            ///< weight of the slope in the first point
+  float left;             ///< weights of the left and the right bend in the first point
   float right;
-  float step_left;  ///< step_left, step_right: weights for the step to the second point, in addition to the slope
+  float step_left;  ///< weights of the left and the right bend in the step to the second point, besides the slope
   float step_right;
   float bend_twist;  ///< weight of the twist by which the second difference exceeds the left bend
 };
 
-/// An outline compiled for a number of points. A slope is a factor times a difference of control points, a bend a
-/// factor times a difference of slopes, a twist a factor times a difference of bends; all per step of the polyline.
+/// An outline compiled for a number of points. A slope is `slope` times a difference of control points, a bend `bend`
+/// times a difference of slopes, a twist `twist` times a difference of bends; all per step of the polyline.
 struct PolylineProgram {
   int points = 0;                ///< 0: no outline
   std::span<float> slope;        ///< one factor fewer than control points
@@ -42,14 +41,12 @@ struct PolylineProgram {
   std::span<PolylineRun> runs;
 };
 
-/// Lays out the program of `points` points at equal steps of the spline's parameter and, unless the arena measures,
-/// fills it.
+/// Compiles an outline for `points` points at equal steps of the spline's parameter, with arrays from the arena.
 ///
 /// Precondition: points >= 2.
 PolylineProgram make_polyline(const OutlineView& view, int points, Arena& arena);
 
-/// Calls show(point, values) for one coordinate (0 x, 1 y) of every point in order; `controls` is [control point][x,
-/// y][lane].
+/// Calls show(point, values) for one coordinate (0: x, 1: y) of every point; `controls`: [control point][x, y][lane].
 template <class N, class Show>
 inline void polyline_lanes(const PolylineProgram& program, int coordinate, const typename N::Real* controls,
                            const Show& show) {

@@ -16,7 +16,7 @@ struct Vector {
   float x, y, z;
 };
 
-// Cosine and sine by their series, with the same bits for every standard library.
+// Returns cosine and sine, computed by their series to give the same bits with every standard library.
 std::pair<float, float> direction(double angle) {
   double sums[] = {0, 0}, term = 1;
   for (int k = 0; k < 24; ++k) {
@@ -26,7 +26,7 @@ std::pair<float, float> direction(double angle) {
   return {static_cast<float>(sums[0]), static_cast<float>(sums[1])};
 }
 
-// Returns the vertex of a ring in a direction.
+// Returns the vertex of a ring in the horizontal direction (x, z).
 Vector rim(const float* ring, float x, float z) {
   return {ring[0] + ring[3] * x, ring[1] + ring[4] * x + ring[5] * z, ring[2] + ring[3] * z};
 }

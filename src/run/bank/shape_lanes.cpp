@@ -9,7 +9,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kLargestCoordinate = 1e12;  // bound on a shape's coordinates, in the model's units: no sum overflows
+constexpr double kLargestCoordinate = 1e12;  // clamp of rest, ranges and basis of a shape, so that no sum overflows
 
 float bounded_coordinate(double value) {
   if (std::abs(value) < kMinCoefficient) return 0.0f;

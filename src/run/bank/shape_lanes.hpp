@@ -14,10 +14,10 @@ namespace wisp {
 
 /// The shape of an outline, compiled for display.
 struct ShapeProgram {
-  std::size_t points = 0;  ///< 0: outputs are those of the dynamics
+  std::size_t points = 0;  ///< number of control points; 0: the model has no shape
   std::size_t symmetric = 0;
   std::size_t antisymmetric = 0;
-  std::size_t across = 0;    ///< equal to `antisymmetric` if vectors have a z too, else 0
+  std::size_t across = 0;    ///< number of z components: equal to `antisymmetric` for a body, else 0
   std::span<float> rest;     ///< per coordinate
   std::span<float> lowest;   ///< per coordinate
   std::span<float> highest;  ///< per coordinate
@@ -33,13 +33,13 @@ struct LevelView {
   float z = 0;
 };
 
-/// Lays the program out and, unless the arena measures, fills it. It is empty for a model without a shape.
+/// Takes the program's arrays from the arena and, unless the arena only measures, fills them; none without a shape.
 ShapeProgram make_shape_program(const Model& model, Arena& arena);
 
 /// Hashes the program, continuing from the hash `before`; returns `before` if the program is empty.
 std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
 
-/// Returns coordinate i, symmetric below `points`, antisymmetric from there on: `rest` plus the weighted sum of the
+/// Returns coordinate i, which is symmetric if i < points, else antisymmetric: `rest` plus the weighted sum of the
 /// components of its kind, [component][lane], clamped to the coordinate's range.
 template <class N>
 inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components,

@@ -1,5 +1,5 @@
 #pragma once
-// Kinds of dynamics that can be stepped. A new kind needs a stepper in a file of its own, with the public functions of
+// Steppers of all kinds of dynamics. A new kind needs a stepper in a file of its own, with the public functions of
 // ArxStepper, and its entries here.
 
 #include <type_traits>

@@ -1,7 +1,7 @@
 #pragma once
 // ChainBlock: the part of a step that is the same for all falling lanes of a block, computed in parallel: it advances
-// each lane in its segment, updates its offset and displays its pose. ChainLives: the state of all blocks. What every
-// step needs is stored as [block][number][lane]; what only joins, ground and steering need (ChainPlan), lane by lane.
+// each lane in its segment, updates its offset and displays its pose. ChainLives: the state of all blocks. Numbers that
+// every step needs are stored as [block][number][lane]; those of joins, ground and steering (ChainPlan) lane by lane.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace wisp {
 
-/// Effects of a step on each lane of a block, as masks of 1 or 0. Left uninitialised, since a step has many courses.
+/// Effects of a step on each lane of a block, as masks of 1 or 0. Uninitialised, since a step has kGroup of them.
 template <class N>
 struct ChainCourse {
   using Real = typename N::Real;
@@ -26,12 +26,12 @@ struct ChainCourse {
   }
 
   Mask used;
-  Mask shown;   ///< it falls: its displayed pose is recomputed
-  Mask ends;    ///< its segment ends
-  Mask begins;  ///< the curve towards the next segment begins
-  Mask moved;   ///< it has an offset from a join: the offset changes
-  Mask turned;  ///< the latter half of its curve begins
-  Mask faded;   ///< its displayed pose has an offset
+  Mask shown;   ///< the lane falls: its displayed pose is recomputed
+  Mask ends;    ///< the lane's segment ends
+  Mask begins;  ///< the offset curve towards the next segment begins
+  Mask moved;   ///< the lane has an offset, which changes
+  Mask turned;  ///< the latter half of the offset curve begins
+  Mask faded;   ///< the displayed pose has an offset
   const std::int16_t* row[N::kLanes];
 };
 
@@ -40,14 +40,14 @@ inline bool any_lane(const typename N::Real (&mask)[N::kLanes]) {
   return any(bits_of(load<Reals<N>>(mask)));
 }
 
-/// Row numbers of the lanes' segments, derived from the played state.
+/// Rows of the lanes' segments at which offsets change (ChainMover::Rows), derived from the played state.
 template <class N>
 struct ChainSegmentRows {
   using Real = typename N::Real;
   using LaneNumbers = std::array<Real, N::kLanes>;
 
   std::array<std::uint32_t, N::kLanes> first_row{};
-  LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};  // as in ChainMover::Rows
+  LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};
 
   void note(int lane, const ChainProgram& program, std::uint32_t segment) {
     const auto rows = ChainMover<Real>(program).rows_of(segment);
@@ -61,7 +61,7 @@ struct ChainSegmentRows {
   }
 };
 
-/// One block; `newest`: its displayed poses, [channel][lane].
+/// Advances and displays one block. `newest`: the block's displayed poses, [channel][lane].
 template <class N>
 class ChainBlock {
  public:
@@ -164,8 +164,7 @@ class ChainBlock {
  private:
   static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
 
-  // Finds the current stored rows of the lanes. Rows are clamped: a damaged or hostile saved bank may name one beyond
-  // the last.
+  // Finds the stored rows of the lanes. Row numbers of a manipulated saved bank may be too large, so they are clamped.
   void find_rows(const Reals<N>& at, ChainCourse<N>& course) const {
     typename N::Word own[kLanes];
     store(whole(smaller(at, number(segments_.steps))), own);
@@ -175,7 +174,7 @@ class ChainBlock {
     }
   }
 
-  // Like unit(), lane by lane.
+  // Normalises one quaternion per lane, as unit() in rigid.hpp does.
   static Quaternion<Reals<N>> unit_lanes(const Quaternion<Reals<N>>& q) {
     const auto square = dot(q, q), one = all<Reals<N>>(1.0f);
     const auto inverse = one / square_root(square), least = all<Reals<N>>(1e-30f);
@@ -211,7 +210,7 @@ class ChainLives {
 
   const ChainProgram& program() const { return program_; }
 
-  /// Returns the outputs of the last step, and of the one before: [output][lane].
+  /// Return the outputs of the last step, and of the step before: [output][lane].
   const Real* newest(int block) const { return newest_.data() + block * sample_size(); }
   const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
 
@@ -226,7 +225,7 @@ class ChainLives {
     return {program_, played_of(block), segments_[static_cast<std::size_t>(block)], newest_of(block)};
   }
 
-  /// Gathers the state of one lane from its block, or scatters it back.
+  /// Read the state of one lane from its block, and write it back.
   Lane lane_of(int block, int lane) {
     Lane life;
     static_cast<ChainPlan<Real>&>(life) = plan_of(block, lane);

@@ -1,6 +1,6 @@
 #pragma once
-// Lets the lanes of a ChainParty join their next segments, draws the successors of those, and converts between per-lane
-// state and vectors. The computation is in chain_joins.hpp.
+// Joins the lanes of a ChainParty to their next segments, draws the successors of these segments, and converts between
+// per-lane state and vectors. ChainJoins computes rotations, gaps and offset curves.
 
 #include <array>
 #include <cstddef>
@@ -35,7 +35,7 @@ class ChainJoining {
   ChainJoining(ChainLives<N>& lives, const ChainChoice& choice, ChainSteering<Real>& steering)
       : lives_(lives), choice_(choice), steering_(steering) {}
 
-  /// Draws the random words of one group for each member of a party; the moment is that of block `first`.
+  /// Draws four random words for each member of a party. `moment` is that of block `first`; `group` as in RandomKey.
   static Drawn draw(const Party& party, int first, const Moment<N>& moment, std::uint32_t group) {
     std::array<std::uint64_t, kMembers> stream{}, born{};
     for (std::size_t k = 0; k < party.count; ++k) {
@@ -51,12 +51,12 @@ class ChainJoining {
     return drawn;
   }
 
-  /// Joins lanes whose segment ends to their next segments, and draws the successors of these.
+  /// Joins lanes whose segment ends to their next segments, and draws the successors of the next segments.
   void follow(const Party& party, int first, const Moment<N>& moment) {
     for (std::size_t k = 0; k < party.count; ++k) {
       const int block = party.block[k], lane = party.lane[k];
       if (Mover::is_prepared(lives_.plan_of(block, lane))) continue;
-      // A lane without a prepared join, as after place(), did not fade: its new segment takes the whole difference.
+      // A lane without a prepared join, as after place(), has not faded: the next segment takes the whole difference.
       prepare_one(block, lane, draw(Party::of(block, lane), first, moment, 2));
       ChainGap<Real>& gap = lives_.plan_of(block, lane).ahead.gap;
       each_number(gap, gap, [](Real& half, const Real&) { half = half + half; });
@@ -69,12 +69,12 @@ class ChainJoining {
     add(party, Joins(program()).meeting(segments, heights_of(party), begun.gap, ahead.gap));
   }
 
-  /// Begins the curves towards the next segments.
+  /// Sets the offset curves at the end of long segments, towards the next segments.
   void leave(const Party& party) {
     add(party, Joins(program()).leaving(segments_of(party), heights_of(party), ahead_of(party).gap));
   }
 
-  /// Draws the successor of one lane's segment by these words, and prepares the join to it.
+  /// Draws the successor of one lane's segment, and stores the join to this successor.
   void prepare_one(int block, int lane, const Drawn& words) {
     ChainTurn<Values> turn;
     each_number(turn, lives_.played_of(block).turn,
@@ -83,7 +83,8 @@ class ChainJoining {
     prepare(one, segments_of(one), turn, words);
   }
 
-  /// Lets a lane's segment meet the previous one, from which it differs by `from`, and the next one.
+  /// Sets the offset curve at the beginning of one lane's segment, which fades out its difference `from` to the
+  /// previous pose and, in a short segment, fades towards the next segment.
   void meet_one(int block, int lane, const ChainGap<Real>& from) {
     if (program().blend_steps == 0) return;
     const Party one = Party::of(block, lane);
@@ -95,7 +96,7 @@ class ChainJoining {
  private:
   const ChainProgram& program() const { return lives_.program(); }
 
-  // Places the beginning of the drawn segment at the displayed pose.
+  // Places the beginning of a lane's next segment at the displayed position, with the rotation prepared for it.
   void join(int block, int lane) {
     Played& played = lives_.played_of(block);
     const ChainPlan<Real>& plan = lives_.plan_of(block, lane);
@@ -108,7 +109,7 @@ class ChainJoining {
     lives_.note_segment(block, lane);
   }
 
-  // Draws the successors of the lanes' segments, which are rotated by `turn`, and stores their joins.
+  // Draws the successors of the lanes' segments, whose rotations are `turn`, and stores the joins to these successors.
   ChainAhead<Values> prepare(const Party& party, const Segments& segments, const ChainTurn<Values>& turn,
                              const Drawn& words) {
     const Segments next = draw_next(party, segments, words);
@@ -120,7 +121,7 @@ class ChainJoining {
     return ahead;
   }
 
-  // Draws first the modes of all members, then their segments, so that memory latencies overlap.
+  // Draws successors: first the modes of all members, then segments of these modes, so that memory latencies overlap.
   Segments draw_next(const Party& party, const Segments& segments, const Drawn& words) {
     const Mover mover(program());
     Segments mode{}, next{};
@@ -149,7 +150,7 @@ class ChainJoining {
     return left > Real(static_cast<float>(mover.steps_left(lives_.lane_of(block, lane))));
   }
 
-  // Draws a segment towards a target, from the expected end of the current segment.
+  // Draws the successor of a steered lane's segment, given the pose at the end of that segment.
   std::uint32_t draw_steered(const Mover& mover, int block, int lane, const ChainWords& words) {
     Lane end = lives_.lane_of(block, lane);
     end.left = end.left - Real(static_cast<float>(mover.steps_left(end)));
@@ -161,7 +162,7 @@ class ChainJoining {
   // ahead_of() and put_ahead() access the first kAheadNumbers numbers of a plan as one row.
   static_assert(offsetof(ChainPlan<float>, near) == (kAheadNumbers - 1) * sizeof(float));
 
-  // Returns the joins ahead of the lanes; missing members of a party repeat the first one's.
+  // Returns the prepared joins of the lanes. A party that is not full is filled up with its first member.
   ChainAhead<Values> ahead_of(const Party& party) {
     const Real* row[kMembers];
     for (std::size_t k = 0; k < kMembers; ++k) {
@@ -186,12 +187,12 @@ class ChainJoining {
     rows_of<PartNumbers<N>>({turn.half_cos_scale, turn.half_sin_scale, gap.lean[0], gap.lean[1]}, 4, row);
     rows_of<PartNumbers<N>>({gap.lean[2], gap.lean[3], gap.lean_rate[0], gap.lean_rate[1]}, 8, row);
     rows_of<PartNumbers<N>>({gap.lean_rate[2], gap.lean_rate[3], gap.slip[0], gap.slip[1]}, 12, row);
-    Real last[kMembers];  // stored singly: other numbers follow it
+    Real last[kMembers];  // stored singly: the next three numbers of a plan stay
     store(gap.slip[2], last);
     for (std::size_t k = 0; k < party.count; ++k) row[k][16] = last[k];
   }
 
-  // Returns the initial heights of the lanes' segments.
+  // Returns the heights of the bases of the lanes' segments.
   Values heights_of(const Party& party) {
     Real height[kMembers] = {};
     for (std::size_t k = 0; k < party.count; ++k) {
@@ -200,7 +201,7 @@ class ChainJoining {
     return load<Values>(height);
   }
 
-  // Replaces the offsets of the lanes' segments by curves.
+  // Writes the offset curves of a party to its lanes.
   void add(const Party& party, const typename Joins::Curves& curves) {
     using Numbers = std::array<Real, kMembers>;
     struct {

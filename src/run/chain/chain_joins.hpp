@@ -3,14 +3,14 @@
 // state. Joins are rare, so lanes of several blocks are computed in parallel.
 //
 // At a join, attitude, attitude rate and velocity are the means of one segment's end and the next one's beginning. Each
-// segment takes half of the difference as an offset that fades: along a smooth curve for each number of the quaternion
-// (world axes, normalised for display), linearly for velocity. Segments shorter than two blends fade over their whole
-// length, longer ones over `blend_steps` at each end. To fade half of the difference over a whole segment takes an
-// eighth of the curvature of fading all of it over half a segment (a one-sided fade: D. Bollo, Inertialization, GDC
-// 2018); recorded motion has little curvature. A segment fades towards its successor, so the successor is drawn when
-// the segment begins.
+// segment takes half of the difference (the gap) as an offset that fades: along a smooth curve for each number of the
+// quaternion (world axes, normalised for display), linearly for velocity. Segments of less than 2 · blend_steps fade
+// over their whole length, longer ones over blend_steps at each end. To fade half of the difference over a whole
+// segment takes an eighth of the curvature of fading all of it over half a segment (a one-sided fade: D. Bollo,
+// Inertialization, GDC 2018); recorded motion has little curvature. A segment fades towards its successor, so the
+// successor is drawn when the segment begins.
 //
-// The curve of each number is two parabolas, stored as differences from row to row: two additions per number.
+// The curve of each number is two parabolas, stored as differences from row to row: a step takes two additions.
 
 #include <algorithm>
 #include <array>
@@ -56,8 +56,7 @@ class ChainJoins {
 
   explicit ChainJoins(const ChainProgram& program) : program_(program) {}
 
-  /// Returns the rotations of segments `next`, which follow the segments `before` of rotation `turn`, and the gaps at
-  /// those joins.
+  /// Returns the rotations of segments `next` after segments `before` of rotations `turn`, and the gaps at the joins.
   ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
     const Edge end = edge_of(before, true), start = edge_of(next, false);
     const ChainTurn<Values> next_turn = turn_after(turn, end, start);
@@ -74,14 +73,14 @@ class ChainJoins {
              bounded(taken(oriented(turn, end.change), oriented(next_turn, start.change))), slipped}};
   }
 
-  /// Offset curves of segments; the members are those of ChainPlayed.
+  /// Offset curves of segments; members as in ChainPlayed.
   struct Curves {
     std::array<Quaternion<Values>, 4> lean;
     std::array<Vector3<Values>, 2> slip;
   };
 
-  /// Computes the offset curves at the beginning of segments, which fade out the gap `from` to the previous segment.
-  /// Short segments also fade towards `to`, the gap to the next. `height`: where the segments begin, metres.
+  /// Computes the offset curves at the beginning of segments, from the gap `from` to the previous segments down to 0,
+  /// or in segments of less than 2 · blend_steps to minus `to`, the gap to the next. `height`: z of the bases, metres.
   Curves meeting(const Segments& segments, const Values& height, const ChainGap<Values>& from,
                  const ChainGap<Values>& to) const {
     Segments over{}, led{};
@@ -100,7 +99,7 @@ class ChainJoins {
     return curves;
   }
 
-  /// Computes the offset curves at the end of longer segments, which lead from no offset to the gap `to`.
+  /// Computes the offset curves at the end of longer segments, from 0 to minus the gap `to`.
   Curves leaving(const Segments& segments, const Values& height, const ChainGap<Values>& to) const {
     Segments over;
     over.fill(program_.blend_steps);
@@ -112,14 +111,14 @@ class ChainJoins {
   }
 
  private:
-  // Stored states at the beginnings or ends of segments.
+  // Stored states at the beginnings or the ends of segments, in stored units.
   struct Edge {
     Quaternion<Values> attitude;
     Quaternion<Values> change;
     Vector3<Values> velocity;
   };
 
-  // A half turn of any norm.
+  // Cosine and sine of half an angle about z, both times a common factor.
   using Turn = LongTurn<Values>;
 
   static Values number(float value) { return all<Values>(value); }
@@ -169,12 +168,12 @@ class ChainJoins {
     const auto square = cos * cos + sin * sin;
     const auto inverse = number(1.0f) / square_root(square);
     ChainTurn<Values> out = turn_of(cos * inverse, sin * inverse, program_, number);
-    const auto least = number(1e-12f);  // smaller only in a hostile saved bank
+    const auto least = number(1e-12f);  // below it, only in a manipulated saved bank, the rotation stays
     each_number(out, turn, [&](Values& x, const Values& as_before) { x = above(square, least, x, as_before); });
     return out;
   }
 
-  // Returns the half turn between the edges, of any norm.
+  // Returns cosine and sine of half the angle about z that aligns `start` with `end`, both times a common factor.
   Turn turn_between_edges(const Edge& start, const Edge& end) const {
     const auto zero = number(0.0f), one = number(1.0f);
     if (program_.channels < 7) {
@@ -188,7 +187,8 @@ class ChainJoins {
     return {chosen(is_long, turn.cos, one), chosen(is_long, turn.sin, zero)};
   }
 
-  // As turn_between() in rigid.hpp: of the half angle's cosine and sine, the larger is computed first, for accuracy.
+  // Returns the rotation between horizontal velocities, as turn_between() in rigid.hpp does: of cosine and sine of half
+  // the angle, the larger is computed first, for accuracy.
   static Turn turn_between_velocities(const Vector3<Values>& from, const Vector3<Values>& to) {
     const auto zero = number(0.0f), half = number(0.5f);
     const auto along = to[0] * from[0] + to[1] * from[1];
@@ -201,7 +201,7 @@ class ChainJoins {
             above(size, least, above(cos, zero, other, larger), zero)};
   }
 
-  // Converts stored quaternions, or their changes, to world axes.
+  // Converts stored quaternions, or changes of them, to world axes.
   static Quaternion<Values> oriented(const ChainTurn<Values>& turn, const Quaternion<Values>& stored) {
     return turned<Values>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }
@@ -211,7 +211,7 @@ class ChainJoins {
     return turned<Values>(turn.cos_scale, turn.sin_scale, stored);
   }
 
-  // Returns offset curves of `steps` steps, from the gap at their beginning to the gap at their end.
+  // Returns offset curves of `steps` steps, from the gap `from` to minus the gap `to`.
   Curves spread(const Segments& steps, const ChainGap<Values>& from, const ChainGap<Values>& to) const {
     Real slope[kLanes], count[kLanes];
     const float* row[kLanes];
@@ -224,7 +224,7 @@ class ChainJoins {
     Curves out;
     out.slip[1] = scaled(added(to.slip, from.slip), load<Values>(slope));
     out.slip[0] = from.slip;
-    if (program_.channels < 7) return {{}, out.slip};  // saved state must be initialised
+    if (program_.channels < 7) return {{}, out.slip};  // zeros, since save() writes lean for positions too
     Values shares[4];
     columns_of<N>(row, 0, shares);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -238,8 +238,8 @@ class ChainJoins {
     return out;
   }
 
-  // Moves segments towards their recorded heights, over `steps` steps: otherwise the velocity offsets of joins would
-  // add up to an unbounded random walk.
+  // Adds to each step 1/`steps` of the way to the segment's recorded height, at most max_return: otherwise the velocity
+  // offsets of joins would add up to an unbounded random walk.
   void lead_back(const Segments& segments, const Values& height, const Segments& steps, Curves& curves) const {
     if (program_.height.empty()) return;
     Real recorded[kLanes], share[kLanes];

@@ -29,8 +29,8 @@ struct BodyState {
   BodyRates<Real> rates{};
 };
 
-/// Rotation of a segment about z: cosine and sine of the half angle; of the whole angle, times the scale of positions;
-/// of the half angle, times the scale of quaternions.
+/// Rotation of a segment about z: cosine and sine of half the angle; of the angle, times the scale of positions; of
+/// half the angle, times the scale of quaternions.
 template <class Real>
 struct ChainTurn {
   Real half_cos{};
@@ -41,7 +41,8 @@ struct ChainTurn {
   Real half_sin_scale{};
 };
 
-/// Half of the difference between the previous segment's end and the next one's beginning (world axes, rates per step).
+/// Half of the difference at a join: end of the previous segment minus beginning of the next, in world axes. lean and
+/// lean_rate: orientation and its change per step; slip: displacement per step.
 template <class Real>
 struct ChainGap {
   Quaternion<Real> lean{};
@@ -49,7 +50,7 @@ struct ChainGap {
   Vector3<Real> slip{};
 };
 
-/// The join after a segment: the next segment's rotation, and the gap.
+/// The join at the end of a segment: the next segment's rotation, and the gap.
 template <class Number>
 struct ChainAhead {
   ChainTurn<Number> turn{};
@@ -69,14 +70,14 @@ struct ChainPlayed {
   // difference of the latter half of the curve. slip: distance by which a step moves the base, and its difference.
   std::array<Quaternion<Number>, 4> lean{};
   std::array<Vector3<Number>, 2> slip{};
-  // The ground: progress of coming to rest, 0 to 1; below 0: it falls.
+  // The ground: progress of coming to rest, 0 to 1; below 0: the instance falls.
   Number settled{};
   // Steering: steps left until the target time, 0: not steered.
   Number left{};
 };
 
 /// State that only joins, the ground and steering need. Joins read `ahead` of several lanes in parallel, four numbers
-/// at a time, so it comes first, together with three more numbers that they read.
+/// at a time; so `ahead` (17 numbers) comes first, and three more numbers fill the last four.
 template <class Real>
 struct ChainPlan {
   ChainAhead<Real> ahead{};
@@ -89,7 +90,7 @@ struct ChainPlan {
   Vector3<Real> target{};  ///< steering: target position
 };
 
-/// Number of values that joins read of a plan: those of `ahead`, and the three after it.
+/// Number of values that joins read of a plan: `ahead`, `next`, `state` and `near`.
 inline constexpr std::size_t kAheadNumbers = 20;
 
 template <class Real>
@@ -138,13 +139,13 @@ inline void each_played(A& a, B& b, Visit visit) {
   visit(a.left, b.left);
 }
 
-/// Minimum agreement of two stored quaternions after the best rotation about z; below it, no rotation is made.
+/// Minimum of the larger of cosine and sine that long_turn_between() finds; below it, a join makes no rotation.
 inline constexpr float kMinTurn = 1e-3f;
 
 /// Magnitude to which differences at joins are clamped.
 inline constexpr float kMaxDifference = 1e9f;
 
-/// Returns a half turn with the scales of the quantities that it rotates; number(x) is x in every lane.
+/// Returns the ChainTurn of a rotation, given cosine and sine of half its angle. number(x) is x in every lane.
 template <class Values, class Number>
 inline ChainTurn<Values> turn_of(const Values& half_cos, const Values& half_sin, const ChainProgram& program,
                                  Number number) {
@@ -157,7 +158,7 @@ inline ChainTurn<Values> turn_of(const Values& half_cos, const Values& half_sin,
           half_sin * quaternion_scale};
 }
 
-/// Moves lanes of one program.
+/// Places lanes of one program on segments, and reads states from the stored segments.
 template <class Real>
 class ChainMover {
  public:
@@ -167,14 +168,14 @@ class ChainMover {
 
   explicit ChainMover(const ChainProgram& program) : program_(program) {}
 
-  /// Draws the first segment, and updates the history in `of_state`.
+  /// Draws the first segment. Sets `of_state`, the state of the Markov chain.
   std::uint32_t draw_first(Real& of_state, const ChainChoice& choice, const ChainWords& words) const {
     const std::uint32_t mode = choice.mode(program_, 0, words);
     of_state = state_after(0, mode);
     return choice.beginning(program_, mode, words);
   }
 
-  /// Draws the next mode, and updates the history in `of_state`.
+  /// Draws the next mode. Updates `of_state`, the state of the Markov chain.
   std::uint32_t draw_mode(Real& of_state, const ChainChoice& choice, const ChainWords& words) const {
     const std::uint32_t state = index(of_state, program_.states());
     const std::uint32_t mode = choice.mode(program_, state, words);
@@ -182,13 +183,13 @@ class ChainMover {
     return mode;
   }
 
-  /// Returns where a segment begins: at its recorded height, if heights are bounded.
+  /// Returns the position at which a first segment begins: the origin or, if heights are bounded, its recorded height.
   Vector3<Real> beginning_of(std::uint32_t segment) const {
     if (program_.height.empty()) return {};
     return {Real(0.0f), Real(0.0f), height_of(segment)};
   }
 
-  /// Places the beginning of a segment at a position, rotated by a half turn.
+  /// Places a segment's start at a position, rotated about z; half_cos, half_sin: cosine and sine of half the angle.
   void place(Lane& lane, std::uint32_t segment, const Vector3<Real>& position, Real half_cos, Real half_sin) const {
     lane.segment = Real(static_cast<float>(segment));
     lane.row = Real(0.0f);
@@ -198,7 +199,7 @@ class ChainMover {
     lane.turn = turn_of(half_cos, half_sin, program_, [](float x) { return Real(x); });
   }
 
-  /// Places a segment's beginning at a body's position and heading. Returns the remaining differences, not halved.
+  /// Places a segment's beginning at a body's position and heading. Returns the whole remaining difference, not half.
   ChainGap<Real> place(Lane& lane, std::uint32_t segment, const Body& body) const {
     const HalfTurn<Real> turn = turn_to(segment, body);
     place(lane, segment, body.position, turn.cos, turn.sin);
@@ -218,14 +219,14 @@ class ChainMover {
     return gap;
   }
 
-  /// Rows of a segment at which its offset changes: whole numbers, −1 for none.
+  /// Rows of a segment between which its offset fades: whole numbers, −1 for none.
   struct Rows {
     float steps;       ///< the last row
     float quiet_from;  ///< the first row without an offset
     float quiet_to;    ///< the last row without an offset; 0 if the offsets of both joins overlap
-    float turn;        ///< the first row of the latter half of a curve
-    float last_turn;   ///< as `turn`, for the curve towards the next segment
-    float curve;       ///< the row after which that curve begins, unless it begins with the segment
+    float turn;        ///< the first row of the latter half of the curve that begins with the segment
+    float last_turn;   ///< the first row of the latter half of the curve at the end of a long segment
+    float curve;       ///< the row after which the curve at the end of a long segment begins
   };
   Rows rows_of(std::uint32_t segment) const {
     const std::uint32_t blend = program_.blend_steps, steps = program_.steps(segment);
@@ -246,7 +247,7 @@ class ChainMover {
   /// Returns whether the next segment has been drawn.
   static bool is_prepared(const ChainPlan<Real>& plan) { return plan.next > Real(0.0f); }
 
-  /// Returns the state at the end of a lane's segment, without its offset. Chains of poses leave the rates 0.
+  /// Returns the state at the end of a lane's segment, without its offset; for chains of poses without the rates.
   Body end_of(const Lane& lane) const {
     const std::uint32_t segment = index(lane.segment, program_.segments());
     const std::int16_t* row = row_of(segment, program_.steps(segment));
@@ -257,7 +258,7 @@ class ChainMover {
     return body;
   }
 
-  /// Returns the rates at a segment's beginning or end, rotated as the lane is.
+  /// Returns the rates at a segment's beginning or end, with the lane's rotation about z.
   Rates rates_of(const Lane& lane, std::uint32_t segment, bool end) const {
     const std::int16_t* rate = rates_at(segment, end);
     Rates rates;
@@ -288,8 +289,7 @@ class ChainMover {
     return sum + dot(twist, twist) * spin_unit * spin_unit + Real(8.0f) * (Real(1.0f) - nearness);
   }
 
-  /// Returns the rotation about z that aligns a segment with a body. It uses stored units: scales do not affect
-  /// direction.
+  /// Returns the rotation about z that aligns a segment's start with a body. Stored units suffice to find an angle.
   HalfTurn<Real> turn_to(std::uint32_t segment, const Body& body) const {
     if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
     if (program_.channels < 7) return turn_between(vector(rates_at(segment, false)), body.rates.velocity);
@@ -302,7 +302,7 @@ class ChainMover {
     return placed(lane, added(vector(at), scaled(vector(more), share)));
   }
 
-  /// Converts a whole number that is stored as a Real. Returns bound − 1 for a number that is not below the bound.
+  /// Converts a whole number that is stored as a Real to an index, at most bound − 1.
   static std::uint32_t index(Real number, std::uint32_t bound) {
     const auto whole = static_cast<std::uint32_t>(value_of(number));
     return whole < bound ? whole : bound - 1;
@@ -329,7 +329,7 @@ class ChainMover {
     return {Real(static_cast<float>(from[0])), Real(static_cast<float>(from[1])), Real(static_cast<float>(from[2]))};
   }
 
-  // Converts stored quaternions, or their changes, to world axes.
+  // Converts a stored quaternion, or a change of one, to world axes.
   static Quaternion<Real> oriented(const ChainTurn<Real>& turn, const Quaternion<Real>& stored) {
     return turned<Real>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }

@@ -15,7 +15,7 @@ constexpr double kMinScale = 1e-12;
 constexpr double kMaxScale = 1e6;
 constexpr float kMinUnit = 1e-6f;
 constexpr double kMaxStored = 32767;
-constexpr double kReturnShare = 0.2;  // share of the typical speed: a return to a height is then barely visible
+constexpr double kReturnShare = 0.2;  // max_return as a share of the usual step: the return is then barely visible
 
 void fill_thresholds(std::span<const double> probability, std::span<std::uint32_t> out) {
   double sum = 0;
@@ -29,7 +29,7 @@ void fill_thresholds(std::span<const double> probability, std::span<std::uint32_
   for (std::size_t mode = last; mode < out.size(); ++mode) out[mode] = 0xffffffffU;
 }
 
-// Returns the root-mean-square length of the vectors that begin at `offset` of each group of rates.
+// Returns the root-mean-square length, times `scale`, of the vectors at `offset` in each group of rates.
 float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   const auto stride = static_cast<std::size_t>(program.rate_count);
   double sum = 0;
@@ -55,8 +55,8 @@ double usual_step(const ChainProgram& program) {
   return program.position_scale * std::sqrt(sum / steps);
 }
 
-// Solves for the second differences a and b of the two halves. The first difference begins at the slope + a/2, then
-// grows m − 1 times by a and n times by b. Prescribed are the sum of all first differences, and the last slope.
+// Solves for the second differences a and b of the two halves, of m and n steps. The first difference begins at slope +
+// a/2, then grows m − 1 times by a and n times by b. The sum of all first differences and the last slope are given.
 ChainSpread spread_over(std::uint32_t steps) {
   const double m = first_half(steps), n = steps - m;
   const double way[] = {m * m / 2 + n * (m - 0.5), n * (n + 1) / 2}, slope[] = {m - 0.5, n + 0.5};
@@ -67,7 +67,7 @@ ChainSpread spread_over(std::uint32_t steps) {
           steps > 1 ? static_cast<float>(-1.0 / (n + m - 1)) : 0.0f};
 }
 
-// Normalises stored quaternions to the displayed length: a file stores them more coarsely.
+// Normalises stored quaternions to the length kMaxStored, which orientation_scale converts to 1.
 void make_unit(ChainProgram& program) {
   for (std::size_t at = 3; at < program.rows.size(); at += 7) {
     std::int16_t* q = program.rows.data() + at;
@@ -81,7 +81,7 @@ void make_unit(ChainProgram& program) {
   }
 }
 
-// Fills in the change of stored quaternions in half a step, at both ends of each segment.
+// Fills in the change of the stored quaternion in half a step, at both ends of each segment.
 void fill_changes(ChainProgram& program) {
   float* out = program.changes.data();
   for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {

@@ -18,12 +18,12 @@ struct GustProgram {
   std::array<float, 3> vertical{};
 };
 
-/// A curve of two parabolas between given values and slopes. The second difference of each half is minus the sum of
-/// `way` times the change of value beyond that of the first slope, and `change` times the change of slope.
+/// A curve of two parabolas from a value x and slope s to a value X and slope S in a number of steps. The second
+/// difference of each half is −way · (X − x − steps · s) − change · (S − s).
 struct ChainSpread {
   std::array<float, 2> way{};     ///< factors of the first half, and of the latter
   std::array<float, 2> change{};  ///< factors of the first half, and of the latter
-  float slope = 0;                ///< −1 / (steps − 1), for offsets that change linearly; 0 for one step
+  float slope = 0;                ///< −1 / (steps − 1): factor of linear offsets; 0 for one step
 };
 
 /// Returns the number of steps of the first parabola.
@@ -46,9 +46,9 @@ struct ChainProgram {
   float step_seconds = 0;
   std::uint32_t blend_steps = 0;  ///< largest number of steps of a join, on either side; 0: no blending
   float height_scale = 0;         ///< metres per unit of the segments' initial heights
-  float max_return = 0;           ///< metres per step: largest speed of return to those heights
-  float speed_unit = 1;           ///< root-mean-square speed at joins: unit of speed differences
-  float spin_unit = 1;            ///< root-mean-square angular speed at joins
+  float max_return = 0;           ///< metres per step: largest speed of return to the initial heights
+  float speed_unit = 1;           ///< root-mean-square speed at both ends of the segments, metres per second
+  float spin_unit = 1;            ///< root-mean-square angular speed there, radians per second
   GustProgram gust{};
   std::span<std::int16_t> rows;
   std::span<std::int16_t> rates;
@@ -83,8 +83,8 @@ struct ChainProgram {
   std::uint32_t steps(std::uint32_t segment) const { return first_row[segment + 1] - first_row[segment] - 1; }
 };
 
-/// Compiles a chain. State 0 is the beginning; state k + 1 is row k of the model's probabilities. `wind_unit` is the
-/// unit of the wind regressors.
+/// Compiles a chain. State 0 of the Markov chain precedes the first segment; state k + 1 has row k of the model's
+/// probabilities. `wind_unit`: unit of the wind regressors.
 ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
 
 /// Sets the size of the program's body from a PoseView; other views change nothing.
@@ -93,7 +93,7 @@ void take_size(const View& view, ChainProgram& program);
 /// Hashes the program, continuing from the hash `before`.
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);
 
-/// Errors: scales so small or large that products leave the range of single precision.
+/// Checks the scales. Errors: one so small or large that products leave the range of single precision.
 Result<void> check_chain_program(const ChainModel& chain);
 
 }  // namespace wisp

@@ -1,8 +1,8 @@
 #pragma once
-// Steers a falling body towards a place at a given time by the choice of segments at joins: the probability of a
-// segment is the chain's, times the probability that it leads to the target (J. L. Doob's h-transform, 1957). The
-// latter is approximated by a normal distribution around the walk's expected displacement, wider the more time is left:
-// ChainDrift in wisp/model/chain.hpp.
+// Steers a falling body to a target at a given time by the choice of segments at joins: the chain's probability of a
+// segment is multiplied by the probability that the segment leads to the target (J. L. Doob's h-transform, 1957). The
+// latter is approximated by a normal distribution around the walk's expected displacement, wider the more time is left
+// (ChainDrift in wisp/model/chain.hpp).
 
 #include <span>
 
@@ -35,7 +35,7 @@ class ChainSteering {
     candidates_ = arena.take<Candidate>(static_cast<std::size_t>(program.modes) * per_mode_);
   }
 
-  /// Draws the successor of the lane's segment, which ends at `body`; updates the lane's history.
+  /// Draws the successor of the lane's segment, which ends at `body`. Updates lane.state, the Markov chain's state.
   std::uint32_t draw(const Mover& mover, const ChainProgram& program, const ChainChoice& choice, Lane& lane,
                      const Body& body, const ChainWords& words) {
     const auto modes = static_cast<std::uint32_t>(program.modes);
@@ -62,8 +62,8 @@ class ChainSteering {
     return drawn.segment;
   }
 
-  /// Returns where a lane's body is expected at the target time: on its segment, or beyond the segment's end by the
-  /// lead of that segment and the mean drift.
+  /// Returns the expected position of a lane's body at the target time: on its segment or, if the segment ends before,
+  /// at the segment's end plus its lead and the mean drift.
   static Vector3<Real> expected(const Mover& mover, const ChainProgram& program, const Lane& lane) {
     const std::uint32_t segment = Mover::index(lane.segment, program.segments()), steps = program.steps(segment);
     const std::uint32_t row = Mover::index(lane.row, steps + 1);
@@ -86,8 +86,8 @@ class ChainSteering {
     Real miss{};  // half the squared distance from the target, in variances
   };
 
-  // Inverse of twice the variance of a walk's position at the target time. Equal for all candidates of a join, since
-  // otherwise far targets would favour short segments.
+  // 1 / (2 · variance) of a walk's position at the target time. One value for all candidates of a join, since otherwise
+  // far targets would favour short segments.
   struct Bell {
     Real ground{};
     Real height{};

@@ -1,8 +1,8 @@
 #pragma once
 // Steps blocks of instances of a segment chain. Source: section 4.3 of the paper (the walk over the modes, each
 // realised by one of its segments); section 2.2 for histories longer than one. Lanes of a block are in different places
-// of different segments, but advance and are displayed by the same operations in parallel. Of rarer events, joins run
-// in parallel for lanes of several blocks, the rest for one lane at a time.
+// of different segments, but advance and are displayed by the same operations in parallel. Rarer events follow: joins
+// in parallel for lanes of several blocks, others for one lane at a time.
 
 #include <array>
 #include <cstdint>
@@ -35,14 +35,14 @@ class ChainStepper : private ChainLives<N> {
   /// Number of frames over which a cost is averaged: joins are rare.
   static constexpr int kCountedFrames = 8192;
 
-  /// A chain has no operating point: zero deviation is the origin, and outputs are in their own units.
+  /// Returns zeros: a chain has no operating point; its outputs are not deviations, but in their own units.
   static OperatingPoint operating_point(const ChainModel& chain) {
     static constexpr std::array<double, 7> kOrigin{};
     return {std::span(kOrigin).first(static_cast<std::size_t>(channel_count(chain.motion))),
             std::span(kOrigin).first(chain.gust ? 3 : 0)};
   }
 
-  /// Errors: values that single precision cannot represent.
+  /// Errors: scales so small or large that products leave the range of single precision.
   static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
@@ -55,7 +55,7 @@ class ChainStepper : private ChainLives<N> {
     regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
   }
 
-  /// A chain has no residual noise; its random walk is switched on or off.
+  /// Sets whether modes and segments are chosen at random (scale above 0); a chain has no residual noise.
   void set_noise(float scale) { choice_.set_chance(scale > 0); }
 
   void set_ground(float height) { ground_ = height; }
@@ -65,18 +65,17 @@ class ChainStepper : private ChainLives<N> {
   /// Returns the address for the step's regressors: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
-  /// Largest number of blocks that step() takes at once: a segment ends every few steps, so that among these blocks
-  /// some four times as many lanes join as fit in a vector.
+  /// Largest number of blocks that step() takes at once, so that among their lanes several vectors full join in a step.
   static constexpr int kGroup = 32;
   static constexpr bool kGroupsVary = true;
 
-  /// Returns a stepper that steps some blocks ahead of the others: itself, since blocks share no ring position.
+  /// Returns this stepper, which can step some blocks ahead of others, since blocks share no ring position.
   ChainStepper& ahead() { return *this; }
 
   /// Computes the newest sample of a block.
   void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
 
-  /// Computes the newest samples of `count` <= kGroup consecutive blocks; `moment` is that of the first.
+  /// Computes the newest samples of `count` <= kGroup consecutive blocks; `moment` is that of the first block.
   void step(int first, int count, const Moment<N>& moment) {
     ChainCourse<N> courses[kGroup];
     for (int b = 0; b < count; ++b) set_out(first + b, moment.later(b), courses[b]);
@@ -132,7 +131,7 @@ class ChainStepper : private ChainLives<N> {
     begin_at(block, lane);
   }
 
-  /// Returns a lane's rates between its last two samples.
+  /// Returns a lane's mean velocity and angular velocity between its last two samples.
   BodyRates<Real> rates(int block, int lane) const {
     const Real *from = previous(block) + lane, *to = newest(block) + lane, rate(1.0f / program_.step_seconds);
     BodyRates<Real> moves;
@@ -149,7 +148,7 @@ class ChainStepper : private ChainLives<N> {
     return moves;
   }
 
-  /// Returns the progress of coming to rest on the ground: below 0 it falls, from 1 on it lies.
+  /// Returns a lane's progress of coming to rest on the ground: it falls below 0, and lies from 1 on.
   Real settled(int block, int lane) const { return played_of(block).settled[lane]; }
 
   ChainPlace place_of(int block, int lane) const {
@@ -159,7 +158,7 @@ class ChainStepper : private ChainLives<N> {
     return {segment, row, program_.mode[segment]};
   }
 
-  /// Returns whether blocks may be stepped in parallel: not after steering, since all its candidates share one buffer.
+  /// Returns whether threads may step blocks in parallel: not once a lane was steered, as steering has only one buffer.
   bool can_be_shared() const { return !steered_; }
 
   bool can_steer() const { return !program_.lead.empty(); }
@@ -174,13 +173,13 @@ class ChainStepper : private ChainLives<N> {
     steered_ |= steps > 0;
   }
 
-  /// Places a lane at a body, on the segment whose initial motion is nearest.
+  /// Places a lane at a body's position and heading, on the segment whose initial motion is nearest to the body's.
   void place(int block, int lane, const Body& body) {
     const Mover mover(program_);
     std::uint32_t best = 0;
     Real least(3e38f);
     for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
-      // A segment of one step is too short for the difference to decay.
+      // A segment of one step is too short for the remaining difference to decay.
       if (program_.steps(segment) == 1) continue;
       const Real misfit = mover.misfit(segment, body);
       if (!(misfit < least)) continue;
@@ -197,7 +196,7 @@ class ChainStepper : private ChainLives<N> {
     begin_at(block, lane);
   }
 
-  /// A chain multiplies by no coefficients of A and B.
+  /// Returns 0: a chain has no coefficients of A and B.
   std::int64_t multiply_adds() const { return 0; }
 
   std::size_t lane_values() const {
@@ -276,7 +275,7 @@ class ChainStepper : private ChainLives<N> {
       visit(*x, -most, most);
   }
 
-  // Differences grow from step to step: after restoring a hostile bank they could exceed what restore() accepts.
+  // Clamps offsets: after restoring a manipulated bank they could grow beyond the range that restore() accepts.
   template <class Numbers, class Visit>
   static void visit_difference(Numbers& numbers, Visit visit) {
     numbers = Mover::bounded(numbers);
@@ -291,7 +290,7 @@ class ChainStepper : private ChainLives<N> {
     return program;
   }
 
-  // Returns the unit of the wind channels: equal for x, y and z, which have one range.
+  // Returns the unit of the wind's x, y and z: that of the range that includes theirs.
   static double wind_unit(const Model& model) {
     if (model.inputs.empty()) return 1;
     double lowest = 0, highest = 0;
@@ -302,7 +301,7 @@ class ChainStepper : private ChainLives<N> {
     return channel_scale(lowest, highest);
   }
 
-  // Collects lanes of blocks with the same event, and processes as many at once as fit in a vector.
+  // Collects lanes of several blocks that have the same event, and processes as many at once as fit in a vector.
   class Gathering {
    public:
     using Happen = void (ChainStepper::*)(const Party& party, int first, const Moment<N>& moment);
@@ -365,8 +364,8 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Finds the lanes that need more than display and joining: those that come to rest, are too far away, or near the
-  // ground. Returns whether there are any.
+  // Finds the lanes that need more than display and joining, since they come to rest, are too far away, or near the
+  // ground. Returns whether there are such lanes.
   bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
@@ -386,7 +385,7 @@ class ChainStepper : private ChainLives<N> {
     return any_lane<N>(eventful);
   }
 
-  // Makes one step of a lane that settles on the ground. A lane at rest is shown unchanged.
+  // Makes one step of a lane that settles on the ground; a lane at rest stays.
   void settle(int block, int lane) {
     if (!(played_of(block).settled[lane] < Real(1.0f))) return;
     Lane life = lane_of(block, lane);
@@ -394,7 +393,7 @@ class ChainStepper : private ChainLives<N> {
     put(block, lane, life);
   }
 
-  // Records a clamped position, and bounds the base of its segment.
+  // If the displayed position of a lane is clamped, marks the lane and clamps the base of its segment.
   void hold_position(int block, int lane, const Moment<N>& moment) {
     if (!is_far(newest_of(block) + lane)) return;
     moment.clamped[lane] = 1;
@@ -405,8 +404,8 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // In the last second of steering, moves a segment by a share of the expected miss, which decreases as the square of
-  // the time left.
+  // In the last second of steering, moves a lane's segment towards the target, by such a share of the expected miss
+  // that the miss decreases as the square of the time left.
   void carry(int block, int lane) {
     const Real left = played_of(block).left[lane], all(kCarrySeconds / program_.step_seconds), one(1.0f);
     if (!falls(block, lane) || !(left > Real(0.0f)) || !(left < all)) return;
@@ -424,7 +423,7 @@ class ChainStepper : private ChainLives<N> {
     stirred = 0;
     for (int lane = 0; lane < lanes; ++lane) {
       if (!falls(block, lane)) {
-        stirred = 1;  // the response persists
+        stirred = 1;  // on the ground the response is kept
         continue;
       }
       if (drift_lane(block, lane)) stirred = 1;
@@ -466,7 +465,7 @@ class ChainStepper : private ChainLives<N> {
     return q;
   }
 
-  // Settles a lane whose displayed body has reached the ground; `reach`: its extent below its centre.
+  // Starts settling a lane whose displayed body has reached the ground; `reach`: the body's extent below its centre.
   void land(int block, int lane, Real reach) {
     Lane life = lane_of(block, lane);
     Body body;
@@ -488,25 +487,25 @@ class ChainStepper : private ChainLives<N> {
 
   Joining joining() { return {*this, choice_, steering_}; }
 
-  // Begins the curves towards the next segments.
+  // Begins the offset curves towards the next segments.
   void leave(const Party& party, int, const Moment<N>&) { joining().leave(party); }
 
-  // Starts the next segments after the last step of the present ones.
+  // Joins lanes whose segments have ended to the next ones.
   void go_on(const Party& party, int first, const Moment<N>& moment) { joining().follow(party, first, moment); }
 
-  // A new lane has no sample before its first, which is therefore stored twice.
+  // Stores a new lane's first sample as its previous one, too.
   void begin_at(int block, int lane) {
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
     }
   }
 
-  // Vectorised, since a memcpy call would take longer.
+  // Copies a sample by vectors, since a memcpy call would take longer.
   static void copy_sample(const Real* from, std::size_t count, Real* to) {
     for (std::size_t k = 0; k < count; k += kLanes) store(load<Reals<N>>(from + k), to + k);
   }
 
-  // Returns a uniformly random heading: two normal deviates, normalised; the identity if heading is kept.
+  // Returns a uniformly random heading: two normal deviates, normalised; no rotation if the heading is not free.
   HalfTurn<Real> random_turn(std::uint32_t a, std::uint32_t b) const {
     if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
     const Real x(normal_pair(a)[0]), y(normal_pair(b)[0]);
@@ -517,7 +516,7 @@ class ChainStepper : private ChainLives<N> {
 
   ChainChoice choice_;
   ChainSteering<Real> steering_;
-  std::span<std::uint8_t> stirred_;  // per block: whether a response to wind may remain
+  std::span<std::uint8_t> stirred_;  // per block: whether a velocity change due to wind may remain
   std::span<GustLane<Real>> gusts_;
   bool steered_ = false;  // an instance is or was steered
   std::span<Real> regressors_;

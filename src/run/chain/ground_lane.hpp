@@ -1,5 +1,5 @@
 #pragma once
-// Landing of a chain's instance on the ground, a level plane: it touches with its lowest corner, slides on a little,
+// Landing of a chain's instance on the ground, a level plane: its lowest corner touches, the body slides on a little,
 // tilts onto the nearer side, and rests.
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace wisp {
 /// Duration of coming to rest: long enough not to look like a jump, too short to be noticed.
 inline constexpr float kSettleSeconds = 0.35f;
 
-/// Returns the extent of a body below its centre: the lowest corner of a flat rectangle of its size.
+/// Returns the extent of a body below its centre, down to its lowest corner: the body is a flat rectangle.
 template <class Real>
 inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   if (program.channels < 7 || !(program.half_width > 0.0f || program.half_length > 0.0f)) return Real(0.0f);
@@ -22,7 +22,7 @@ inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   return across * Real(program.half_width) + along * Real(program.half_length);
 }
 
-/// Returns the extent of a displayed body below its centre, if it has reached the ground. Far above, one comparison.
+/// Returns the extent of a displayed body below its centre if the body has reached the ground, else nothing.
 template <class Real>
 inline std::optional<Real> reach_touching(const ChainProgram& program, const Real* shown, int stride, float ground) {
   const Real& height = shown[2 * stride];
@@ -51,16 +51,16 @@ inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
   const Real two(2.0f);
   const Vector3<Real> normal{two * (q[1] * q[3] + q[0] * q[2]), two * (q[2] * q[3] - q[0] * q[1]),
                              Real(1.0f) - two * (q[1] * q[1] + q[2] * q[2])};
-  // From the normal to straight up, or down: its Gibbs vector is n × z / (1 + n·z).
+  // The rotation from the normal n to z or, if n points down, −z: for z, the Gibbs vector is n × z / (1 + n·z).
   const Real side = normal[2] < Real(0.0f) ? Real(-1.0f) : Real(1.0f);
   const Real factor = side / (Real(1.0f) + normal[2] * side);
   return {normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
 }
 
-/// Advances a settling lane by one step and displays it; `stride`: distance of the channels in `out`.
+/// Advances a settling lane by one step and writes its pose to `out`; `stride`: distance between channels in `out`.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
-  // Computed in the first step after touchdown, since the touchdown step is the most expensive.
+  // `laid` is computed in the first step after touchdown, since the touchdown step is the most expensive.
   if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.laid = lean_to_ground(lane.touched);
   if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));
@@ -69,7 +69,7 @@ inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real
   // The body slides with a speed that decays as (1 − s)²: a third of the distance at constant speed.
   const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
   const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
-  // In a hostile saved bank the distance is unbounded.
+  // Clamped, since the distance in a manipulated saved bank may be large.
   const auto position = ChainMover<Real>::bounded(added(lane.base, scaled(lane.slip[0], way)), 2 * kFarthest);
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
   if (program.channels < 7) return;

@@ -28,8 +28,8 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// Returns a quarter of the component of `wind`, less the velocity change, along the normal of a flat body: half of the
-/// normal needs fewer operations than the unit normal.
+/// Returns a quarter of the component of `wind` along the normal of a flat body: half of the unit normal takes fewer
+/// operations. `wind`: the wind minus the body's velocity change.
 template <class Real>
 inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
   const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],
@@ -37,7 +37,7 @@ inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real
   return scaled(half_normal, dot(half_normal, wind));
 }
 
-/// Makes one step. Returns the velocity change due to wind, within ±kMaxGust.
+/// Makes one step of the response to wind. Returns the velocity change, within ±kMaxGust.
 template <class Real>
 inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, const Vector3<Real>& wind,
                           const Vector3<Real>& press) {
@@ -52,7 +52,7 @@ inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, cons
   return lane.change;
 }
 
-/// Returns whether there is wind, or a remaining response.
+/// Returns whether there is wind now, was wind in the last step, or remains a velocity change.
 template <class Real>
 inline bool gust_lasts(const GustLane<Real>& lane, const Vector3<Real>& wind) {
   return stirs(wind) || stirs(lane.change) || stirs(lane.wind);

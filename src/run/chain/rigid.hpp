@@ -2,8 +2,8 @@
 // Positions and rotations of rigid bodies, for any number type. Only + − × ÷ and square root, in the order written, so
 // that results have the same bits everywhere.
 //
-// Quaternions are w, x, y, z and rotate body axes to world axes. Rotations relative to another are represented by Gibbs
-// vectors, the axis times the tangent of half the angle: scaling them needs no trigonometry.
+// Quaternions are w, x, y, z and rotate body axes to world axes. Rotations of an orientation are Gibbs vectors, the
+// axis times the tangent of half the angle: scaling one needs no trigonometry.
 
 #include <array>
 
@@ -53,7 +53,7 @@ inline Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Returns the orientation with norm 1; a zero one is unchanged.
+/// Returns the quaternion scaled to norm 1; a zero quaternion is unchanged.
 template <class Real>
 inline Quaternion<Real> unit(const Quaternion<Real>& q) {
   const Real square = dot(q, q);
@@ -89,15 +89,15 @@ struct LongTurn {
   Real sin;
 };
 
-/// Returns the half turn about z that brings `from` nearest to `to`, times HalfTurn::nearness.
+/// Returns the rotation about z that brings `from` nearest to `to`; the common factor is HalfTurn::nearness.
 template <class Real>
 inline LongTurn<Real> long_turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
   return {to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3],
           to[3] * from[0] - to[0] * from[3] + to[2] * from[1] - to[1] * from[2]};
 }
 
-/// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and the agreement: of
-/// unit quaternions, 1 if they then coincide, 0 if no rotation about z helps.
+/// A rotation about z that brings one orientation nearest to another: cosine and sine of half its angle. nearness: for
+/// unit quaternions 1 if they coincide after the rotation, 0 if no rotation about z helps.
 template <class Real>
 struct HalfTurn {
   Real cos;
@@ -114,14 +114,14 @@ inline HalfTurn<Real> turn_between(const Quaternion<Real>& from, const Quaternio
   return {w * inverse, z * inverse, size};
 }
 
-/// Returns the half turn about z that aligns the horizontal parts of two vectors; nearness: product of their lengths.
+/// Returns the rotation about z that aligns the horizontal parts of two vectors; nearness: product of their lengths.
 template <class Real>
 inline HalfTurn<Real> turn_between(const Vector3<Real>& from, const Vector3<Real>& to) {
   const Real along = to[0] * from[0] + to[1] * from[1];
   const Real across = to[1] * from[0] - to[0] * from[1];
   const Real size = square_root(along * along + across * across);
   if (!(size > Real(1e-12f))) return {Real(1.0f), Real(0.0f), Real(0.0f)};
-  // Half of an angle: cos² = (1 + cos 2φ)/2, computing the larger of cosine and sine first.
+  // Halves the angle: cos² φ = (1 + cos 2φ) / 2. The larger of cosine and sine is computed first, for accuracy.
   const Real cos = along / size, sin = across / size;
   if (cos > Real(0.0f)) {
     const Real half = square_root(Real(0.5f) + Real(0.5f) * cos);

@@ -1,5 +1,5 @@
 #pragma once
-// Values of several consecutive blocks, which a kernel computes together. Every lane does the same operations as when
+// Values of several consecutive blocks, which a kernel computes together. Each lane's operations are the same as when
 // its block is computed alone.
 
 #include <cstddef>
@@ -26,7 +26,7 @@ using BlockReals = Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, PartsOfBlo
 template <class N, int kBlocks>
 using BlockWords = Pack<typename PartsOfBlocks<N, kBlocks>::WordPart, PartsOfBlocks<N, kBlocks>::kParts>;
 
-/// Addresses of a value in each of several blocks, `stride` values apart.
+/// Addresses of one value in each of kBlocks blocks, which are `stride` values apart.
 template <class Value, int kBlocks>
 struct BlockPlaces {
   Value* of[kBlocks];
@@ -36,21 +36,21 @@ struct BlockPlaces {
   }
 };
 
-/// Loads part i of the blocks, one value per lane, from `after` values behind the addresses.
+/// Loads part i of the blocks, one value per lane, from `after` values behind their addresses.
 template <class N, class Part, class Value, int kBlocks>
 inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i, Part& out) {
   const Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
   std::memcpy(static_cast<void*>(&out), static_cast<const void*>(first), sizeof out);
 }
 
-/// Stores one part to the same addresses.
+/// Stores part i of the blocks, one value per lane, to `after` values behind their addresses.
 template <class N, class Part, class Value, int kBlocks>
 inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
   Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
   std::memcpy(static_cast<void*>(first), static_cast<const void*>(&part), sizeof part);
 }
 
-/// Load and store all parts.
+/// Load and store all parts of the blocks.
 template <class N, class Packed, class Value, int kBlocks>
 inline Packed load_blocks(const BlockPlaces<Value, kBlocks>& places) {
   Packed out;

@@ -9,7 +9,7 @@
 
 namespace wisp {
 
-// Four numbers of a row are read at once, as a vector of 16 bytes.
+// Four numbers of a row, read at once as a vector of 16 bytes.
 #ifdef WISP_VECTOR_LANES
 using Quad = float __attribute__((vector_size(16)));
 
@@ -120,8 +120,8 @@ inline void real_parts(const Eight& words, RealPart* parts) {
 template <class N>
 inline void columns_of(const std::int16_t* const (&row)[N::kLanes], Reals<N> (&columns)[8]) {
 #ifdef WISP_VECTOR_LANES
-  // Rows half of the lanes apart are interleaved. After log2(lanes) rounds, columns are in the place of rows; with four
-  // lanes, each vector holds two columns.
+  // Each round interleaves rows that are half of the lanes apart. After log2(lanes) rounds the vectors hold columns
+  // instead of rows; with four lanes, two columns each.
   if constexpr (N::kPartLanes > 1) {
     constexpr int kRows = N::kLanes, kHalf = kRows / 2;
     static_assert(kRows == 8 || kRows == 4);

@@ -1,10 +1,10 @@
 #pragma once
-// Number types of kernels, and the number of instances processed in parallel.
+// Number types of kernels, and the number of instances that a kernel processes in parallel.
 //
 // A block is kLanes instances. All its data is laid out as [variable][lane], and a kernel does the same operations in
-// the same order in every lane. Lanes are the compilers' vector types, since gcc 12 and clang 14 unroll plain loops
-// over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of the
-// machine's vectors changes no bit.
+// the same order in every lane. Lanes are elements of the compilers' vector types, since gcc 12 and clang 14 unroll
+// plain loops over eight lanes first and then vectorise the pieces poorly (measured: three times slower). The width of
+// the machine's vectors changes no bit of a result.
 
 #include <bit>
 #include <cfloat>
@@ -35,7 +35,7 @@ inline constexpr int kVectorRegisters = 16;
 inline constexpr int kVectorRegisters = 32;
 #endif
 
-// A part is the operand of one machine instruction: a vector, or one number.
+// A "part" is the operand of one machine instruction: a vector, or one number where there are no vectors.
 
 #ifdef WISP_VECTOR_LANES
 #ifdef __AVX2__
@@ -118,8 +118,8 @@ inline float value_of(float a) { return a; }
 inline std::uint32_t value_of(std::uint32_t a) { return a; }
 
 #ifdef WISP_LONG_WORDS
-// The words of a part, each in the lower half of 64 bits, as x86 multiplies them. The upper halves are ignored, so
-// successive products need no shuffles between them.
+// The words of a part, each in the lower half of 64 bits, as x86 multiplies words. The upper halves are ignored, so
+// successive products need no shuffles in between.
 using LongPart = std::uint64_t __attribute__((vector_size(4 * kPartLanes)));
 struct LongWords {
   LongPart even, odd;
@@ -167,12 +167,12 @@ struct OnePart : N {
   static constexpr int kParts = 1;
 };
 
-/// The number types of N in packs of one machine vector; without vectors, in packs of a whole block, whose functions
-/// are compiled anyway.
+/// The number types of N with as many lanes as one machine vector; without vectors N itself, with the lanes of a block,
+/// whose functions are compiled anyway.
 template <class N>
 using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 
-// GCC does not inline long unrolled bodies; their values would then be passed through memory.
+// GCC does not inline long unrolled bodies by itself, and then passes their values through memory.
 #if defined(__GNUC__) && !defined(__wasm__)
 #define WISP_UNROLLED __attribute__((always_inline))
 #else
@@ -290,13 +290,13 @@ inline auto real_of(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return real_of_part(x); }, words);
 }
 
-/// Converts non-negative integers to words. Precondition: they are in [0, 2³¹).
+/// Converts whole numbers in [0, 2³¹) to words.
 template <class Part, int kParts>
 inline auto whole(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return whole_part(x); }, reals);
 }
 
-/// Returns the next integers. Advancing to the next row of a table does not count as arithmetic, like indexing.
+/// Adds 1 to row numbers of a table. As part of indexing, this does not count as arithmetic (counting.hpp).
 template <class Part, int kParts>
 inline auto next_of(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return next_part(x); }, reals);
@@ -376,9 +376,8 @@ inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>&
   return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
 }
 
-/// State closer to zero than this is set to zero, so that an engine that flushes denormals gets the same numbers. State
-/// is in units of a power of two near the channel's range, and coefficients below kMinCoefficient are zero too; so
-/// products are multiples of 2^−123 and their sums cannot be denormal.
+/// State below kMinState in magnitude is set to zero, and so are coefficients below kMinCoefficient. Their products are
+/// multiples of 2^−123, no sum is denormal, and an engine that flushes denormals gets the same numbers.
 inline constexpr float kMinState = 1e-20f;
 inline constexpr float kMinCoefficient = 1e-10f;
 

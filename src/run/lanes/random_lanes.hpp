@@ -27,7 +27,7 @@ inline RandomKeys random_keys(std::uint64_t seed) {
 
 inline constexpr std::uint32_t kPhiloxFactors[] = {0xD2511F53U, 0xCD9E8D57U};
 
-/// Philox4x32: converts four counters per lane to four random words per lane.
+/// Philox4x32 (wisp/run/random.hpp): converts four counters per lane to four random words per lane.
 template <class Part>
 inline void philox_part(const RandomKeys& keys, Part& w0, Part& w1, Part& w2, Part& w3) {
   for (const auto& key : keys) {
@@ -62,7 +62,7 @@ inline void philox(const RandomKeys& keys, Pack<Part, kParts> (&words)[4]) {
       [&](auto i) { philox_part(keys, words[0].part[i], words[1].part[i], words[2].part[i], words[3].part[i]); });
 }
 
-/// Counters that distinguish the lanes' random numbers: the instance's stream, and its age in steps.
+/// Values that distinguish the lanes' random numbers: the instance's stream, and its age in steps (step − born).
 struct LaneCounters {
   const std::uint64_t* stream;
   const std::uint64_t* born;  ///< the bank's step at which the instance was spawned or reset
@@ -138,7 +138,7 @@ WISP_UNROLLED inline auto normal_lanes(const Pack<Word, kParts>& words) {
   using Bits = Pack<Word, kParts>;
   const auto whole = real_of(words & all<Bits>(0xfffffU));
   using Values = std::remove_const_t<decltype(whole)>;
-  // Octave of u, from √½ to √2, and position in it.
+  // u = 2^octave · (1 + place), where 1 + place is from √½ to √2.
   constexpr std::uint32_t kMiddle = 0x3f3504f3U;  // the bits of √½
   const auto bits = bits_of(whole + all<Values>(0.5f)) - all<Bits>(kMiddle + (20U << 23));
   const auto octave = real_of(signed_shift<23>(bits));

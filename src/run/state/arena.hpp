@@ -1,6 +1,6 @@
 #pragma once
-// Allocates arrays in one piece of memory. An arena without memory only adds up their sizes, so that measuring and
-// allocating share one code.
+// Allocates arrays in one piece of memory. An arena without memory only adds up the sizes of the arrays, so that the
+// same code measures and allocates.
 
 #include <cassert>
 #include <cstddef>
@@ -25,9 +25,7 @@ class Arena {
 
   bool measures() const { return start_ == nullptr; }
 
-  /// Returns an array of `count` zeros, empty while measuring.
-  ///
-  /// Precondition: there is memory for it.
+  /// Returns an array of `count` zeros, empty while measuring. Precondition: the memory left is large enough.
   template <class T>
   std::span<T> take(std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kArenaAlignment);

@@ -1,6 +1,6 @@
 #pragma once
 // Common part of the steppers of ARX kinds: histories whose samples are a model's channels (outputs, then regressors),
-// and their reading.
+// and the reading of outputs.
 
 #include <cstdint>
 
@@ -9,7 +9,7 @@
 
 namespace wisp {
 
-/// A stepper without the computation of the newest sample.
+/// Base of a stepper, which adds the computation of the newest sample.
 template <class N>
 class ChannelHistory {
  public:
@@ -24,14 +24,14 @@ class ChannelHistory {
   /// Advances every block's history by `samples`; the newest sample is then still to be computed.
   void turn(int samples = 1) { ring_.turn(samples); }
 
-  /// Returns whether blocks are prefetched before they are stepped: if caches do not hold them all.
+  /// Returns whether blocks should be prefetched before they are stepped: true if all of them exceed kNearBytes.
   bool is_far() const { return ring_.bytes() > kNearBytes; }
   void fetch(int block) const { ring_.fetch(block); }
 
   /// Returns the address of the step's regressors: [regressor][lane].
   Real* regressors(int block) { return ring_.sample(block, 0) + channels_.outputs.size() * kLanes; }
 
-  /// Outputs of the last step, and of the one before: [output][lane].
+  /// Return the outputs of the last step, and of the step before: [output][lane].
   const Real* newest(int block) const { return ring_.sample(block, 0); }
   const Real* previous(int block) const { return ring_.sample(block, 1); }
 
@@ -52,7 +52,7 @@ class ChannelHistory {
     });
   }
 
-  /// Reads a frame for counting its cost: half-way between two steps, since games have frame rates of their own.
+  /// Reads a frame whose cost is counted: half-way between two steps, since games have frame rates of their own.
   void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
 
  protected:

@@ -25,8 +25,8 @@ struct OutputChannel {
   float start;  ///< z of a new instance: the operating point
 };
 
-/// Part of an input from which a regressor is computed: the whole, or its magnitude. For a wind vector: its length, or
-/// the length times the x or the z of its direction.
+/// Part of an input from which a regressor is computed: the whole input (kWhole) or its magnitude (kSize); for a wind
+/// vector its length, or the length times the x (kAlong) or the z (kAcross) of its direction.
 enum class RegressorPart : std::uint8_t { kWhole, kSize, kLength, kAlong, kAcross };
 
 /// Power of a part that a regressor takes; a power of a whole input has the input's sign.
@@ -70,13 +70,13 @@ double regressor_scale(const Model& model, int regressor);
 /// outputs.
 std::vector<ValueRange> moved_ranges(const Model& model);
 
-/// The operating point of each channel, in the dynamics.
+/// The operating point of a model's dynamics, per channel.
 struct OperatingPoint {
   std::span<const double> outputs;
   std::span<const double> regressors;
 };
 
-/// Lays the channels out and, unless the arena measures, fills them.
+/// Takes the channels' arrays from the arena and, unless the arena only measures, fills them.
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena);
 
 /// Errors: a range or mean too large or small for single precision, a reversed range, a vector's input with a mean.
@@ -85,7 +85,7 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// Hashes the channels, continuing from the hash `before`.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// Returns the channel's power, a root or a square, of the inputs' magnitudes, in the regressor's unit.
+/// Returns the root or square, as the channel demands, of magnitudes of its input, in the regressor's unit.
 template <class N>
 inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
@@ -165,7 +165,7 @@ class Regressing {
   Reals<N> power_[3], x_, z_;
 };
 
-/// Converts an output's deviations to its own unit. Keeps its constants loaded for many values.
+/// Converts an output's deviations to the output's own unit. Keeps the constants loaded for many values.
 template <class Values>
 class Presentation {
  public:
@@ -186,7 +186,7 @@ class Presentation {
   bool own_;  // z is already in the output's unit and range
 };
 
-/// Loads one part of the values of consecutive blocks, `after` numbers from the beginning of each.
+/// Loads part i of the values of consecutive blocks, from `after` numbers behind their addresses.
 template <class N, class Value, int kBlocks>
 inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
   Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, 1> one;
@@ -194,8 +194,8 @@ inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t aft
   return one;
 }
 
-/// Computes the readable outputs of consecutive blocks, [output][lane] each, where z(after, i) is part i of an output's
-/// deviations. Part by part, since narrow machines have few registers.
+/// Computes the readable outputs of consecutive blocks, [output][lane] each. z(after, i) returns part i of an output's
+/// deviations. Parts are computed one by one, since narrow machines have few registers.
 template <class N, int kBlocks, class Deviation>
 inline void show_blocks(std::span<const OutputChannel> outputs, typename N::Real* out, Deviation z) {
   const BlockPlaces<typename N::Real, kBlocks> shown(out, outputs.size() * N::kLanes);

@@ -1,6 +1,5 @@
 #pragma once
-// Numbers as little-endian bytes on any machine, and hashes of a compiled model made from them, which determine whether
-// a saved bank belongs to the model.
+// Conversion of numbers to little-endian bytes, and hashes of these bytes, by which a saved bank identifies its model.
 
 #include <bit>
 #include <cstddef>

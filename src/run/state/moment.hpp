@@ -9,10 +9,10 @@ template <class N>
 struct Moment {
   const RandomKeys* keys = nullptr;
   LaneCounters counters{};           ///< counters of the block
-  std::uint32_t* clamped = nullptr;  ///< per lane: set to nonzero where an output was clamped
-  int used = N::kLanes;              ///< number of lanes in use from the block's first on, later blocks included
+  std::uint32_t* clamped = nullptr;  ///< per lane: set to nonzero if an output was clamped, else to 0
+  int used = N::kLanes;              ///< number of lanes in use in this block and all later ones
 
-  /// Returns the number of the block's lanes in use: code that works lane by lane skips the others.
+  /// Returns the number of lanes in use in the block: code that works lane by lane skips the others.
   int lanes() const { return used < N::kLanes ? used : N::kLanes; }
 
   /// Returns the moment for the block that lies `blocks` after this one.

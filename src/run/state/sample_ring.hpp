@@ -1,6 +1,5 @@
 #pragma once
-// The last samples of every instance, in a ring whose position is common to the whole bank, so that reading a lag takes
-// no modulo.
+// The last samples of every instance, in rings with one common position.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +31,7 @@ class SampleRing {
 
   int depth() const { return depth_; }
 
-  /// Prefetches all samples of a block: they are contiguous, but not read in order.
+  /// Prefetches all samples of a block, which are contiguous, but not read in order.
   void fetch(int block) const {
 #ifdef __GNUC__
     const auto* line = reinterpret_cast<const char*>(begin(block));
@@ -43,10 +42,10 @@ class SampleRing {
 
   std::size_t bytes() const { return values_.size_bytes(); }
 
-  /// Distance, in numbers, from a sample of one block to the same sample of the next.
+  /// Returns the distance, in numbers, from a sample of one block to the same sample of the next block.
   std::size_t stride() const { return static_cast<std::size_t>(depth_) * row_; }
 
-  /// Address of a block's numbers, and offsets of its samples: the sample of `lag` steps ago is at back()[lag].
+  /// Return the address of a block's numbers, and a table of offsets: the sample of `lag` steps ago is at back()[lag].
   const Real* begin(int block) const { return values_.data() + static_cast<std::size_t>(block) * stride(); }
   const std::uint32_t* back() const { return lag_row_.data() + (depth_ - place_); }
 
