@@ -123,8 +123,7 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
   return images;
 }
 
-// Sets the images' indices: the smallest step between numbers is one frame (say, if every tenth frame was extracted),
-// larger steps contain lost frames.
+// Sets the images' indices: the smallest step between two numbers is one frame, larger steps contain lost frames.
 void ImageFolder::place(std::vector<NumberedImage>& images) {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   for (std::size_t k = 1; k < images.size(); ++k) step = std::min(step, images[k].number - images[k - 1].number);

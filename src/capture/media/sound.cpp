@@ -34,8 +34,7 @@ double first_picture(AVFormatContext& format, const AVStream& sound) {
   return start_of(video < 0 ? sound : *format.streams[video]);
 }
 
-// Sets the block's start to the end of the last block, as time stamps jitter. A time stamp more than kJitter off means
-// lost sound and sets the start itself.
+// Sets the block's start: the end of the block before, unless the time stamp is over kJitter off, as after lost sound.
 void take_time(SoundTrack& track) {
   const AVFrame& frame = *track.frame;
   if (frame.best_effort_timestamp != AV_NOPTS_VALUE) {

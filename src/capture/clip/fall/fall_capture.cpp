@@ -18,9 +18,8 @@ using fall::Fall;
 using fall::Falls;
 using fall::Thing;
 
-// Returns the attitude (body to world) whose second body axis is the object's long axis and whose third is its normal,
-// both in the picture plane (world x and z): a rotation by −90° about z, then by the angle about −y. A leaf glides
-// along the second axis.
+// Returns the attitude whose second body axis is the object's long axis (along which a leaf glides) and whose third is
+// its normal, both in the picture plane (world x and z): a rotation by −90° about z, then by the angle about −y.
 std::array<double, 4> attitude(double angle) {
   const double c = std::sqrt(0.5) * std::cos(angle / 2), s = std::sqrt(0.5) * std::sin(angle / 2);
   return {c, s, -s, -c};

@@ -234,8 +234,7 @@ double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   return ends.empty() ? scale.height : median(std::move(ends));
 }
 
-// Returns whether two tracks keep their distance for at least half of the shorter one: as an object and its shadow, or
-// two parts of an object.
+// Returns whether two tracks keep their distance for half of the shorter one: object and shadow, or parts of an object.
 bool together(const Candidate& one, const Candidate& other_one, double height) {
   const Track &a = one.track, &b = other_one.track;
   std::vector<double> x, y;
