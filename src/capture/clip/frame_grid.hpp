@@ -10,7 +10,7 @@ namespace wisp {
 
 class FrameGrid {
  public:
-  /// Maximum length of a gap; longer gaps are shortened to it, as an episode ends there anyway.
+  /// Maximum length of a gap; longer gaps are shortened to it, as an episode ends at such a gap.
   static constexpr double kLongestGapSeconds = 2;
 
   /// Precondition: rate_hz > 0.

@@ -55,7 +55,7 @@ using ResamplerOwner = std::unique_ptr<SwrContext, LibavCloser>;
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
 
 /// Maximum pixels of a film's picture: 8K in its widest form, 8192 by 4320. A decoder keeps up to twenty pictures, and
-/// a black one of any size takes only a few bytes in a file.
+/// a black picture of any size takes only a few bytes in a file.
 inline constexpr std::int64_t kMaxFilmPixels = 36'000'000;
 
 /// Disables FFmpeg's own messages from now on.

@@ -239,7 +239,7 @@ std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   const double ticks_per_frame = file.info_.speed / (file.seconds_per_tick_ * file.info_.rate_hz);
   const std::int64_t first = options_.frames ? options_.frames->first - 1 : 0;
   const std::int64_t last = options_.frames ? std::min(options_.frames->last, info_.frames) : info_.frames;
-  std::int64_t before = begin;  // skips the first key frame: it is read anyway
+  std::int64_t before = begin;  // skips the first key frame, which next() decodes
   for (int k = 1; k <= count; ++k) {
     const double frame = static_cast<double>(first) + static_cast<double>(last - 1 - first) * k / count;
     const std::int64_t at = file.decode_key_frame(begin + std::llround(frame * ticks_per_frame), before);

@@ -1,6 +1,6 @@
 #pragma once
-// Frames of a video file or of a folder of numbered images; their conversion to a Picture, which borrows a frame's
-// planes where their format allows, and to RGB.
+// Readers of a video file and of a folder of numbered images, and conversion of their frames to RGB or to a Picture,
+// which borrows a frame's planes where their format allows.
 
 #include <utility>
 #include <vector>

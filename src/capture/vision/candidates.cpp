@@ -126,7 +126,7 @@ std::vector<Shape> shapes_of(const PictureGrid& grid, int level, const Track& tr
   return shapes;
 }
 
-// Cuts off the stand if object and stand have merged in at least half of the pictures. Returns whether it did.
+// Cuts off the stand if object and stand have merged in at least half of the pictures. Returns whether it cut any.
 bool cut_stands(std::vector<Shape>& shapes) {
   std::vector<std::optional<std::size_t>> cuts;
   std::size_t count = 0;

@@ -52,7 +52,7 @@ class FilmLook {
   double moved_ = 0;          // sum of shifts, as shares of the picture
 };
 
-/// Returns why no flame can be identified in a film: too short, dark, unsteady or bright; none if it can.
+/// Returns why no flame can be identified in a film (too short, dark, unsteady or bright); none if it is suitable.
 std::optional<std::string> film_reason(const FilmFacts& film);
 
 }  // namespace wisp

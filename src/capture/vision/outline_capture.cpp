@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;    // per control point: more add no stability, as their errors correlate
+constexpr int kEdgePointsEach = 12;    // edge points per control point: more add no stability, as errors correlate
 constexpr std::size_t kSurveyed = 20;  // maximum number of held frames in the survey
 constexpr std::size_t kSamples = 6;    // maximum number of held frames from which the curve's shape is chosen
 

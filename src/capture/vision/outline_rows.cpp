@@ -20,7 +20,7 @@ constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below
 constexpr double kDuplicateMost = 0.5;    // grey levels of change above which a frame is new: it has new noise
 constexpr std::size_t kNeighbours = 4;    // frames compared on each side; minimum length of a frozen stretch
 constexpr double kFrozenMost = 0.1;       // maximum change of a frame in a frozen stretch, grey levels
-constexpr double kFrozenUsual = 0.02;     // maximum of its median: coding corrects a repeated picture once or twice
+constexpr double kFrozenUsual = 0.02;     // maximum median change in a stretch: coding corrects repeats once or twice
 constexpr double kGlintSeconds = 0.2;     // maximum duration of a glint
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 

@@ -16,7 +16,7 @@ constexpr double kMinAreaShare = 0.1;  // minimum share of the object's usual ar
 constexpr int kMinArea = 24;           // minimum pixels of a region
 
 constexpr double kJumpShare = 0.03;  // an extension at the base by this share of the length suggests a stand
-constexpr double kSlack = 0.12;      // share of the length above the object's former base at which its stand may begin
+constexpr double kSlack = 0.12;      // share of the length: a stand may begin this far above the object's last base
 constexpr double kFarDeeper = 0.25;  // share of the length: an extension this far below the base is always stand
 
 constexpr double kAsLarge = 4;  // maximum ratio between the areas of an object before and after an absence

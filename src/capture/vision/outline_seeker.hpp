@@ -22,7 +22,7 @@ class OutlineSeeker {
   /// Computes the edge points of the object found last, whose picture must still exist. Returns whether they suffice.
   bool edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const;
 
-  /// Mean absolute difference of the last two frames with the object, near the object; 255 if it moved away.
+  /// Mean absolute difference of the last two frames with the object, near the object; 255 if the object moved away.
   double change() const { return change_; }
   /// Mean brightness of the object's pixels, 0 to 255.
   double brightness() const { return brightness_; }

@@ -14,7 +14,7 @@ namespace {
 constexpr int kGrid = 320;                // width and height of the coarse grid, points: enough to separate regions
 constexpr int kFineGrid = 160;            // width and height of the finer grid around the object, points
 constexpr int kLevelStep = 18;            // step between the levels tried, of 255
-constexpr int kHighestLevel = 225;        // above it cameras clip, and a level cuts through the flame
+constexpr int kHighestLevel = 225;        // a higher level would cut through the flame, as cameras clip above it
 constexpr double kLitShare = 0.7;         // minimum brightest_of() of a picture that counts, of the upper quartile
 constexpr double kOtherScene = 64;        // maximum mean difference from the median picture of a picture that counts
 constexpr double kOneBrightness = 16;     // of 255, above the darkest tenth: a smaller contrast is noise

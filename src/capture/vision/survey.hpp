@@ -62,18 +62,18 @@ struct Evidence {
 struct Candidate {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;
-  std::vector<Region> seen;  ///< box in each picture with the region, pixels, without its stand
+  std::vector<Region> seen;  ///< box in each picture that has the region, pixels, stand excluded
   Region home;               ///< union of `seen`
-  bool stands = false;       ///< whether it merges with its stand, which is cut off
+  bool stands = false;       ///< whether the region merges with its stand, which is then cut off
   double presence = 0;       ///< share of the pictures with the region
   double area = 0;           ///< median area, pixels
-  double light = 1;          ///< its luma divided by that of the picture's brightest points
-  double change = 0;         ///< 1 − overlap of its shapes in two pictures, aligned, median: 0 never deforms
-  double taper = 0;          ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
-  double solidity = 0;       ///< its area divided by its convex hull's
+  double light = 1;          ///< luma divided by that of the picture's brightest points
+  double change = 0;         ///< 1 − overlap of aligned shapes in two pictures, median: 0 never deforms
+  double taper = 0;          ///< 1 − width of the first quarter / width of the middle: 0 blunt, 1 pointed
+  double solidity = 0;       ///< area divided by the convex hull's area
   double steadiness = 0;     ///< tip's motion / (tip's + base's motion): 0 only the base moves, 1 only the tip
-  double contrast = 255;     ///< brightness minus that of its surroundings, levels, once its level is final
-  double softness = 0;       ///< share of its area that changes with the level
+  double contrast = 255;     ///< brightness minus that of the surroundings, levels; set with the final level
+  double softness = 0;       ///< share of the area that changes with the level
   double likeness = 0;       ///< combined evidence from still pictures: larger is likelier
   double score = 0;          ///< likeness combined with evidence from movement
 };
@@ -108,7 +108,7 @@ struct SurveyOptions {
 struct Survey : Candidate {
   Histogram histogram{};       ///< histogram of the channel (inverted for dark objects) over the surveyed pictures
   double clipped = 0;          ///< share of the object that is saturated in every channel
-  double white_around = 0;     ///< share of its surroundings in which some channel is saturated
+  double white_around = 0;     ///< share of the object's surroundings in which some channel is saturated
   int flames = 0;              ///< number of flames; 0 where any object was requested
   std::vector<Region> others;  ///< median boxes of the other flames
 };

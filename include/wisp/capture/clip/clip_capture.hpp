@@ -55,7 +55,7 @@ struct ClipWind {
   double one_rms = 0;             ///< root mean square of the wind band at speed 1, full scale 1
   double clipped_share = 0;       ///< share of samples at full scale
   std::size_t uncovered = 0;      ///< number of picture frames after the sound's end: their wind is missing (NaN)
-  std::size_t holes = 0;          ///< number of picture frames before the sound or in its gaps: also missing
+  std::size_t holes = 0;          ///< number of picture frames before the sound or in its gaps: their wind is missing
   std::string note;               ///< a clause for the user: the share of the clip with wind, or why there is none
 };
 

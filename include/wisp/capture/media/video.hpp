@@ -34,7 +34,7 @@ struct VideoInfo {
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< the clip has a sound track (it may be silent)
   double begin = 0;         ///< time of the first frame read, seconds after the video track's start
-  double speed = 1;         ///< rate_hz divided by the file's own rate; its sound is played faster by this factor
+  double speed = 1;         ///< rate_hz divided by the file's own rate; the sound is played faster by this factor
 };
 
 /// One decoded frame; its picture is valid until the reader's next call.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kSamples = 61;     // maximum number of frames from which the wall is estimated
 constexpr std::size_t kGainSpots = 997;  // approximate number of pixels used to measure exposure
-constexpr float kMinGround = 16;         // grey levels: minimum brightness of these pixels
+constexpr float kMinGround = 16;         // grey levels: minimum brightness of pixels used to measure exposure
 constexpr float kMinDifference = 8;      // grey levels: minimum tolerance, above coding noise
 constexpr float kSigmas = 5;             // tolerance in standard deviations
 constexpr double kUnsteady = 5;          // grey levels: a pixel that deviates by more in 30 % of the frames is unsteady

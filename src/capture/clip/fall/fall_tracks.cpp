@@ -13,10 +13,10 @@ namespace wisp::fall {
 namespace {
 
 constexpr double kGapSeconds = 0.05;  // longest absence within a track: edge-on or as bright as the wall
-constexpr std::size_t kMinGap = 2;    // frames: such an absence is tolerated at any frame rate
+constexpr std::size_t kMinGap = 2;    // frames: an absence this short is tolerated at any frame rate
 constexpr double kFirstSpeed = 6;     // maximum initial speed, picture heights a second
 constexpr double kChange = 2.5;       // tolerance of the predicted speed, heights a second, plus kShare of the speed
-constexpr double kShare = 0.6;        // share of the speed, added to kChange
+constexpr double kShare = 0.6;        // tolerance as a share of the predicted speed, added to kChange
 constexpr double kMinReach = 3;       // minimum search radius, reduced pixels
 constexpr double kJoinSeconds = 0.2;  // longest gap or overlap of joined tracks; a cubic fits a 0.5 s swing in it
 constexpr double kJoinReach = 0.1;    // heights: maximum distance of joined tracks, extrapolated to mid-gap

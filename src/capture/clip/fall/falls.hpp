@@ -31,7 +31,7 @@ struct Wall {
   double unsteady = 0;            ///< share of pixels that change in 30 % of the frames or more, as if the camera moved
 };
 
-/// Estimates the wall. Precondition: at least one frame is not empty, and each such has width × height pixels.
+/// Estimates the wall. Precondition: a frame is not empty, and all that are not empty have width × height pixels.
 Wall wall_of(std::span<const Frame> frames, int width, int height);
 
 /// An object before the wall. Units: pixels of the reduced picture, y down.
@@ -78,7 +78,7 @@ struct Fall {
 
 struct Falls {
   std::vector<Fall> falls;  ///< in order of their first frames
-  std::vector<Cut> missed;  ///< one per fall that was not followed, and per fall that passes another object
+  std::vector<Cut> missed;  ///< reason for each fall that was not followed or that passes another object
 };
 
 /// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of

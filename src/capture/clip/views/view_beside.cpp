@@ -20,8 +20,8 @@ constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // longest pause wit
 struct Blow {
   std::size_t begin = 0, end = 0;  // rows [begin, end)
   double x = 1, z = 0;             // direction, unit vector
-  double alike = 0, answer = 0;    // resultant over summed lean; lean per unit of wind, pixels
-  double strength = 0;             // mean wind, weighted by its square
+  double alike = 0, answer = 0;    // agreement of the lean's directions, 0 to 1; lean per wind, px
+  double strength = 0;             // mean wind, weighted by the wind's square
   double azimuth() const { return std::atan2(-z, x); }
 };
 
