@@ -16,7 +16,7 @@ struct CandleLook {
 };
 
 /// Measures the candle in a strip below `flame`, the region in which the flame moves. None if the strip's middle is as
-/// dark as its sides (a flame on black), lacks an edge on either side or has no candle's width, or without colour.
+/// dark as its sides (a flame on black), an edge is missing, the width is no candle's, or the pictures have no colour.
 std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, const Region& flame);
 
 }  // namespace wisp

@@ -16,7 +16,7 @@ namespace wisp {
 /// Level of 255 from which a point counts as saturated.
 inline constexpr int kSaturated = 250;
 
-/// Returns the shift from a to b, at most 8 elements, over their length; 0 if none removes 30 % of the difference.
+/// Returns the shift from a to b, at most 8 elements, over their length; 0 if no shift removes 30 % of the difference.
 double step_between(const std::vector<double>& a, const std::vector<double>& b);
 
 class FilmLook {
@@ -33,7 +33,7 @@ class FilmLook {
   /// Returns whether no picture with the object was taken in.
   bool empty() const { return brightest_.empty(); }
 
-  /// Returns whether over 40 % of the light in `within` exceeds the brightest of the pictures with the object.
+  /// Returns whether over 40 % of the light in `within` exceeds the maximum over the pictures with the object.
   bool another(const Picture& picture, const Region& within);
 
  private:

@@ -69,7 +69,7 @@ double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   return area / cloud.area;
 }
 
-// Averages the curve parameters at which all clouds' edge points ended, as a function of their positions in the cloud.
+// Averages the curve parameters to which edge points were moved, as a function of their positions in the clouds.
 class PaceMeasure {
  public:
   void add(std::span<const double> even, std::span<const double> reached) {

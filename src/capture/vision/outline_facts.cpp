@@ -75,7 +75,7 @@ double taper_of(const OutlineRow& shape) {
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
 }
 
-// Motion of a curve's points relative to its base, in pixels squared: total, and the random part from frame to frame.
+// Variance of a curve's points relative to its base, square pixels: total, and its random part from frame to frame.
 struct Motion {
   std::array<double, kCurvePoints> variance{};
   std::array<double, kCurvePoints> noise{};

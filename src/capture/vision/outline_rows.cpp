@@ -63,7 +63,7 @@ struct Stands {
 };
 
 Stands find_stands(const FrameFindings& findings) {
-  // By chance, the first row changes most in a share 1 / `times` of the groups; kErrors standard errors more are not.
+  // By chance, the first row changes most in 1 / `times` of the groups; kErrors standard errors more are significant.
   constexpr double kMinGroups = 20, kOfGroups = 0.6, kErrors = 4;
   for (Stands found{.times = 8}; found.times > 1; --found.times) {
     for (found.first = 0; found.first < found.times; ++found.first) {

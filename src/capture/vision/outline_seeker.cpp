@@ -68,7 +68,7 @@ bool OutlineSeeker::ours(const Region& box) const {
   });
 }
 
-// Returns whether the region found has about the object's brightness and area; smoke and snuffers do not.
+// Returns whether the region found has about the object's brightness and area, unlike smoke and snuffers.
 bool OutlineSeeker::alike() const {
   const double area = static_cast<double>(found_.area);
   const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;

@@ -45,7 +45,7 @@ class OutlineSeeker {
   bool plausible(const Region& before) const;
   bool choose(std::span<const BrightRegion> regions, const Region& place);
   int margin() const;
-  /// Row y of the picture in the window, such that column x of the picture is element x.
+  /// Returns a pointer to row y of the picture, of which element x is column x; both must lie in the window.
   const std::uint8_t* window_row(int y) const { return window_.image.row(y - window_.place.y) - window_.place.x; }
   void measure_change();
   void measure_brightness(const Picture& picture);

@@ -47,7 +47,7 @@ void cholesky_solve(std::span<const double> factor, int n, std::span<double> b) 
 // Writes the inverse of L Lᵀ to `inverse` (n × n).
 void cholesky_inverse(std::span<const double> factor, int n, std::span<double> inverse) {
   for (int column = 0; column < n; ++column) {
-    // Row `column` serves as the right-hand side: the inverse is symmetric.
+    // Solves for the column in row `column`, as the inverse is symmetric.
     const std::span<double> row = inverse.subspan(static_cast<std::size_t>(column) * n, n);
     std::fill(row.begin(), row.end(), 0.0);
     row[column] = 1;

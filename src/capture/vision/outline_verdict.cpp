@@ -143,8 +143,8 @@ double against(const std::array<double, kVerdictKnots>& knots, const std::array<
   return penalties.back();
 }
 
-// Returns the sentence of the heaviest fact without which the verdict would be positive, else of the heaviest fact. By
-// the flame model it denies a flame, unless the fact is a burning object's shape: an overexposed flame has any shape.
+// Returns the sentence of the heaviest fact without which the verdict would be positive, else of the heaviest fact.
+// With against_flame it denies a flame, unless the fact is a burning object's shape: overexposed flames have any shape.
 std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact::*weight, double odds, R r) {
   const auto heavier = [&](const WeighedFact& a, const WeighedFact& b) {
     return std::pair(odds + a.*weight > 0, a.*weight) < std::pair(odds + b.*weight > 0, b.*weight);

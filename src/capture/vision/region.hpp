@@ -1,6 +1,6 @@
 #pragma once
-// Connected bright regions of a picture, the line around one of them, and the boundary between an object and its stand,
-// where both have merged into one region.
+// Finds the connected bright regions of a picture, the outer boundary of a region, and the boundary between an object
+// and its stand where both have merged into one region.
 //
 // A region is a maximal set of pixels brighter than a level, connected by sides or corners. Only its outer boundary is
 // followed, so enclosed holes (a wick, a dark core) belong to the region.
@@ -89,16 +89,16 @@ struct Profile {
 /// Computes the profile of a boundary's interior, for a base on `side`; reuses the profile's memory.
 void measure_profile(std::span<const PixelPosition> boundary, BaseSide side, Profile& profile);
 
-/// Converts a picture coordinate `edge` to depth; the function is its own inverse.
+/// Converts a picture coordinate `edge` to depth, which increases towards the base; the function is its own inverse.
 int depth_of(int edge, BaseSide side);
 
 /// Coordinate of the last row (or column) of `box` towards the base.
 int base_edge(const Region& box, BaseSide side);
 
-/// Depth of `edge` below `other`, in pixels; negative if above.
+/// Returns by how many pixels `edge` lies beyond `other` towards the base; negative if it lies before.
 int deeper(int edge, int other, BaseSide side);
 
-/// Part of `place` on the object's side of `edge`.
+/// Returns the part of `place` on the object's side of `edge`, which is included.
 Region above_edge(const Region& place, int edge, BaseSide side);
 
 /// Returns the index, at least `from`, of the last row above the sharpest shoulder; none if there is no shoulder.

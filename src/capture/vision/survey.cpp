@@ -15,8 +15,8 @@ constexpr int kGrid = 320;                // width and height of the coarse grid
 constexpr int kFineGrid = 160;            // width and height of the finer grid around the object, points
 constexpr int kLevelStep = 18;            // step between the levels tried, of 255
 constexpr int kHighestLevel = 225;        // a higher level would cut through the flame, as cameras clip above it
-constexpr double kLitShare = 0.7;         // minimum brightest_of() of a picture that counts, of the upper quartile
-constexpr double kOtherScene = 64;        // maximum mean difference from the median picture of a picture that counts
+constexpr double kLitShare = 0.7;         // minimum brightest_of() of a surveyed picture, share of the upper quartile
+constexpr double kOtherScene = 64;        // maximum mean difference of a surveyed picture from the median picture
 constexpr double kOneBrightness = 16;     // of 255, above the darkest tenth: a smaller contrast is noise
 constexpr double kAsLikely = 0.35;        // minimum score of another flame relative to the first
 constexpr double kAsGood = 0.5;           // minimum relative likeness of the object at another level
@@ -81,13 +81,13 @@ std::vector<double> distances_from_usual(const PictureGrid& luma) {
   return distances;
 }
 
-// Pictures that count, and each one's brightest_of(). Fades, titles and pictures after the flame went out do not count.
+// The surveyed pictures, without fades, titles and pictures after the flame went out; and each one's brightest_of().
 struct LitPictures {
   std::vector<Picture> pictures;
   std::vector<double> brightest;
 };
 
-// Selects the pictures that count, and removes the others from the grids.
+// Selects the pictures to survey, and removes the others from the grids.
 LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
   const PictureGrid& luma = *grids.of(PixelChannel::kLuma);
   std::vector<double> brightest;
@@ -257,7 +257,7 @@ Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates
   return best;
 }
 
-// Finds the object again on a finer grid, unless it is too large for one. Returns whole() of it.
+// Finds the object again on a finer grid, unless it is too large for one. Returns it in its best channel and level.
 Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std::span<const Picture> pictures,
                  const Region& area, const SurveyOptions& options, const Evidence& evidence) {
   const Region around = intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
