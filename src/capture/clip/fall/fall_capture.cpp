@@ -156,7 +156,7 @@ Recording FallCapture::recorded(const std::vector<Fall>& falls, bool tilt) const
     const Fall& fall = falls[episode];
     for (std::size_t k = 0; k < fall.rows.size(); ++k) {
       const Thing& thing = fall.rows[k];
-      // Adds half a reduced pixel: whole numbers are pixel centres in Thing, pixel corners in the picture's height.
+      // Pixel centres lie at whole numbers in Thing, but the picture's height is measured from pixel borders.
       const double x = region_.x + (thing.x + 0.5) * step_, y = region_.y + (thing.y + 0.5) * step_;
       recording.channels[0].samples.push_back(scale * (x - 0.5 * frame_.width));
       recording.channels[1].samples.push_back(0);

@@ -56,7 +56,7 @@ std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<c
     if (std::abs(static_cast<double>(k - at)) >= rate_hz)
       out.next_best = std::max(out.next_best, found[static_cast<std::size_t>(k)]);
   }
-  // Refines the maximum by a parabola through three samples. The correlations at both ends are −1.
+  // Refines the maximum by a parabola through it and its neighbours, which exist, as both ends have −1.
   const double before = best[-1], after = best[1], bend = before - 2 * *best + after;
   if (bend < 0 && before > -1 && after > -1) out.rows += std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
   return out;
