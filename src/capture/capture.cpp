@@ -28,8 +28,8 @@ ClipTimes times_of(const VideoReader& reader, const std::optional<FrameRange>& f
   return times;
 }
 
-// Refuses a range that reaches beyond what was read of a film; a folder of images is checked when it is opened. The
-// last frames of the range may be lost: then the times go on beyond the rows.
+// Returns an error if a range ends after the last frame of a video. A folder of images is checked when it is opened.
+// Lost frames at the range's end have times but no rows, so the longer of both counts.
 Result<void> check_frames(const std::filesystem::path& path, const std::optional<FrameRange>& frames,
                           const VideoReader& reader, std::size_t rows) {
   const std::size_t read = std::max(rows, times_of(reader, frames).offsets.size());
@@ -39,7 +39,7 @@ Result<void> check_frames(const std::filesystem::path& path, const std::optional
                " reach beyond its end, frame " + std::to_string(last)};
 }
 
-// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's facts; empty without a sound track.
+// Passes a clip's sound to `hear`, `speed` times as fast. Returns the sound's properties; none without a sound track.
 template <class Hear>
 Result<std::optional<SoundInfo>> hear_sound(const std::filesystem::path& path, double speed, Hear hear) {
   Result<void> heard;
@@ -66,7 +66,7 @@ double light_of(const Picture& picture, const Region& region, std::vector<std::u
   return sum / static_cast<double>(pixels.size());
 }
 
-// Captures a clip that is rotated by quarter turns, clockwise. `film` receives the film's facts.
+// Captures a clip rotated by `turn` quarter turns clockwise. `film` receives the film's properties.
 Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& options, int turn, FilmFacts& film,
                          const Progress& progress) {
   auto reader = VideoReader::open(path, {.rate_hz = options.rate_hz, .frames = options.frames, .turn = turn});
@@ -93,7 +93,7 @@ Result<Captured> look_at(const std::filesystem::path& path, const ClipCapture& o
   return captured;
 }
 
-// The longest run of rows without a break, as the film's frames; empty if shorter than 1.5 s or nearly the whole film.
+// Returns the longest run of rows without a break, as frame numbers; none if below 1.5 s or above 95 % of all rows.
 template <class Breaks>
 std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t first, Breaks breaks) {
   constexpr double kMinSeconds = 1.5, kMaxShare = 0.95;
@@ -108,8 +108,8 @@ std::optional<FrameRange> longest_part(const Recording& recording, std::int64_t 
                     first + static_cast<std::int64_t>(best_begin + best) - 1};
 }
 
-// Remedy for a refused film: a sentence that replaces the reason, or a clause that follows it; both empty without a
-// remedy. A flag or a rotation is tried first, so that nobody films again needlessly.
+// Remedy for a refused film, found by capturing it again with other frames, a rotation or `flame` 0. `reason` replaces
+// the reason of the refusal, `advice` is appended to it; both are empty without a remedy.
 struct Cure {
   std::string reason;
   std::string advice;
@@ -117,7 +117,7 @@ struct Cure {
 
 Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, const Result<Captured>& refused,
              const FilmFacts& film, const Progress& progress) {
-  constexpr std::int64_t kEnoughFrames = 120;  // frames tried before the whole film
+  constexpr std::int64_t kEnoughFrames = 120;  // a remedy is tried on these first frames before the whole film
   constexpr const char* kTurned[] = {"", "the film lies on its side; rotate it by 90 degrees clockwise",
                                      "the film is upside down; rotate it by 180 degrees",
                                      "the film lies on its side; rotate it by 90 degrees counter-clockwise"};
@@ -125,7 +125,7 @@ Cure cure_of(const std::filesystem::path& path, const ClipCapture& options, cons
   const auto usable = [&](const ClipCapture& other, int turn = 0) {
     FilmFacts ignored;
     const auto captured = look_at(path, other, turn, ignored, progress);
-    // A mere glow may be usable in any position, but its outline seldom is right with a probability above 0.8.
+    // A blurred glow may be usable in any rotation, but its outline rarely is right with a probability above 0.8.
     return captured && captured->report.verdict->usable &&
            (turn == 0 || std::get<double>(captured->report.find("likely.right")->value) > 0.8);
   };
@@ -279,7 +279,7 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     if (region.empty())
       return Error{path.string() + ": the region lies outside its picture of " + std::to_string(picture.width) + " x " +
                    std::to_string(picture.height) + " pixels"};
-    // Rows of lost frames stay missing (NaN).
+    // Rows of lost frames are missing (NaN).
     channel.samples.resize(static_cast<std::size_t>((*frame)->index - first), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, reader->info().frames));

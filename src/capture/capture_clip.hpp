@@ -1,5 +1,5 @@
 #pragma once
-// Feeds a clip on disk to a capture.
+// Feeds the frames of a clip on disk to an OutlineCapture or a FallCapture.
 
 #include <algorithm>
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace wisp {
 
-/// Feeds all frames of a reader to a capture, after glimpses if it takes them; calls `progress` after each frame. The
-/// first row is the first of `frames`, the reader's range, even if that frame is lost.
-/// Errors: as VideoReader and the capture, of an outline or of falls, and kStopped where `progress` returned false.
+/// Feeds all frames of a reader to a capture, after four glimpses if the capture has glimpse(); calls `progress` after
+/// each frame. Row 0 is the first frame of `frames`, the reader's range, even if that frame is lost.
+/// Errors: those of VideoReader and of the capture; kStopped if `progress` returns false.
 template <class Capture>
 Result<void> read_into(VideoReader& reader, Capture& capture, const std::optional<FrameRange>& frames,
                        const Progress& progress = {}) {

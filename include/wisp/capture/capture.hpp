@@ -1,5 +1,5 @@
 #pragma once
-// Capture of a clip's file as a recording: the outline in its picture, with the wind in its sound.
+// Captures clips on disk as recordings: outline and wind, a body from several views, brightness, falls, or wind alone.
 
 #include <filesystem>
 #include <optional>
@@ -17,10 +17,10 @@ namespace wisp {
 /// with an outline, sound that cannot be decoded, kStopped.
 Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress = {});
 
-/// Captures a flame's body, and its outline from beside each blow, from films of several level cameras at `azimuths`
-/// (degrees anticlockwise, seen from above), aligned in time by sound or flame height. Errors: those of capture() for
-/// each film; fewer than two films, not one azimuth per film, equal or opposite azimuths, equal films, unequal rates,
-/// `frames` given, no time in common.
+/// Captures a flame's body from films of several level cameras at `azimuths` (degrees anticlockwise, seen from above),
+/// aligned in time by sound or flame height, and the outline that a camera at right angles to each blow would see.
+/// Errors: those of capture() for each film; fewer than two films, not one azimuth per film, equal or opposite
+/// azimuths, equal films, unequal rates, `frames` given, no time in common with the first film.
 Result<Captured> capture_views(std::span<const std::filesystem::path> films, std::span<const double> azimuths,
                                ClipCapture options, const Progress& progress = {});
 

@@ -30,10 +30,10 @@ OutlineCaptureOptions outline_options(const ClipSource& source, const ClipCaptur
   return out;
 }
 
-constexpr double kClippedShare = 0.01;  // share of samples at full scale above which peaks of the wind are clipped
+constexpr double kClippedShare = 0.01;  // share of samples at full scale above which a warning is given
 
-// An absence of the outline of more than kMinOut seconds that begins up to kLookedBack seconds after wind of kBlowing,
-// and ends with the flame back, is a blow-out followed by re-ignition. Less wind extinguishes no flame.
+// The flame counts as blown out and relit if its outline is missing for more than kMinOut seconds, beginning at most
+// kLookedBack seconds after wind of at least kBlowing, and returns. Less wind extinguishes no flame.
 constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;
 
 void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
@@ -79,7 +79,7 @@ void warn_of_sound(const ClipSource& source, const ClipWind& wind, Report& repor
   }
 }
 
-// Reason why a clip is unusable by its times or its sound, although its outlines are right; empty without one.
+// Returns why a clip with usable outlines is unusable because of its frames' times or its sound; none if it is usable.
 std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& times) {
   float worst = 0;
   for (const float offset : times.offsets) worst = std::max(worst, std::abs(offset));
@@ -99,8 +99,8 @@ std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& t
   return first_missed(criteria);
 }
 
-// Where frames were off their grid times, interpolates outlines at those times from the two neighbouring frames. Filled
-// rows do not count as neighbours.
+// Interpolates outlines at the grid times from the frames before and after, unless all frames lie on the grid. Filled
+// rows are not used.
 void put_in_place(std::span<const float> offsets, Recording& recording) {
   constexpr float kThere = 0.1F;  // rows: smaller offsets are ignored
   if (std::all_of(offsets.begin(), offsets.end(), [](float offset) { return std::abs(offset) < kThere; })) return;
@@ -246,8 +246,8 @@ Result<void> LiveCapture::hear(const SoundFormat& format, double begin, std::spa
   return {};
 }
 
-// Wind of the captured frames. Sound is analysed from the clip's start, whichever frames are captured, so that the
-// background level is known.
+// Returns the wind of the captured frames. Sound is analysed from the clip's start, whichever frames are captured, so
+// that the background level is known.
 Result<ClipWind> LiveCapture::wind_of(std::size_t rows) const {
   if (!ear_) {
     ClipWind none;

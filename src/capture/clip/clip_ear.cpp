@@ -41,8 +41,8 @@ void ClipEar::be_silent(double samples) {
   fed_ += whole;
 }
 
-// Skips a gap in the sound without feeding silence, which the tracker would take for the background. Silence completes
-// only the frames at its two ends; those between are missing.
+// Skips a gap in the sound without feeding silence, which the tracker would take for the background. Only the frames at
+// the gap's two ends are completed with silence; the frames between are missing.
 void ClipEar::pass_over(double seconds) {
   const double frame = format_.rate_hz / rate_hz_, hole = seconds * format_.rate_hz;
   const double to_next = (std::ceil(fed_ / frame - 1e-9) * frame - fed_);
@@ -60,7 +60,7 @@ void ClipEar::feed(double begin, std::span<const float> samples) {
     pass_over(gap);
     heard_to_ = begin;
   }
-  // Drops samples from before the first picture, and repeated ones.
+  // Drops samples from before the first picture, and samples that repeat earlier sound.
   std::size_t skipped = 0;
   if (!begun_ ? gap < 0 : gap < -kJitter) {
     const double early = std::min(-gap * format_.rate_hz, static_cast<double>(samples.size()) / format_.channels);
@@ -74,7 +74,7 @@ void ClipEar::feed(double begin, std::span<const float> samples) {
   heard_to_ += count / format_.rate_hz;
 }
 
-// Places wind frames at their times, with gaps between. Returns the end of the last frame placed.
+// Copies wind frames to their times in `placed`; frames in holes are missing. Returns the index after the last copied.
 std::size_t ClipEar::place(std::span<const WindFrame> heard, std::size_t frames, std::vector<WindFrame>& placed) const {
   placed.clear();
   for (std::size_t k = 0; k < frames; ++k) placed.push_back(missing_frame(k));

@@ -1,5 +1,5 @@
 #pragma once
-// Wind in a clip's sound, one value per frame of its picture (section 3.3 of the paper).
+// Estimates the wind from a clip's sound, one value per frame of its picture (section 3.3 of the paper).
 
 #include <span>
 #include <utility>
@@ -16,10 +16,10 @@ void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording);
 /// Measures the wind of a clip from its sound, block by block.
 class ClipEar {
  public:
-  /// Offset of a block's time stamp from its samples, in seconds, above which sound was lost or repeated.
+  /// Seconds between a block's time stamp and the end of the block before it, above which sound was lost or repeated.
   static constexpr double kJitter = 0.05;
 
-  /// An ear for a picture of `rate_hz` frames a second. Errors: as WindTracker.
+  /// Creates an ear that returns `rate_hz` wind frames per second. Errors: as WindTracker.
   ///
   /// Precondition: rate_hz > 0.
   static Result<ClipEar> create(const SoundFormat& format, double rate_hz);
@@ -28,14 +28,14 @@ class ClipEar {
   /// negative).
   void feed(double begin, std::span<const float> samples);
 
-  /// Wind of the picture's first `frames` frames without the first `skipped`; empty where the sound was silent. Errors:
-  /// as WindTracker.
+  /// Returns the wind of the picture's frames from index `skipped` to before `frames`; none if the sound is silent.
+  /// Errors: as WindTracker.
   Result<ClipWind> finish(std::size_t frames, std::size_t skipped = 0) const;
 
  private:
   struct Hole {
-    std::size_t at = 0;  // number of measured frames before it
-    double frames = 0;
+    std::size_t at = 0;  // number of measured frames before the hole
+    double frames = 0;   // number of missing frames
   };
   ClipEar(WindTracker tracker, const SoundFormat& format, double rate_hz)
       : tracker_(std::move(tracker)), format_(format), rate_hz_(rate_hz) {}

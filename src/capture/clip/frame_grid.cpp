@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-// Offset from the grid, in places, above which frames do not have a fixed rate.
+// Offset of a frame from the grid, in places, above which a warning about irregular times is given.
 constexpr double kIrregular = 0.6;
 
 }  // namespace

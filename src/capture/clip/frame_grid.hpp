@@ -10,17 +10,17 @@ namespace wisp {
 
 class FrameGrid {
  public:
-  /// Maximum length of a gap; longer gaps are shortened to it, as an episode ends there anyway.
+  /// Maximum length of a gap; longer gaps are shortened to it, as an episode ends at such a gap.
   static constexpr double kLongestGapSeconds = 2;
 
   /// Precondition: rate_hz > 0.
   explicit FrameGrid(double rate_hz) : rate_hz_(rate_hz) {}
 
-  /// Returns the next frame's place: the nearest to its time `seconds` (any clock) after the last place. Gaps of more
-  /// than two seconds are shortened to two.
+  /// Returns the next frame's place (index on the grid): the nearest to its time `seconds` (any clock) after the last
+  /// place. Gaps of more than two seconds are shortened to two.
   std::int64_t place(double seconds);
 
-  /// Returns the next frame's place where its time is unknown.
+  /// Returns the place of a frame whose time is unknown: the one after the last.
   std::int64_t follow();
 
   /// Place of the last frame; -1 before the first.

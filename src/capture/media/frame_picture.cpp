@@ -13,7 +13,7 @@ const AVPixFmtDescriptor* descriptor(const AVFrame& frame) {
   return av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
 }
 
-// Whether every colour component is a separate byte, so that the planes can be borrowed.
+// Returns whether every colour component is a separate byte, so that the planes can be borrowed.
 bool plain_bytes(const AVPixFmtDescriptor& format) {
   constexpr std::uint64_t kOther =
       AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BITSTREAM | AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_BAYER;
@@ -61,7 +61,7 @@ void turn_plane(const PicturePlane& in, int width, int height, int quarters, std
   }
 }
 
-// Provides a reused frame of the given format and size. Returns false where memory is exhausted.
+// Gives `kept` this size and format, reusing its memory if both are unchanged. Returns false if memory is exhausted.
 bool take_frame(FrameOwner& kept, std::pair<int, int> size, AVPixelFormat format) {
   if (!kept) kept.reset(av_frame_alloc());
   if (!kept) return false;
@@ -77,7 +77,7 @@ bool take_frame(FrameOwner& kept, std::pair<int, int> size, AVPixelFormat format
 
 }  // namespace
 
-// Size with square pixels: enlarges the dimension along which pixels are longer.
+// Returns a frame's size in square pixels: enlarges the dimension along which pixels are longer.
 std::pair<int, int> FramePictures::stretched(int width, int height) const {
   if (aspect_ > 1) return {static_cast<int>(std::lround(width * aspect_)), height};
   return {width, static_cast<int>(std::lround(height / aspect_))};

@@ -47,7 +47,7 @@ AVCodecID codec_of(const std::filesystem::path& path) {
   return AV_CODEC_ID_NONE;
 }
 
-// A group of digits in the file's name, counted from the last one; empty where there are fewer.
+// Returns a group of adjacent digits in the file's name: 0 is the last, 1 the last but one. Empty if there is none.
 std::string digits_in(const std::filesystem::path& path, int group = 0) {
   constexpr const char* kDigits = "0123456789";
   std::string stem = path.stem().string();
@@ -59,7 +59,7 @@ std::string digits_in(const std::filesystem::path& path, int group = 0) {
   }
 }
 
-// The last group of digits in which the images' names differ: equal groups state a size or the number of images.
+// Returns the last group of digits in which the images' names differ: equal groups state a size or the image count.
 int counting_group(const std::vector<std::filesystem::path>& images) {
   for (int group = 0; !digits_in(images.front(), group).empty(); ++group) {
     const auto differs = [&](const auto& path) { return digits_in(path, group) != digits_in(images.front(), group); };
@@ -68,7 +68,7 @@ int counting_group(const std::vector<std::filesystem::path>& images) {
   return 0;
 }
 
-// Whether a PNG or JPEG file is truncated: decoders fill the missing part with grey.
+// Returns whether a PNG or JPEG file is truncated: decoders would fill the missing part with grey.
 bool is_cut(std::span<const std::byte> bytes, AVCodecID codec) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const auto last = [&](std::string_view mark) { return text.rfind(mark); };
@@ -123,7 +123,7 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
   return images;
 }
 
-// Missing numbers are lost frames, except for regular steps (such as an extract of every tenth frame).
+// Sets the images' indices: the smallest step between two numbers is one frame, larger steps contain lost frames.
 void ImageFolder::place(std::vector<NumberedImage>& images) {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   for (std::size_t k = 1; k < images.size(); ++k) step = std::min(step, images[k].number - images[k - 1].number);

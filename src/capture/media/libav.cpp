@@ -29,7 +29,7 @@ Result<void> check_pictures(const std::string& name, const AVFormatContext& form
   return {};
 }
 
-// FFmpeg identifies tracks by decoding some frames; limits the size of pictures as in later decoding.
+// Identifies the tracks. FFmpeg decodes some frames to do so, so this limits their size as open_decoder() does.
 int look_at_tracks(AVFormatContext& format) {
   std::vector<AVDictionary*> options(format.nb_streams, nullptr);
   for (AVDictionary*& entries : options) av_dict_set_int(&entries, "max_pixels", kMaxFilmPixels, 0);
@@ -102,7 +102,7 @@ void read_alone(AVFormatContext& format, int track) {
 }
 
 bool is_truncated(const AVFormatContext& format, int track, double end) {
-  constexpr double kExact = 0.95, kSlack = 0.1;  // share; seconds: a stated duration is not exact to the frame
+  constexpr double kExact = 0.95, kSlack = 0.1;  // share; s: tolerances of the stated duration
   return end < kExact * stated_seconds(format, *format.streams[track]) - kSlack;
 }
 

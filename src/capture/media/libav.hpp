@@ -24,9 +24,9 @@ namespace wisp {
 
 /// Calls an FFmpeg function and returns its code. Throws std::bad_alloc if the code or errno reports a failed
 /// allocation: the file is not at fault, and skipping frames would change the measurement. (FFmpeg's H.264 decoder
-/// reports one only in errno.) Once a film or sound is open, this wrapper is used for every call that may read or
-/// decode it, also for the one that sends the final empty packet. errno is per thread: a failure in a decoding thread
-/// is seen only if FFmpeg returns it.
+/// reports a failed allocation only in errno.) Once a film or sound is open, this wrapper is used for every call that
+/// may read or decode it, also to send the final empty packet. errno is per thread: a failure in a decoding thread is
+/// seen only if FFmpeg returns it.
 template <class Call, class... Arguments>
 int with_memory(Call call, Arguments... arguments) {
   errno = 0;  // earlier calls leave errors there that they recovered from
@@ -55,7 +55,7 @@ using ResamplerOwner = std::unique_ptr<SwrContext, LibavCloser>;
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
 
 /// Maximum pixels of a film's picture: 8K in its widest form, 8192 by 4320. A decoder keeps up to twenty pictures, and
-/// a black one of any size takes only a few bytes in a file.
+/// a black picture of any size takes only a few bytes in a file.
 inline constexpr std::int64_t kMaxFilmPixels = 36'000'000;
 
 /// Disables FFmpeg's own messages from now on.
@@ -70,17 +70,17 @@ std::string libav_message(int code);
 /// kMaxFilmPixels.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
-/// Stated duration of a track, or else of the file (that of its longest track), in seconds; 0: none is stated.
+/// Returns the stated duration of a track, else of the file (its longest track), in seconds; 0: none is stated.
 double stated_seconds(const AVFormatContext& format, const AVStream& track);
 
-/// Discards packets of other tracks, unless the track states no duration: is_truncated() then needs the longest
-/// track's.
+/// Discards packets of other tracks, unless the track states no duration: is_truncated() then compares the end of all
+/// packets with the file's duration.
 void read_alone(AVFormatContext& format, int track);
 
 /// End of a packet, in seconds after the file's beginning; 0 where its time is unknown.
 double end_of(const AVFormatContext& format, const AVPacket& packet);
 
-/// Whether the packets read, which end at `end` seconds, end before the stated duration: the file is truncated.
+/// Returns whether the file is truncated: its last packet ends at `end` seconds, well before the stated duration.
 bool is_truncated(const AVFormatContext& format, int track, double end);
 
 /// Opens a decoder with `threads` threads for one track.

@@ -19,8 +19,8 @@ struct SoundTrack {
   FrameOwner frame{av_frame_alloc()};
   int track = -1;
   SoundInfo info;
-  double first_picture = 0;   // time of the first picture, seconds on the file's clock
-  std::optional<double> now;  // time of the next sample, on that clock
+  double first_picture = 0;   // time of the first picture on the file's clock, seconds
+  std::optional<double> now;  // time of the next sample, seconds after the first picture
   std::vector<float> samples;
 };
 
@@ -28,13 +28,13 @@ double start_of(const AVStream& track) {
   return track.start_time == AV_NOPTS_VALUE ? 0 : static_cast<double>(track.start_time) * av_q2d(track.time_base);
 }
 
-// Time of the clip's first picture (of the sound, where there is none) on the file's clock.
+// Returns the start of the video track (without one, of the sound) on the file's clock, seconds.
 double first_picture(AVFormatContext& format, const AVStream& sound) {
   const int video = av_find_best_stream(&format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   return start_of(video < 0 ? sound : *format.streams[video]);
 }
 
-// Samples are consecutive, but their time stamps jitter; a large deviation means lost sound.
+// Sets the block's start: the end of the block before, unless the time stamp is over kJitter off, as after lost sound.
 void take_time(SoundTrack& track) {
   const AVFrame& frame = *track.frame;
   if (frame.best_effort_timestamp != AV_NOPTS_VALUE) {
@@ -57,7 +57,7 @@ bool start_resampler(SoundTrack& track) {
   return code >= 0 && with_memory(swr_init, raw) >= 0;
 }
 
-// Delivers a block. Returns whether to continue.
+// Converts the decoded frame to floats and passes them to `block`. Returns whether to continue.
 bool hand_out(SoundTrack& track, const SoundBlock& block) {
   const AVFrame& frame = *track.frame;
   if (!track.resampler && !start_resampler(track)) return false;

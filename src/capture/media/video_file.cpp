@@ -17,7 +17,7 @@ constexpr double kHighestRate = 1000;
 // Maximum pixel aspect ratio; a larger one comes from a corrupt header.
 constexpr double kWidestPixel = 8;
 
-// Display times of a track's frames in seconds, in order, without decoding.
+// Returns the display times of a track's frames in seconds, ascending, without decoding.
 std::vector<double> frame_times(const std::filesystem::path& path, int track) {
   std::vector<double> times;
   auto format = open_media(path);
@@ -33,14 +33,14 @@ std::vector<double> frame_times(const std::filesystem::path& path, int track) {
   return times;
 }
 
-// Most common frame rate of an irregular film. Times are often rounded to milliseconds.
+// Returns the most common frame rate of an irregular film, rounded to a likely rate: times are often in whole ms.
 double usual_rate(const std::vector<double>& times, double nominal, double average) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < times.size(); ++k) {
     if (times[k] > times[k - 1]) steps.push_back(times[k] - times[k - 1]);
   }
   if (steps.empty()) return average > 0 ? average : nominal;
-  // Jitter has either sign; lost frames and a reduced rate in the dark double the interval.
+  // Averages the intervals near the median, so that jitter cancels; excludes lost frames and a halved rate in the dark.
   const double usual = median(steps);
   std::erase_if(steps, [&](double one) { return one < 0.4 * usual || one > 1.6 * usual; });
   const double step = mean(steps);
@@ -55,8 +55,8 @@ double usual_rate(const std::vector<double>& times, double nominal, double avera
   return 1 / step;
 }
 
-// Rate of the frames' grid: the camera's nominal rate (the lowest that represents all times), unless a third or more of
-// its frames are missing; then the most common rate.
+// Returns the rate of the frames' grid: the nominal rate (the lowest that represents all times), or the most common
+// rate if the nominal one exceeds kHighestRate or a third or more of its frames are missing.
 double grid_rate(const std::filesystem::path& path, const AVStream& track) {
   const double nominal = av_q2d(track.r_frame_rate), mean = av_q2d(track.avg_frame_rate);
   const bool plausible = nominal > 0 && nominal <= kHighestRate;
@@ -64,7 +64,7 @@ double grid_rate(const std::filesystem::path& path, const AVStream& track) {
   return usual_rate(frame_times(path, track.index), nominal, mean);
 }
 
-// Pixel aspect ratio in display, width / height.
+// Returns the displayed pixel's width / height.
 Result<double> pixel_aspect(const std::filesystem::path& path, AVFormatContext& format, AVStream& track) {
   const double aspect = av_q2d(av_guess_sample_aspect_ratio(&format, &track, nullptr));
   if (!(aspect > 0) || std::abs(aspect - 1) < 0.005) return 1.0;
@@ -75,7 +75,7 @@ Result<double> pixel_aspect(const std::filesystem::path& path, AVFormatContext& 
                "scale=iw*sar:ih,setsar=1 OUT.mp4"};
 }
 
-// Clockwise rotation that the file requests. A mirrored picture is left mirrored: a flame has no left or right.
+// Returns the file's clockwise rotation. A mirrored picture is left mirrored: a flame has no left or right.
 int quarter_turns(const AVStream& track) {
   const std::uint8_t* stated = av_stream_get_side_data(&track, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
   if (stated == nullptr) return 0;
@@ -90,7 +90,7 @@ int quarter_turns(const AVStream& track) {
 
 bool is_mov(const AVFormatContext& format) { return std::strstr(format.iformat->name, "mov") != nullptr; }
 
-// Number of frames in the file that are not displayed: a phone trims a film by an edit list and keeps all frames.
+// Returns the number of frames that are not displayed: a phone trims a film by an edit list and keeps all frames.
 std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
   if (!is_mov(format)) return 0;
   auto& indexed = const_cast<AVStream&>(track);
@@ -239,7 +239,7 @@ std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   const double ticks_per_frame = file.info_.speed / (file.seconds_per_tick_ * file.info_.rate_hz);
   const std::int64_t first = options_.frames ? options_.frames->first - 1 : 0;
   const std::int64_t last = options_.frames ? std::min(options_.frames->last, info_.frames) : info_.frames;
-  std::int64_t before = begin;  // the first frames are read anyway
+  std::int64_t before = begin;  // skips the first key frame, which next() decodes
   for (int k = 1; k <= count; ++k) {
     const double frame = static_cast<double>(first) + static_cast<double>(last - 1 - first) * k / count;
     const std::int64_t at = file.decode_key_frame(begin + std::llround(frame * ticks_per_frame), before);
@@ -258,7 +258,7 @@ std::vector<std::string> VideoFile::warnings() const {
   if (broken_ > 0)
     out.push_back(name + ": " + std::to_string(broken_) +
                   (broken_ == 1 ? " broken frame was left out" : " broken frames were left out"));
-  // Only MP4 counts frames exactly: AVI also counts those that were dropped while it was recorded.
+  // Only MP4 states the exact number of frames: AVI also counts frames that were dropped during recording.
   const bool exact = is_mov(*format_), counted = format_->streams[track_]->nb_frames > 0;
   const std::int64_t least = exact ? info_.frames : info_.frames - info_.frames / 20 - 2;
   const std::int64_t found = exact ? decoded_ + broken_ : grid_->last() + 1;

@@ -1,6 +1,6 @@
 #pragma once
-// Frames of a video file or of a folder of numbered images; their conversion to a Picture, which borrows a frame's
-// planes where their format allows, and to RGB.
+// Readers of a video file and of a folder of numbered images, and conversion of their frames to RGB or to a Picture,
+// which borrows a frame's planes where their format allows.
 
 #include <utility>
 #include <vector>
@@ -15,19 +15,19 @@ namespace wisp {
 /// Converts frames to pictures; reuses converters and memory between frames.
 class FramePictures {
  public:
-  /// Frames are rotated clockwise by this many quarter turns, and stretched to square pixels where a pixel's width is
-  /// `aspect` times its height.
+  /// Frames are stretched to square pixels from pixels `aspect` times as wide as high, and rotated clockwise by
+  /// `quarter_turns`.
   explicit FramePictures(int quarter_turns = 0, double aspect = 1) : quarter_turns_(quarter_turns), aspect_(aspect) {}
 
   /// Width and height of a frame as displayed.
   std::pair<int, int> shown(int width, int height) const;
 
-  /// The frame as a picture, valid until the next call and while the frame exists. 8-bit planes and packed pixels are
-  /// borrowed; other formats (palettes, more bits) are converted first.
+  /// Returns the frame as a picture, valid until the next call and while the frame exists. 8-bit planes and packed
+  /// pixels are borrowed unless rotated or stretched; other formats (palettes, more bits) are converted first.
   /// Errors: a format that FFmpeg cannot convert.
   Result<Picture> view(const AVFrame& frame);
 
-  /// The frame as RGB, rotated for display.
+  /// Returns the frame as RGB, stretched and rotated; black where its format cannot be converted.
   RgbImage rgb(const AVFrame& frame);
 
  private:

@@ -9,20 +9,20 @@
 namespace wisp {
 namespace {
 
-// Light of BT.2020's primaries in those of BT.709 (ITU-R BT.2087-0, table 2 inverted).
+// Matrix from linear light in BT.2020's primaries to BT.709's (ITU-R BT.2087-0, table 2 inverted).
 constexpr float kPrimaries[3][3] = {
     {1.6605F, -0.5876F, -0.0728F}, {-0.1246F, 1.1329F, -0.0083F}, {-0.0182F, -0.1006F, 1.1187F}};
 
-constexpr int kSignals = 65536, kLights = 4096;  // 16-bit signals; steps of light, near black a quarter of a level each
+constexpr int kSignals = 65536, kLights = 4096;  // table sizes: 16-bit signals; steps of light (¼ level near black)
 
-// Light on the camera (ITU-R BT.2100-2, table 5). Reference white has a signal of 0.75 (ITU-R BT.2408).
+// HLG signal to light on the camera (ITU-R BT.2100-2, table 5), relative to reference white: signal 0.75 (BT.2408).
 double hlg_light(double signal) {
   constexpr double kA = 0.17883277, kB = 0.28466892, kC = 0.55991073;
   const auto light = [](double x) { return x <= 0.5 ? x * x / 3 : (std::exp((x - kC) / kA) + kB) / 12; };
   return light(signal) / light(0.75);
 }
 
-// Light on the camera, by the inverse of the reference OOTF (table 4). Reference white is shown with 203 cd/m².
+// PQ signal to light on the camera (BT.2100-2, table 4: EOTF, inverse OOTF), relative to reference white: 203 cd/m².
 double pq_light(double signal) {
   constexpr double kM1 = 2610.0 / 16384, kM2 = 2523.0 / 32, kC1 = 3424.0 / 4096, kC2 = 2413.0 / 128, kC3 = 2392.0 / 128;
   const double power = std::pow(signal, 1 / kM2);
@@ -36,7 +36,7 @@ std::vector<float> lights_of(double light(double signal)) {
   return out;
 }
 
-// The level of each light, white 1 in kLights steps: inverts linear_light().
+// Returns the 8-bit level for each light k / kLights, k = 0 to kLights: the inverse of linear_light().
 std::vector<std::uint8_t> levels() {
   std::vector<std::uint8_t> out;
   for (int level = 0, k = 0; k <= kLights; ++k) {

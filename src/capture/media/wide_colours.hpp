@@ -5,11 +5,11 @@
 
 namespace wisp {
 
-/// Whether a frame has the matrix of BT.2020, or is coded by hybrid log-gamma or perceptual quantisation.
+/// Returns whether a frame has the matrix of BT.2020, or is coded by hybrid log-gamma or perceptual quantisation.
 bool has_wide_colours(const AVFrame& frame);
 
-/// Converts such a frame, given as RGB of 16 bits a channel by its own matrix, to RGB of 8 bits. HDR reference white
-/// becomes white; brighter light is clipped.
+/// Converts `rgb48`, the 16-bit RGB of `frame` by its own matrix, to 8-bit RGB with BT.709's primaries and transfer
+/// function. HDR reference white becomes white; brighter light is clipped.
 void narrow_colours(const AVFrame& frame, const AVFrame& rgb48, AVFrame& rgb24);
 
 }  // namespace wisp

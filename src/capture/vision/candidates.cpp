@@ -10,10 +10,10 @@ namespace wisp {
 namespace {
 
 constexpr double kPersistence = 0.6;     // minimum share of the pictures that contain a candidate
-constexpr std::size_t kMaxRegions = 24;  // maximum per picture and level, largest first
-constexpr std::size_t kMinRows = 3;      // minimum rows of a region with a shape
-constexpr double kStillWorth = 0.15;     // … and the weight of a candidate without change
-constexpr double kAloneIsBetter = 0.5;   // weight of a candidate cut from its stand, against one seen alone
+constexpr std::size_t kMaxRegions = 24;  // maximum number of regions per picture and level, largest first
+constexpr std::size_t kMinRows = 3;      // minimum rows of a region whose shape is measured
+constexpr double kStillWorth = 0.15;     // weight of a candidate that never changes shape, relative to a moving one
+constexpr double kAloneIsBetter = 0.5;   // weight of a candidate cut from its stand, relative to one that stands alone
 constexpr double kLightPower = 8;        // exponent of light: 10 % less luma about halves the likelihood
 constexpr double kSolidPower = 4;        // exponent of solidity: a flame has no notches, a merged region has
 
@@ -23,7 +23,7 @@ struct Track {
   std::vector<BrightRegion> regions;
 };
 
-// Continues each track with the region that overlaps its last one most.
+// Continues each track with the region that overlaps the track's last region most.
 void continue_tracks(std::vector<Track>& tracks, std::span<const BrightRegion> regions, std::size_t picture) {
   for (Track& track : tracks) {
     double best = 0;
@@ -63,14 +63,14 @@ std::vector<Track> find_tracks(const PictureGrid& grid, int level) {
   std::erase_if(tracks, [&](const Track& t) { return static_cast<double>(t.pictures.size()) < kPersistence * count; });
   std::stable_sort(tracks.begin(), tracks.end(),
                    [](const Track& a, const Track& b) { return a.pictures.size() > b.pictures.size(); });
-  std::vector<Track> apart;  // tracks that merge into one region become one
+  std::vector<Track> apart;  // of tracks that end in the same region, only the longest
   for (Track& track : tracks) {
     if (!taken(apart, track.regions.back(), track.pictures.back())) apart.push_back(std::move(track));
   }
   return apart;
 }
 
-// Rows of a region in one picture, and measures of them in grid points.
+// Profile of a region in one picture, and its measures in grid points.
 struct Shape {
   std::size_t picture = 0;
   Profile profile;
@@ -84,7 +84,7 @@ struct Shape {
 double row_centre(const ProfileRow& row) { return 0.5 * (row.low + row.high); }
 double row_width(const ProfileRow& row) { return row.width(); }
 
-// Mean of a measure of the rows [from, to).
+// Returns the mean of a measure of the rows [from, to).
 double mean_rows(double measure(const ProfileRow&), const Profile& profile, std::size_t from, std::size_t to) {
   double sum = 0;
   for (std::size_t k = from; k < to; ++k) sum += measure(profile.rows[k]);
@@ -126,7 +126,7 @@ std::vector<Shape> shapes_of(const PictureGrid& grid, int level, const Track& tr
   return shapes;
 }
 
-// Cuts off the stand if object and stand have merged in at least half of the pictures. Returns whether they have.
+// Cuts off the stand if object and stand have merged in at least half of the pictures. Returns whether it cut any.
 bool cut_stands(std::vector<Shape>& shapes) {
   std::vector<std::optional<std::size_t>> cuts;
   std::size_t count = 0;
@@ -141,7 +141,7 @@ bool cut_stands(std::vector<Shape>& shapes) {
   return true;
 }
 
-// Intersection over union of two shapes aligned at their centres of gravity.
+// Returns the intersection over union of two shapes aligned at their centres of gravity.
 double overlap(const Shape& a, const Shape& b) {
   const int down = static_cast<int>(std::lround(b.middle_row - a.middle_row));
   const double aside = b.middle_across - a.middle_across;
@@ -170,8 +170,8 @@ double narrowing_of(const Shape& shape) {
   return std::max(0.0, 1 - tip / body);
 }
 
-// Area of a shape, straightened, over its convex hull's: a flame that leans or bends has no notches. The hull of a
-// symmetric shape has the least concave majorant of its widths.
+// Returns the area of a shape over its convex hull's, both after straightening the shape, so that a flame that leans or
+// bends has no notches. The hull's widths are then the least concave majorant of the shape's widths.
 double solidity_of(const Shape& shape) {
   std::vector<std::size_t> hull;
   const auto width = [&](std::size_t k) { return static_cast<double>(shape.profile.rows[k].width()); };
@@ -192,7 +192,7 @@ double solidity_of(const Shape& shape) {
 }
 
 double steadiness_of(const std::vector<Shape>& shapes) {
-  constexpr double kGridNoise = 0.3;  // grid points: motion of a still edge by noise
+  constexpr double kGridNoise = 0.3;  // grid points: apparent motion of a still edge
   std::vector<double> tip_across, tip_depth, base_across, base_depth;
   for (const Shape& shape : shapes) {
     tip_across.push_back(shape.tip_across);
@@ -205,7 +205,7 @@ double steadiness_of(const std::vector<Shape>& shapes) {
   return tip / (tip + base);
 }
 
-// Median luma of the shape: a rim is dimmer, and a lower level includes more of it.
+// Returns the median luma of the shape's points above the level; lower levels include more of the dim rim.
 double light_of(const PictureGrid& grid, const PictureGrid& luma, int level, const Shape& shape, BaseSide base) {
   const bool rows = base == BaseSide::kBottom || base == BaseSide::kTop;
   std::vector<std::uint8_t> values;
@@ -230,16 +230,16 @@ Region box_of(const Profile& profile, BaseSide base) {
   return {begin, all.low, length, all.width()};
 }
 
-// Likelihood from features of still pictures.
+// Returns the relative likelihood by features of still pictures.
 double likeness_of(const Candidate& c, const Evidence& evidence) {
   const double general = c.presence * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
   if (!evidence.flame) return general * std::sqrt(std::sqrt(c.area));
-  // With a higher level, lit surroundings have more room to brighten before they exceed it.
+  // The higher the level, the more lit surroundings can brighten before they exceed it.
   const double room = c.level / 255.0;
   return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper;
 }
 
-// Likelihood from features of movement.
+// Returns the relative likelihood by features of movement.
 double liveliness_of(const Candidate& c, const Evidence& evidence) {
   const double moves = kStillWorth + (1 - kStillWorth) * std::min(1.0, c.change / kSurelyMoves);
   return moves * std::min(1.0, 2 * (1 - c.change)) * (evidence.flame ? c.steadiness * c.steadiness : 1);
@@ -322,7 +322,7 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
 
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence) {
-  // Area, at another level, of the candidate that overlaps most; `none` if no candidate overlaps by more than a fifth.
+  // Returns the area of the overlapping candidate at another level; `none` if no candidate overlaps by over a fifth.
   const auto area_in = [](const std::vector<Candidate>* others, const Candidate& c, double none) {
     if (others == nullptr) return c.area;
     double best = 0, area = none;

@@ -11,11 +11,11 @@ namespace {
 
 // Lengths are in flame heights.
 constexpr double kReach = 2.5;                    // half width of the strip
-constexpr double kBelow = 0.2, kDeep = 0.5;       // its upper and lower end below the flame; nearer, the rim glows
-constexpr double kMinEdge = 14;                   // minimum excess of wax over its surroundings, levels of 255
+constexpr double kBelow = 0.2, kDeep = 0.5;       // upper and lower end of the strip below the flame; nearer, wax glows
+constexpr double kMinEdge = 14;                   // minimum excess of the candle over its surroundings, levels of 255
 constexpr double kNarrowest = 0.15, kWidest = 4;  // range of a candle's width; anything wider is a table
 
-// Mean level of each column of a strip over all pictures, 0 to 255.
+// Returns the mean brightness of each column of a strip over all pictures, 0 to 255.
 std::vector<double> profile(std::span<const Picture> pictures, PixelChannel channel, const Region& strip) {
   std::vector<double> sums(static_cast<std::size_t>(strip.width), 0.0);
   std::vector<std::uint8_t> pixels(sums.size() * static_cast<std::size_t>(strip.height));

@@ -15,8 +15,8 @@ struct CandleLook {
   std::array<double, 3> rgb{};  ///< mean red, green and blue of its side, 0 to 255, as lit in the film
 };
 
-/// Examines the strip below the region `flame` in which the flame moves. Empty where the strip is as dark as its
-/// surroundings (a flame on black), has no edge on both sides, or the pictures have no colour.
+/// Measures the candle in a strip below `flame`, the region in which the flame moves. None if the strip's middle is as
+/// dark as its sides (a flame on black), an edge is missing, the width is no candle's, or the pictures have no colour.
 std::optional<CandleLook> look_of_candle(std::span<const Picture> pictures, const Region& flame);
 
 }  // namespace wisp

@@ -12,7 +12,7 @@ struct Gradient {
   double y = 0;
 };
 
-// Sobel operator; beyond its border the picture is continued by its border pixels.
+// Sobel operator; border pixels are repeated beyond the picture.
 Gradient sobel(const ImageView& image, int x, int y) {
   const int left = std::max(x - 1, 0), right = std::min(x + 1, image.width - 1);
   const std::uint8_t* above = image.row(std::max(y - 1, 0));
@@ -35,7 +35,7 @@ double bilinear(const ImageView& image, double x, double y) {
   return top + fy * (low - top);
 }
 
-// Edge at a bright pixel on the window's border: the outline runs along the border itself.
+// Returns the edge at a bright pixel on the window's border: the outline runs along the border itself.
 EdgePoint border_edge(const ImageView& image, PixelPosition pixel) {
   EdgePoint edge{static_cast<double>(pixel.x), static_cast<double>(pixel.y), 0, 0};
   if (pixel.x == 0) edge.normal_x = -1;
@@ -75,7 +75,7 @@ struct Stretch {
   }
 };
 
-// Centre of the boundary between two depths.
+// Returns the centre of the boundary's extent across the axis, between two depths.
 double middle_across(std::span<const PixelPosition> boundary, const Axes& axes, double from, double to) {
   Stretch across;
   for (const PixelPosition& p : boundary) {
@@ -85,7 +85,7 @@ double middle_across(std::span<const PixelPosition> boundary, const Axes& axes, 
   return 0.5 * (across.low + across.high);
 }
 
-// Slope of the lower part's centre line: pixels to the right per pixel up.
+// Returns the slope of the lower part's centre line: pixels to the right per pixel up.
 double lean(std::span<const PixelPosition> boundary, const Axes& axes) {
   constexpr double kSteepest = 1.7;  // 60 degrees: a flatter centre line is unreliable
   Stretch depth;
@@ -104,8 +104,8 @@ struct Outwards {
   double reach(double px, double py) const { return x * px + y * py; }
 };
 
-// Down and to the left (side −1) or right (side 1) at 45 degrees, rotated for an object that leans over that corner, as
-// its side would otherwise be more extreme than its corner.
+// Returns the direction down and to the left (side −1) or right (side 1) at 45 degrees, rotated for an object that
+// leans over that corner, as the object's side would otherwise be more extreme than the corner.
 Outwards corner_direction(const Axes& axes, int side, double leaning) {
   const double over = side < 0 ? std::min(leaning, 0.0) : std::max(leaning, 0.0);
   const double size = std::sqrt(1 + over * over);
@@ -144,7 +144,7 @@ void locate_points(const BoundaryWindow& window, std::span<const PixelPosition> 
   }
 }
 
-// Area to the right of a path through the points, closed by a straight line; positive for clockwise with y down.
+// Returns the area enclosed by the points and a straight line from last to first; positive for clockwise, y down.
 double enclosed(std::span<const EdgePoint> points) {
   double twice = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -154,8 +154,8 @@ double enclosed(std::span<const EdgePoint> points) {
   return 0.5 * twice;
 }
 
-// Sub-pixel position of a corner: the mean of the edge points near the end, weighted by how extreme they are in its
-// direction. Points beyond the mean are dropped, so that the curve ends there.
+// Moves an end to its corner's sub-pixel position: the mean of the edge points near the end, weighted by how extreme
+// they are in the direction `out`. Drops points beyond the mean, so that the curve ends there.
 void settle_corner(std::vector<EdgePoint>& points, bool last, const Outwards& out, double height) {
   const double blur = std::max(0.01 * height, 1.0);
   const auto at = [&](std::size_t k) -> EdgePoint& { return points[last ? points.size() - 1 - k : k]; };
@@ -182,8 +182,8 @@ void settle_corner(std::vector<EdgePoint>& points, bool last, const Outwards& ou
   }
 }
 
-// Position of the tip in arc length: the mean of positions weighted by their distance from the base, which does not
-// jump between the corners of a blunt tip.
+// Returns the arc length at the tip: the mean over the points farthest from the base, weighted by distance, which does
+// not jump between the corners of a blunt tip.
 double tip_place(const EdgeCloud& cloud) {
   const double blur = std::max(0.02 * cloud.height, 0.5);
   double weights = 0, places = 0;
@@ -198,7 +198,7 @@ double tip_place(const EdgeCloud& cloud) {
   return places / weights;
 }
 
-// Computes height, arc lengths and the landmarks' shares of them. Returns whether the tip lies between the corners.
+// Computes height, arc lengths and the landmarks' shares of the arc length. Returns whether the tip is between corners.
 bool measure_way(EdgeCloud& cloud) {
   const std::size_t count = cloud.points.size();
   cloud.way.assign(count, 0.0);
@@ -215,7 +215,7 @@ bool measure_way(EdgeCloud& cloud) {
   return cloud.shares[0] < cloud.shares[1] && cloud.shares[1] < cloud.shares[2];
 }
 
-// Puts half of the underside's points before the left corner and half after the right one. Returns the number before.
+// Adds half of the underside before the left corner and half after the right one. Returns the number added before.
 std::size_t follow_underside(EdgeCloud& cloud, std::vector<EdgePoint>& underside) {
   const std::ptrdiff_t middle = static_cast<std::ptrdiff_t>(underside.size() / 2);
   cloud.points.insert(cloud.points.end(), underside.begin(), underside.begin() + middle + 1);

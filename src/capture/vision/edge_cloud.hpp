@@ -1,17 +1,17 @@
 #pragma once
 // Edge points along a region's boundary with sub-pixel accuracy (section 3.1 of the paper): each lies where the
-// brightness along the picture's Sobel gradient crosses the level. The pixels of a thresholded picture would locate it
-// to half a pixel only. The edge points of an outline are ordered from the base's left over the tip to the base's
-// right, each with its position along the path.
+// brightness along the picture's Sobel gradient crosses the level. Thresholding alone would locate edges to half a
+// pixel only. The edge points of an outline are ordered from the base's left over the tip to the base's right, each
+// with its position along the path.
 //
 // The outline is open at the base. Its two corners are the boundary's extreme points towards lower left and lower
 // right, relative to the axis of the object's lower part: the corners of a flat base, two points beside the lowest of a
-// round one, the two feet of a forked one. (The lowest pixel of a flame jumps; these do not.) The curve runs from
-// corner to corner or, where following the underside pays (a flame forked by its wick), along the underside until both
-// ends meet in its middle.
+// round base, the two feet of a forked one. (The lowest pixel of a flame jumps; these points do not.) The curve runs
+// from corner to corner or, where the underside is followed (a flame forked by its wick), along the underside until
+// both ends meet in its middle.
 //
 // The parameter s of an edge point is its share of the arc length, normalised separately between landmarks (base
-// corners and tip). Landmarks so have equal s in every frame, which minimises sliding along a growing flame.
+// corners and tip). So landmarks have equal s in every frame, which minimises sliding along a growing flame.
 
 #include <array>
 #include <span>
@@ -41,8 +41,8 @@ inline constexpr int kPaceSteps = 64;
 struct EdgeCloudOptions {
   BaseSide base = BaseSide::kBottom;
   bool underside = false;  ///< whether to follow the underside
-  int max_points = 320;    ///< maximum number of edge points; longer boundaries are subsampled evenly. Cost is
-                           ///< proportional
+  int max_points = 320;    ///< maximum number of edge points, to which cost is proportional; longer boundaries
+                           ///< are subsampled evenly
   /// Positions of the landmarks in the cloud: left corner, tip, right corner; ascending. The corners are at 0 and 1
   /// where the underside is not followed.
   std::array<double, 3> landmarks{0, 0.5, 1};
@@ -51,10 +51,10 @@ struct EdgeCloudOptions {
   std::vector<double> pace{0, 1};
 };
 
-/// The pace of a curve with uniform speed.
+/// Returns the pace of a curve with uniform speed.
 std::vector<double> even_pace();
 
-/// Curve parameter at a position of the cloud, 0 to 1.
+/// Returns the curve parameter at a position of the cloud, 0 to 1.
 double at_pace(std::span<const double> pace, double place);
 
 struct EdgeCloud {
@@ -67,8 +67,8 @@ struct EdgeCloud {
   double area = 0;               ///< enclosed by the edge points and a straight line at the base, square pixels
   std::vector<double> way;       ///< arc length up to each point, pixels
   std::size_t left_corner = 0;   ///< index of the point at the base's left corner
-  std::size_t right_corner = 0;  ///< … and at its right corner
-  double left_out = 0;           ///< area between that straight line and the underside; 0 if the underside is followed
+  std::size_t right_corner = 0;  ///< index of the point at the base's right corner
+  double left_out = 0;           ///< area between a straight base and the underside; 0 if the underside is followed
 };
 
 /// The part of a picture in which a boundary was followed.
@@ -96,19 +96,19 @@ void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options);
 struct CurveShape {
   std::vector<double> knots;  ///< full clamped knot vector
   std::vector<double> pace;   ///< curve parameter at equally spaced positions of a cloud (EdgeCloudOptions::pace)
-  double misfit = 0;          ///< area between outlines and curves, plus the area cut off at the base, divided by the
-                      ///< outlines' area: about 1 − intersection over union; an outline whose curve intersects
-                      ///< itself counts as missed entirely
+  /// Area between outlines and curves, plus the area cut off at the base, divided by the outlines' area: about 1 −
+  /// intersection over union. An outline whose curve intersects itself counts as missed entirely.
+  double misfit = 0;
   std::vector<double> misfits;  ///< misfit of each outline; `misfit` is their mean
 };
 
-/// The pace at which splines over these knots follow the outlines best, with its misfit.
+/// Returns the pace at which splines over these knots follow the outlines best, with its misfit.
 ///
 /// Precondition: valid_knots(knots); clouds is not empty and was made with an even pace.
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots);
 
-/// The best knots found for `points` control points. Uniform knots unless others have a misfit lower by 2 % (and by 0.2
-/// % of the area).
+/// Returns the best knots found for `points` control points: uniform ones unless others have a misfit lower by more
+/// than 0.002 (0.2 % of the area).
 ///
 /// Precondition: points >= 4; clouds is not empty and was made with an even pace.
 CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points);

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kMaxPoints = 96;              // maximum width and height of the grid, points
 constexpr std::size_t kBlock = 4;           // width and height of the blocks compared by their means, points
-constexpr int kDark = 24;                   // grey levels: above coding errors and camera noise
-constexpr double kMaxIsNew = 0.4;           // share of new light in one scene: cuts have 0.6 to 1, a snuffed candle 0.2
-constexpr double kMinTotalLight = 3 * 255;  // sum over all points: less is a spark
+constexpr int kDark = 24;                   // grey levels: light up to this may be coding errors or camera noise
+constexpr double kMaxIsNew = 0.4;           // maximum share of new light in a scene; cuts have 0.6 to 1, snuffing 0.2
+constexpr double kMinTotalLight = 3 * 255;  // minimum light, summed over all points: less is a spark
 
-// Correlation of two pictures' blocks; 1 where either is nearly uniform, as a dark room before a candle is lit.
+// Returns the correlation of two pictures' blocks; 1 if either is nearly uniform, as a room before a candle is lit.
 double likeness(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kMinSpread = 6;  // levels
   const double spread_a = deviation(a), spread_b = deviation(b);
@@ -30,7 +30,7 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 
 double step_between(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr int kMaxStep = 8;
-  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // maximum share left by a shift; above noise, levels
+  constexpr double kExplains = 0.7, kMinDifference = 0.5;  // of the difference after a shift: maximum; before: minimum
   const int size = static_cast<int>(a.size()), reach = std::min(kMaxStep, size / 2);
   std::vector<double> differs;
   for (int by = -reach; by <= reach; ++by) {
@@ -79,7 +79,7 @@ void FilmLook::look(const Picture& picture) {
   down_ = std::move(down);
 }
 
-// A cut shows as a pair of consecutive pictures with far less correlation than is usual in the film.
+// A cut lies between two consecutive pictures that correlate far less than is usual in the film.
 FilmFacts FilmLook::facts() const {
   constexpr double kMinCut = 0.5, kBeyondOthers = 3;
   FilmFacts out{.pictures = flat_.size()};

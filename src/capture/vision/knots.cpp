@@ -11,10 +11,10 @@ namespace wisp {
 namespace {
 
 constexpr int kBins = 128;
-constexpr double kMinGain = 0.002;  // share of the area by which placed knots must fit better, as less is invisible
+constexpr double kMinGain = 0.002;  // share of the area by which placed knots must fit better: less is invisible
 using Density = std::array<double, kBins>;
 
-// Mean change of the outlines' direction in each bin of s, normalised to a sum of 1.
+// Returns the outlines' mean change of direction in each bin of s, normalised to a sum of 1.
 Density bending(std::span<const EdgeCloud> clouds) {
   Density out{};
   for (const EdgeCloud& cloud : clouds) {
@@ -33,7 +33,7 @@ Density bending(std::span<const EdgeCloud> clouds) {
   return out;
 }
 
-// Knots that divide the density (bending^power, mixed with a uniform share) into equal amounts.
+// Returns knots that divide a density into equal amounts: bending^power, mixed with the share `even` of a uniform one.
 std::vector<double> spread(const Density& bend, int points, double even, double power) {
   Density density;
   double sum = 0;
@@ -56,7 +56,7 @@ std::vector<double> spread(const Density& bend, int points, double even, double 
 
 constexpr int kPaceRounds = 3;
 
-// Penalty for a curve that follows an outline by a loop at a sharp tip or at the base: in play with noise it would
+// Misfit of a curve that intersects itself, as in a loop at a sharp tip or at the base: played with noise, it would
 // intersect itself even more.
 constexpr double kFolded = 1;
 
@@ -69,7 +69,7 @@ double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   return area / cloud.area;
 }
 
-// Collects the parameters at which edge points ended on their curves, against those assigned, over the clouds.
+// Averages the curve parameters to which edge points were moved, as a function of their positions in the clouds.
 class PaceMeasure {
  public:
   void add(std::span<const double> even, std::span<const double> reached) {

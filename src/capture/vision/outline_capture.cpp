@@ -19,12 +19,12 @@ namespace {
 constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;    // per control point: more add no stability, as their errors correlate
+constexpr int kEdgePointsEach = 12;    // edge points per control point: more add no stability, as errors correlate
 constexpr std::size_t kSurveyed = 20;  // maximum number of held frames in the survey
-constexpr std::size_t kSamples = 6;    // … and of held frames from which the curve's shape is chosen
+constexpr std::size_t kSamples = 6;    // maximum number of held frames from which the curve's shape is chosen
 
-// Bounds within which the survey's object burns. Change of shape: flames reach 0.05 and more within a second, lit walls
-// and lamps 0.015 at most; filmed by hand, a round lamp 24 pixels wide reaches 0.05, as its rim shifts between pixels.
+// An object burns within these bounds; kMinRoundChange applies above kMaxWidth. Change of shape: flames reach 0.05 and
+// more in a second, lit walls and lamps 0.015 at most, but a round lamp 24 pixels wide, filmed by hand, reaches 0.05.
 constexpr double kMinChange = 0.02;
 constexpr double kMinRoundChange = 0.1;
 constexpr double kMinNarrowing = 0.25;
@@ -32,8 +32,8 @@ constexpr double kMinLight = 0.85;
 constexpr double kMinContrast = 20;
 constexpr double kMaxWidth = 0.8;
 
-// Following the underside takes control points from the sides and makes them move more. It must pay in all samples, as
-// the clip's first second may be calm where later the flame leaves one foot and then the other.
+// The underside is followed if the misfit of every sample falls below this share, as it takes control points from the
+// sides and makes them move more. Every sample counts: a flame that is calm at first may lift a foot later.
 constexpr double kWorthFollowing = 0.6;
 
 bool worth_following(const CurveShape& around, const CurveShape& above) {
@@ -41,21 +41,21 @@ bool worth_following(const CurveShape& around, const CurveShape& above) {
                     [](double with, double without) { return with < kWorthFollowing * without; });
 }
 
-// Whether the object is usually wider than a flame.
+// Returns whether the object is usually wider than a flame.
 bool is_round(const Survey& survey) {
   std::vector<double> widths;
   for (const Region& box : survey.seen) widths.push_back(static_cast<double>(box.width) / box.height);
   return median(std::move(widths)) > kMaxWidth;
 }
 
-// Whether the object burns; if not, the capture waits for a flame to be lit. Objects that stand still, are lit by
-// something else, or hardly exceed their surroundings (noise of a dark room) would be refused by the verdict.
+// Returns whether the object burns; if not, the capture waits for a flame to be lit. The verdict would refuse objects
+// that stand still, are lit by something else or exceed their surroundings too little (noise of a dark room).
 bool burns(const Survey& survey) {
   return survey.change >= (is_round(survey) ? kMinRoundChange : kMinChange) && survey.taper >= kMinNarrowing &&
          survey.light >= kMinLight && survey.contrast >= kMinContrast;
 }
 
-// At most `count` of the pictures, equally spaced.
+// Returns at most `count` of the pictures, equally spaced.
 std::vector<Picture> evenly_from(std::span<const Picture> pictures, std::size_t count) {
   std::vector<Picture> out;
   const std::size_t stride = (pictures.size() + count - 1) / count;
@@ -100,12 +100,12 @@ class OutlineCapture::Stage {
   std::vector<std::optional<OwnedPicture>> held_;  // empty: a lost frame
   std::size_t held_bytes_ = 0;
   bool burns_ = true;    // the survey's object looks lit and moves
-  bool waited_ = false;  // whether it waited for a flame absent at first
+  bool waited_ = false;  // whether the capture waited for a flame absent at first
   struct Waited {
     Region place;
     std::size_t rows = 0;
   };
-  std::vector<Waited> stood_still_;  // still objects seen while it waited
+  std::vector<Waited> stood_still_;  // motionless objects seen while the capture waited
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<CandleLook> candle_;
@@ -168,8 +168,8 @@ void OutlineCapture::Stage::note(const FrameFinding& finding) {
   findings_.controls.resize(2 * static_cast<std::size_t>(options_.points) * findings_.size());
 }
 
-// Discards half of the held frames, as they contain no flame yet. From then on glimpses, in which none was found
-// either, are no longer surveyed, but still sampled for the shape of the flame that is lit later.
+// Notes the first half of the held frames as empty, as they contain no flame yet. Later surveys leave out the glimpses,
+// as no flame was found in them either; the curve's shape is still sampled from them.
 void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
   if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
@@ -193,7 +193,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   }
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
   const bool flame = options_.flame > 0 && !options_.dark;
-  // A flame lit halfway through the held frames appears in too few of them, so the next ones are awaited.
+  // A flame lit halfway through the held frames appears in too few of them, so more frames are awaited.
   const bool throughout = survey && (!waited_ || 3 * survey->seen.size() >= 2 * seen.size());
   burns_ = !flame || (throughout && burns(*survey));
   if (!burns_ && !at_end) {
@@ -222,7 +222,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   return {};
 }
 
-// Error that no flame was found, with the film's property that explains it.
+// Returns the error that no flame was found, with the film's property that explains it.
 Error OutlineCapture::Stage::no_flame(const std::string& why) const {
   if (options_.flame == 0 || options_.dark) return complaint(why);
   return complaint(film_reason(film_.facts()).value_or("there is no flame in the film: " + why));
@@ -236,7 +236,7 @@ std::string OutlineCapture::Stage::too_few(const Survey& survey) const {
          "; ask for a smaller number, or give the frames in which there are more";
 }
 
-// Edge points of a few pictures and glimpses, without and with the underside.
+// Returns the edge points of a few pictures and glimpses, without and with the underside.
 OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(std::span<const Picture> pictures) const {
   EdgeCloudOptions above = cloud_options_, around = cloud_options_;
   around.underside = true;
@@ -301,7 +301,7 @@ void OutlineCapture::Stage::look(const Picture& picture) {
   note(finding);
 }
 
-// Converts a level of the survey to brightness.
+// Converts a level of the survey's channel (inverted if the object is dark) to brightness.
 double OutlineCapture::Stage::bright(int stored) const {
   return brightness(*format_, survey_->channel, options_.dark ? 255 - stored : stored);
 }

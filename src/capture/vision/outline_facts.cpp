@@ -12,7 +12,7 @@ namespace wisp {
 namespace {
 
 constexpr double kJumpRatio = 2.2;   // a height that changes by this factor between frames belongs to another object
-constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; gaps in films last 0.13 at most
+constexpr double kOutSeconds = 0.3;  // minimum final absence of an extinguished flame; other gaps last 0.13 s at most
 
 struct OutlineRow {
   std::size_t row = 0;
@@ -37,7 +37,7 @@ OutlineRow shape_of(const Recording& recording, const SplineTable& table, std::s
   return shape;
 }
 
-// Width of a shape across its axis, at a share of its height above the base.
+// Returns the width of a shape across its axis, at `share` of its height above the base.
 double width_at(const OutlineRow& shape, double share) {
   const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
   double low = 1e30, high = -1e30;
@@ -54,7 +54,7 @@ double width_at(const OutlineRow& shape, double share) {
   return std::max(0.0, high - low);
 }
 
-// Maximum width of a shape across its axis, in heights.
+// Returns the maximum width of a shape across its axis, in heights of the shape.
 double full_width(const OutlineRow& shape) {
   double low = 1e30, high = -1e30;
   for (const CurvePoint& p : shape.curve) {
@@ -65,7 +65,7 @@ double full_width(const OutlineRow& shape) {
   return high - low;
 }
 
-// Lean in degrees: 0 with the tip above the base, 90 beside it, 180 below it.
+// Returns the lean in degrees: 0 with the tip above the base, 90 beside the base, 180 below it.
 double lean_of(const OutlineRow& shape) {
   return std::atan2(std::abs(shape.tip.x - shape.base.x), shape.base.y - shape.tip.y) * 180 / std::numbers::pi;
 }
@@ -75,7 +75,7 @@ double taper_of(const OutlineRow& shape) {
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
 }
 
-// Motion of a curve's points relative to its base, in pixels squared: total, and the random part from frame to frame.
+// Variance of a curve's points relative to its base, square pixels: total, and its random part from frame to frame.
 struct Motion {
   std::array<double, kCurvePoints> variance{};
   std::array<double, kCurvePoints> noise{};
@@ -93,7 +93,7 @@ Motion motion_of(const std::vector<OutlineRow>& shapes) {
       double squares = 0;
       for (std::size_t i = 1; i + 1 < values.size(); ++i) {
         const double bend = values[i - 1] - 2 * values[i] + values[i + 1];
-        squares += bend * bend / 6;  // of independent noise: its variance
+        squares += bend * bend / 6;  // expected value for independent noise: its variance
       }
       out.noise[k] += squares / static_cast<double>(std::max<std::size_t>(shapes.size(), 3) - 2);
     }
@@ -126,8 +126,8 @@ double jumps_of(const std::vector<OutlineRow>& shapes, double height) {
   return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
 }
 
-// Share of rows in which the curve touches each border, except the border with both of its ends: there the picture cuts
-// off the object's support, such as a flag's mast.
+// Returns the share of rows in which the curve touches each border, except a border at which both ends of the curve
+// lie: there the picture cuts off the object's support, such as a flag's mast.
 std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width, int height) {
   constexpr double kNear = 1.5;  // pixels
   std::array<double, 4> out{};
@@ -147,7 +147,7 @@ std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width
 
 bool repeats(const DroppedFrame& one) { return one.reason == "duplicate"; }
 
-// Row after the last outline; empty if the absence is short, or the film fades out or ends in a repeated frame.
+// Returns the row after the last outline; none if the absence is short, a fade-out, or ends in a repeated frame.
 std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
   const std::size_t dark = report.frames - 1 - last;
   if (!report.dropped.empty() && repeats(report.dropped.back())) return std::nullopt;

@@ -11,23 +11,23 @@
 namespace wisp {
 namespace {
 
-constexpr double kFadeShare = 0.73;  // share of its usual brightness below which an object is fading
+constexpr double kFadeShare = 0.73;  // share of an object's usual brightness below which it is fading
 // Brightness in the last 0.1 s before an absence, relative to usual: below 0.89 where the film fades out over 1 to 2 s,
 // 0.94 to 0.98 where a flame is snuffed.
 constexpr double kDimShare = 0.92;
 constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare = 0.35;  // change relative to neighbours below which a frame is a duplicate
-constexpr double kDuplicateMost = 0.5;    // … and at most this many grey levels, as new frames have new noise
-constexpr std::size_t kNeighbours = 4;    // on each side, and the fewest frames in which a film stands still
-constexpr double kFrozenMost = 0.1;       // grey levels of change in such a stretch, at most …
-constexpr double kFrozenUsual = 0.02;     // … and at the median: coding corrects a repeated picture once or twice
+constexpr double kDuplicateMost = 0.5;    // grey levels of change above which a frame is new: it has new noise
+constexpr std::size_t kNeighbours = 4;    // frames compared on each side; minimum length of a frozen stretch
+constexpr double kFrozenMost = 0.1;       // maximum change of a frame in a frozen stretch, grey levels
+constexpr double kFrozenUsual = 0.02;     // maximum median change in a stretch: coding corrects repeats once or twice
 constexpr double kGlintSeconds = 0.2;     // maximum duration of a glint
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
 
-// Detects frames repeated by a screen or a converter by their change relative to that of the frames around. Near its
-// turning points an object really stands still, but there its neighbours are slow too.
+// Detects frames repeated by a screen or a converter: they change much less than the frames around. Near the turning
+// points of an object's motion, where it really stands still, the frames around change little too.
 bool duplicate(const FrameFindings& findings, std::size_t row) {
   const float change = findings.frames[row].change;
   if (row == 0 || change >= kDuplicateMost) return false;
@@ -55,15 +55,15 @@ double usual_brightness_of(const FrameFindings& findings) {
   return median(std::move(brightness));
 }
 
-// Number of rows that show each frame of a slower film or of slow motion, at most eight, and the first row of such a
-// group. The picture changes most at a group's first row; within a group only noise changes.
+// Number of consecutive rows that show each frame of a slower film or of slow motion, at most eight, and the first such
+// group's first row. The picture changes most at a group's first row; within a group only noise changes.
 struct Stands {
   std::size_t times = 1;
   std::size_t first = 0;
 };
 
 Stands find_stands(const FrameFindings& findings) {
-  // By chance, the first row changes most in one group of `times`; kErrors standard errors more are no chance.
+  // By chance, the first row changes most in 1 / `times` of the groups; kErrors standard errors more are significant.
   constexpr double kMinGroups = 20, kOfGroups = 0.6, kErrors = 4;
   for (Stands found{.times = 8}; found.times > 1; --found.times) {
     for (found.first = 0; found.first < found.times; ++found.first) {
@@ -93,8 +93,8 @@ std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness, 
   return fate;
 }
 
-// Marks stretches in which the film stands still: there the neighbours of a repeated frame are repeated too. Returns
-// their number of rows.
+// Marks frozen stretches as duplicates, which duplicate() misses, as the frames around are repeated too. Returns the
+// stretches' number of rows.
 std::size_t mark_frozen(const FrameFindings& findings, std::vector<Fate>& fate) {
   std::size_t rows = 0;
   std::vector<float> changes;
@@ -145,7 +145,7 @@ void extend_fades(std::vector<Fate>& fate) {
 }
 
 // Maximum number of consecutive frames to fill: a screen shows a picture up to four times, slow motion `times` times.
-// Of lost frames only one is filled, as the motion during more is unknown.
+// A gap of more than one lost frame is not filled, as the motion in it is unknown.
 std::size_t max_filled(Fate fate, const Stands& stands) {
   if (fate == Fate::kDuplicate) return std::max<std::size_t>(3, stands.times - 1);
   return fate == Fate::kLost ? 1 : 0;
@@ -206,7 +206,7 @@ void find_other_scenes(const std::vector<Fate>& fate, const FrameFindings& findi
   facts.other_after = other(last, fate.end());
 }
 
-// Whether the object was dim for long enough before it disappeared, as in a fade. A flame goes out abruptly.
+// Returns whether the object was dim for kDimSeconds before it disappeared, as in a fade. A flame goes out abruptly.
 bool fades_out(const std::vector<Fate>& fate, const FrameFindings& findings, double usual_brightness, double rate_hz) {
   std::size_t end = static_cast<std::size_t>(std::find_if(fate.rbegin(), fate.rend(), present).base() - fate.begin());
   while (end < fate.size() && findings.frames[end].kind == FrameFinding::Kind::kTracked) ++end;
@@ -236,7 +236,7 @@ void write_channels(const std::vector<Fate>& fate, const std::vector<double>& co
   }
 }
 
-// Writes episodes. Missing rows belong to the episode before them; the next outline starts a new one.
+// Writes episodes and flags. Missing rows belong to the episode before them; the next outline starts a new one.
 void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
   RowFlag filled{"filled", {}}, lost{std::string(kLostRows), {}};
   std::int64_t episode = 0;

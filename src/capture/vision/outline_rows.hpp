@@ -1,7 +1,7 @@
 #pragma once
-// Findings of each frame, their assembly to the rows of a recording, and the verdict whether its outline is usable and
-// why. The verdict is made by two logistic models of the facts (flame or not; outline right or not), monotone in every
-// fact, fitted by tools/fit_verdict.py to films and scenes with human labels.
+// Findings of each frame, their assembly to the rows of a recording, and the verdict whether the outline is usable,
+// with the reason. The verdict is made by two logistic models of the facts (flame or not; outline right or not),
+// monotone in every fact, fitted by tools/fit_verdict.py to films and scenes with human labels.
 
 #include <cstdint>
 #include <vector>
@@ -17,10 +17,10 @@ inline constexpr int kCurvePoints = 64;
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;
-  float change = 0;        ///< mean absolute difference from the last frame, near the object
+  float change = 0;        ///< mean absolute difference from the frame before, near the object
   float brightness = 0;    ///< brightness of the object
   float residual = 0;      ///< RMS distance of the edge points from the curve, pixels
-  bool elsewhere = false;  ///< kNothing: whether another bright object is in the picture
+  bool elsewhere = false;  ///< for kNothing: whether another bright object is in the picture
 };
 
 /// Findings and control points of all frames so far.
@@ -31,8 +31,8 @@ struct FrameFindings {
   std::size_t size() const { return frames.size(); }
 };
 
-/// With all frames known, identifies duplicates and fades, fills short gaps, cuts episodes, and writes the recording's
-/// channels, flag and episodes and the report's counts.
+/// Identifies duplicates and fades among all frames, fills short gaps, cuts episodes, and writes the recording's
+/// channels, flags and episodes and the report's counts.
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report);
 
 /// Computes the report's facts and `out_at` from the recording's outlines; facts of still pictures (light, contrast,
@@ -41,9 +41,9 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.
 bool gather_facts(const Recording& recording, const SplineTable& table, CaptureReport& report);
 
-/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason why an outline is unusable
-/// is film_reason(), if any; else the fact with the largest penalty that alone prevents the verdict "flame" or, for a
-/// likely flame, "usable".
+/// Computes `likely_flame`, `likely_right`, `usable` and `reason` from the facts. The reason of an unusable outline is
+/// film_reason(), if any; else the fact with the largest penalty, if possible one without which the verdict would be
+/// "flame" or, for a likely flame, "usable".
 void judge_outline(CaptureReport& report);
 
 }  // namespace wisp

@@ -10,19 +10,19 @@ namespace wisp {
 namespace {
 
 constexpr int kMinMargin = 8;          // pixels searched around the object's last place
-constexpr double kMarginPace = 1.5;    // … plus this multiple of its recent motion
-constexpr double kPaceMemory = 0.8;    // decay of that motion per frame
-constexpr double kMinAreaShare = 0.1;  // minimum share of its usual area: less is a spark or an ember
+constexpr double kMarginPace = 1.5;    // multiple of the object's recent motion that is added to kMinMargin
+constexpr double kPaceMemory = 0.8;    // factor by which the stored recent motion decays per frame
+constexpr double kMinAreaShare = 0.1;  // minimum share of the object's usual area: less is a spark or an ember
 constexpr int kMinArea = 24;           // minimum pixels of a region
 
 constexpr double kJumpShare = 0.03;  // an extension at the base by this share of the length suggests a stand
-constexpr double kSlack = 0.12;      // share of the length above the object's former base at which its stand may begin
+constexpr double kSlack = 0.12;      // share of the length: a stand may begin this far above the object's last base
 constexpr double kFarDeeper = 0.25;  // share of the length: an extension this far below the base is always stand
 
-constexpr double kAsLarge = 4;  // maximum ratio of areas of a rediscovered object
+constexpr double kAsLarge = 4;  // maximum ratio between the areas of an object before and after an absence
 constexpr double kStays = 0.2;  // minimum overlap with the last frame's box, as a share of the smaller box
 
-// Midpoint of a box's end towards the base.
+// Returns the midpoint of a box's end towards the base.
 PixelPosition foot(const Region& box, BaseSide side) {
   const int edge = base_edge(box, side);
   if (side == BaseSide::kBottom || side == BaseSide::kTop) return {box.x + box.width / 2, edge};
@@ -58,7 +58,7 @@ OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& 
   return {place, {plane_.data(), place.width, place.height, place.width}};
 }
 
-// Whether the region is nearer to this flame's place than to another's. Camera motion shifts all alike.
+// Returns whether a region is nearer to this flame's place than to another's. Camera motion shifts all places alike.
 bool OutlineSeeker::ours(const Region& box) const {
   const PixelPosition home = foot(usual_, base_), now = following_ ? foot(found_.box, base_) : home,
                       at = foot(box, base_);
@@ -68,15 +68,15 @@ bool OutlineSeeker::ours(const Region& box) const {
   });
 }
 
-// Whether brightness and area match the object, which excludes smoke and snuffers.
+// Returns whether the region found has about the object's brightness and area, unlike smoke and snuffers.
 bool OutlineSeeker::alike() const {
   const double area = static_cast<double>(found_.area);
   const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;
   return bright && area < kAsLarge * usual_area_ && area > usual_area_ / kAsLarge;
 }
 
-// Whether the region may be the object: after a seen frame it must overlap its last box, after an absence it must be
-// near its last place.
+// Returns whether the region found may be the object: it must overlap the box of the frame before or, after an absence,
+// be alike() and near the object's last or usual place.
 bool OutlineSeeker::plausible(const Region& before) const {
   const Region& box = found_.box;
   if (following_) return intersection(box, before).area() > kStays * std::min(box.area(), before.area());
@@ -85,10 +85,10 @@ bool OutlineSeeker::plausible(const Region& before) const {
   return std::min(distance(at, last_foot_), distance(at, foot(usual_, base_))) <= kAsNear * length && alike();
 }
 
-// Chooses the region that best matches the last one, by overlap of boxes times area.
+// Chooses the region that best matches the last one, by area times overlap of boxes. Returns whether there is one.
 bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& place) {
   const Region expected = following_ ? found_.box : home_;
-  BrightRegion chosen = found_;  // ours() compares with the last one, which is kept until the end
+  BrightRegion chosen = found_;  // ours() compares with found_, so this is set only at the end
   double best = 0;
   for (const BrightRegion& region : regions) {
     if (static_cast<double>(region.area) < kMinAreaShare * usual_area_) continue;
@@ -109,7 +109,7 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
   return best > 0;
 }
 
-// Searches inside `place`, extended on sides where the object reaches beyond it.
+// Searches inside `place`, which is extended on sides where the object reaches its border.
 bool OutlineSeeker::find_in(const Picture& picture, Region place) {
   int farther = margin();
   while (true) {
@@ -168,7 +168,7 @@ bool OutlineSeeker::part_from_stand() {
   return true;
 }
 
-// Mean difference from the frame before, over the overlap of the object's old and new neighbourhood, in even rows.
+// Computes the mean difference from the frame before, in even rows where the object's old and new surroundings overlap.
 void OutlineSeeker::measure_change() {
   const Region place = intersection(grown(found_.box, kMinMargin), window_.place);
   const Region both = intersection(place, before_place_);
@@ -208,8 +208,8 @@ void OutlineSeeker::measure_brightness(const Picture& picture) {
   brightness_ = wisp::brightness(picture, channel_, mean);
 }
 
-// Margin for the object's motion between frames. If it moves farther, it touches the window's border and a larger
-// window is searched.
+// Returns the margin for the object's motion between frames. An object that moves farther touches the window's border,
+// and find_in() searches a larger window.
 int OutlineSeeker::margin() const { return kMinMargin + static_cast<int>(kMarginPace * pace_); }
 
 bool OutlineSeeker::seek(const Picture& picture) {

@@ -1,5 +1,5 @@
 #pragma once
-// Locates the object in each frame near its last place, and provides its edge points.
+// Locates the object in each frame near the object's last place, and computes its edge points.
 
 #include <cstdint>
 #include <vector>
@@ -19,10 +19,10 @@ class OutlineSeeker {
   /// Searches the next frame. Returns whether the object was found.
   bool seek(const Picture& picture);
 
-  /// Edge points of the object as last found, while that picture exists. Returns whether there are enough.
+  /// Computes the edge points of the object found last, whose picture must still exist. Returns whether they suffice.
   bool edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const;
 
-  /// Mean absolute difference between this frame and the one before, in the object's neighbourhood.
+  /// Mean absolute difference of the last two frames with the object, near the object; 255 if the object moved away.
   double change() const { return change_; }
   /// Mean brightness of the object's pixels, 0 to 255.
   double brightness() const { return brightness_; }
@@ -45,7 +45,7 @@ class OutlineSeeker {
   bool plausible(const Region& before) const;
   bool choose(std::span<const BrightRegion> regions, const Region& place);
   int margin() const;
-  /// Row y of the picture in the window, such that column x of the picture is element x.
+  /// Returns a pointer to row y of the picture, of which element x is column x; both must lie in the window.
   const std::uint8_t* window_row(int y) const { return window_.image.row(y - window_.place.y) - window_.place.x; }
   void measure_change();
   void measure_brightness(const Picture& picture);
@@ -58,12 +58,12 @@ class OutlineSeeker {
   Region home_;
   std::vector<Region> others_;  // usual places of the other flames in the survey
   Region usual_;                // usual place of the object in the survey
-  bool stands_;                 // whether it has mostly merged with its stand
+  bool stands_;                 // whether the object had merged with its stand in the survey
   bool following_ = false;
   double usual_area_;
-  int base_edge_;  // base coordinate when the object last stood alone
+  int base_edge_;  // coordinate of the base when the object was last separate from a stand
   BrightRegion found_;
-  PixelPosition last_foot_;  // midpoint of its end towards the base, when last seen
+  PixelPosition last_foot_;  // midpoint of the object's end towards the base, when last seen
   int pace_ = 0;             // recent motion of the box's sides, pixels a frame
   Window window_;
   std::vector<std::uint8_t> plane_;

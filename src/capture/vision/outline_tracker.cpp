@@ -47,7 +47,7 @@ void cholesky_solve(std::span<const double> factor, int n, std::span<double> b) 
 // Writes the inverse of L Lᵀ to `inverse` (n × n).
 void cholesky_inverse(std::span<const double> factor, int n, std::span<double> inverse) {
   for (int column = 0; column < n; ++column) {
-    // Row `column` serves as the right-hand side: the inverse is symmetric.
+    // Solves for the column in row `column`, as the inverse is symmetric.
     const std::span<double> row = inverse.subspan(static_cast<std::size_t>(column) * n, n);
     std::fill(row.begin(), row.end(), 0.0);
     row[column] = 1;
@@ -74,7 +74,7 @@ OutlineTracker::OutlineTracker(std::span<const double> knots, const TrackerOptio
   vector_.assign(n, 0.0);
 }
 
-// Prior: mean of the previous posterior, shifted with the base; its covariance is widened.
+// Computes the prior: the previous posterior, with the mean shifted by the base's motion and the covariance widened.
 void OutlineTracker::predict(const EdgeCloud& cloud) {
   const int n = static_cast<int>(vector_.size());
   if (!has_past_) {
@@ -122,7 +122,7 @@ void OutlineTracker::widen(double height) {
   }
 }
 
-// Adds the gathered measurements n · curve(s) = value, of one s; they involve four control points.
+// Adds measurements n · curve(s) = value that were gathered at one s, and so involve four control points.
 void OutlineTracker::add(const BasisWeights& weights, const Gathered& gathered) {
   SpanSums& sums = sums_[static_cast<std::size_t>(weights.first)];
   const auto& [w0, w1, w2, w3] = weights.weight;
@@ -159,7 +159,7 @@ void OutlineTracker::spread_sums() {
   }
 }
 
-// The normal is the edge point's gradient in the first pass of a frame, and that of the curve afterwards.
+// Adds all edge points to the prior. Normals are the edge points' gradients in a frame's first pass, the curve's later.
 void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   information_ = prior_information_;
   vector_ = prior_vector_;
@@ -186,7 +186,7 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   spread_sums();
 }
 
-// The curve's ends are points: both directions are measured, with four times the precision of an edge point.
+// Adds the curve's two ends as points, measured in both directions with four times the precision of an edge point.
 void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
   const double precision = normal_precision_ * 4;
   for (const bool last : {false, true}) {
@@ -207,8 +207,8 @@ void OutlineTracker::solve() {
   cholesky_solve(factor_, n, estimate_.mean);
 }
 
-// One Newton step per pass towards the nearest point of the curve. The result stays near the edge point's position in
-// the cloud, as points would otherwise gather where the curve happens to pass close by.
+// Moves each edge point's parameter by a Newton step towards the nearest point of the curve, within `slip` of its
+// position in the cloud, as points would otherwise gather where the curve happens to pass close by.
 void OutlineTracker::project(const EdgeCloud& cloud) {
   table_.pieces(estimate_.mean, pieces_);
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
@@ -270,7 +270,7 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
   }
 }
 
-// Excludes edge points much farther from the curve than their median. Returns whether any were excluded.
+// Excludes edge points much farther from the curve than their median distance. Returns whether any were excluded.
 bool OutlineTracker::gate(const EdgeCloud& cloud) {
   const std::size_t count = cloud.points.size();
   std::vector<double>& sorted = vector_;  // reuses vector_, which is rebuilt by the next measure()

@@ -22,12 +22,12 @@ namespace wisp {
 
 /// Noise model. Lengths are shares of the outline's height, so that tracking does not depend on image scale.
 struct TrackerOptions {
-  double normal_sd = 0.002;         ///< of an edge point along the normal, 0.0005 to 0.02; at least a quarter pixel
-  double tangent_sd = 0.02;         ///< of an edge point along the curve, 0.005 to 0.5: 10 times normal_sd
+  double normal_sd = 0.002;         ///< sd of an edge point along the normal, 0.0005 to 0.02; at least ¼ pixel
+  double tangent_sd = 0.02;         ///< sd of an edge point along the curve, 0.005 to 0.5: 10 times normal_sd
   double normal_widening = 0.1;     ///< sd added per frame across the curve, 0.01 to 1: a flame may move by its width
   double tangent_widening = 0.005;  ///< sd added per frame along the curve, 0.001 to 1
   double hold = 0.05;  ///< initial weight of an edge point's position along the curve, relative to the normal, 0 to 1
-  double gate = 6;     ///< outlier threshold in typical residuals, 3 to 20
+  double gate = 6;     ///< outlier threshold in median residuals, 3 to 20
   double slip = 0.1;   ///< maximum shift in s of an edge point along the curve, 0 to 0.2
   int passes = 16;     ///< maximum number of projections of edge points onto the curve, ≥ 1
 };
@@ -79,7 +79,7 @@ class OutlineTracker {
       y += py * value;
     }
   };
-  /// Sums for a span's four control points: their 10 pairs, and each by itself.
+  /// Sums for a span's four control points: for each of their 10 pairs, and for each point.
   struct SpanSums {
     std::array<double, 10> xx{}, xy{}, yy{};
     std::array<double, 4> x{}, y{};
@@ -113,11 +113,11 @@ class OutlineTracker {
   std::vector<double> vector_;
   std::vector<double> factor_;
   std::vector<SpanSums> sums_;               // indexed by a span's first control point
-  std::vector<BasisWeights> cloud_weights_;  // at the edge points' assigned positions
+  std::vector<BasisWeights> cloud_weights_;  // basis weights at the positions assigned to the edge points
   CurvePieces pieces_;                       // polynomials of the mean curve
   std::vector<double> places_;
   std::vector<CurvePoint> slopes_;  // derivative of the curve at places_
-  std::vector<std::uint8_t> out_;   // whether each point is gated out
+  std::vector<std::uint8_t> out_;   // whether each edge point is excluded as an outlier
   std::vector<double> residuals_;
 };
 

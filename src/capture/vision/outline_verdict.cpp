@@ -14,8 +14,8 @@ using R = const CaptureReport&;
 
 enum class Of : std::uint8_t { kMotion, kFlame, kFilm };
 
-// A fact, what it is about (kFlame: used for flames only, the others for any object), and the sentence where it is the
-// reason. {} and {%} stand for its value.
+// A fact, its subject (kFlame: used for flames only, the others for any object), and the verdict's sentence if the
+// fact is the reason. {} and {%} stand for the fact's value.
 struct FactRow {
   const char* name;
   Of of;
@@ -32,7 +32,7 @@ constexpr const char* kGlare =
     "the exposure";
 constexpr const char* kFrozen =
     "the film stands still, {%} of its frames repeat the one before; give a part in which it moves throughout";
-constexpr double kIrregular = 0.15;    // share of lost frames above which they are the cause of other faults
+constexpr double kIrregular = 0.15;    // share of lost frames above which these cause the other faults
 constexpr double kClippedShape = 0.5;  // share of clipped area above which a shape counts as overexposed
 
 constexpr std::array<FactRow, 19> kFacts{{
@@ -64,7 +64,7 @@ constexpr std::array<FactRow, 19> kFacts{{
 static_assert(kVerdictCurves.size() == kFacts.size());
 constexpr std::size_t kLost = 11, kRepeated = 12;
 
-// Share of rows that have a frame but no outline, among rows in which the flame burns.
+// Returns the share of rows that have a frame but no outline, among rows in which the flame burns.
 double missing_share(R r) {
   const double lost = r.facts.lost * static_cast<double>(r.frames);
   const double absent = static_cast<double>(r.facts.absent - r.facts.blown) - lost;
@@ -76,7 +76,7 @@ double still_share(R r) {
          static_cast<double>(std::max<std::size_t>(r.facts.seen_from + r.facts.rows, 1));
 }
 
-// Values in the order of kFacts.
+// Returns the facts' values in the order of kFacts.
 std::array<double, kFacts.size()> values_of(R r) {
   const OutlineFacts& f = r.facts;
   const double height = std::max(f.height, 1e-9);
@@ -91,7 +91,7 @@ std::array<double, kFacts.size()> values_of(R r) {
           f.light,
           f.contrast,
           f.width,
-          (r.residual - 0.3) * r.points / height,  // beyond 0.3 pixels; few control points follow a flame less closely
+          (r.residual - 0.3) * r.points / height,  // few control points follow a flame less closely
           f.lean,
           f.lost,
           f.repeated,
@@ -132,7 +132,7 @@ std::string sentence_of(std::size_t fact, R r) {
   return out;
 }
 
-// Penalty of a fact on the log odds: linear between the knots, constant beyond them.
+// Returns the penalty of a fact on the log odds: linear between the knots, constant beyond them.
 double against(const std::array<double, kVerdictKnots>& knots, const std::array<double, kVerdictKnots>& penalties,
                double value) {
   if (!(value > knots.front())) return penalties.front();
@@ -143,8 +143,8 @@ double against(const std::array<double, kVerdictKnots>& knots, const std::array<
   return penalties.back();
 }
 
-// Sentence of the heaviest fact without which the verdict would be yes; if there is none, of the heaviest. If that is
-// the shape of an object that burns, no flame is denied: an overexposed flame has any shape.
+// Returns the sentence of the heaviest fact without which the verdict would be positive, else of the heaviest fact.
+// With against_flame it denies a flame, unless the fact is a burning object's shape: overexposed flames have any shape.
 std::string reason_of(const std::vector<WeighedFact>& facts, double WeighedFact::*weight, double odds, R r) {
   const auto heavier = [&](const WeighedFact& a, const WeighedFact& b) {
     return std::pair(odds + a.*weight > 0, a.*weight) < std::pair(odds + b.*weight > 0, b.*weight);
@@ -170,7 +170,7 @@ std::string verdict_sentence(CaptureReport& report) {
   if (report.usable) {
     return "an outline was found in " + percent(1 - missing_share(report)) + " of the frames and moves steadily";
   }
-  // Not where frames are repeated or lost: jumps between frames then look like a moving camera.
+  // Repeated or lost frames preclude film_reason(): the jumps between frames would look like a moving camera.
   const bool frames = report.facts.lost > kIrregular || report.facts.stands > 1;
   const auto film = frames || report.flames == 0 ? std::nullopt : film_reason(report.facts.film);
   if (film) return *film;

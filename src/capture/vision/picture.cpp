@@ -25,7 +25,7 @@ std::int16_t fixed(double value) {
   return static_cast<std::int16_t>(value * Conversion::kOne + (value < 0 ? -0.5 : 0.5));
 }
 
-// Kr and Kb of ITU-R BT.601 and BT.709, section 3; Kg = 1 − Kr − Kb.
+// Uses Kr and Kb of ITU-R BT.601 and BT.709, section 3; Kg = 1 − Kr − Kb.
 Conversion conversion(const Picture& picture, PixelChannel channel) {
   const double kr = picture.bt709 ? 0.2126 : 0.299, kb = picture.bt709 ? 0.0722 : 0.114, kg = 1 - kr - kb;
   const double luma = picture.full_range ? 1.0 : 255.0 / 219.0;
@@ -78,7 +78,7 @@ void luma_row_of_rgb(const Picture& picture, int x, int y, int width, std::uint8
   }
 }
 
-// Contribution of the colour planes to each pixel of a row, in 64ths of a grey level.
+// Writes the contribution of the colour planes to each pixel of a row, in 64ths of a grey level.
 void colour_row(const Picture& picture, const Conversion& to, const Region& region, int y, std::int16_t* out) {
   const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
   const int first = region.x >> shift, last = (region.right() - 1) >> shift;
@@ -94,7 +94,7 @@ void colour_row(const Picture& picture, const Conversion& to, const Region& regi
   }
 }
 
-// colour_row() where two pixels share a colour and the row begins with a pair, as in nearly every video.
+// Does the work of colour_row() for planes at half width, from an even pixel on: the usual case in videos.
 void colour_row_in_pairs(const Conversion to, const std::uint8_t* cb, const std::uint8_t* cr, int pairs,
                          std::int16_t* out) {
   for (int c = 0; c < pairs; ++c) {
@@ -105,7 +105,7 @@ void colour_row_in_pairs(const Conversion to, const std::uint8_t* cb, const std:
   }
 }
 
-// Both parts are halved before the addition: |scale × 255| / 2 is below 9,600 and |colour| / 2 below 8,700, so all sums
+// Adds luma and colour, both halved before: |scale × 255| / 2 is below 9,600 and |colour| / 2 below 8,700, so all sums
 // fit 16 bits and the loop processes eight pixels at a time on any processor.
 void add_luma(const Conversion to, const std::uint8_t* luma, const std::int16_t* colour, int width, std::uint8_t* out) {
   for (int i = 0; i < width; ++i) {
@@ -185,7 +185,7 @@ constexpr int kRowsAhead = 6;  // rows between prefetching and use
 #endif
 }
 
-// A window's rows are far apart in memory, which hardware prefetchers do not predict.
+// Prefetches a row of a region: its rows are far apart in memory, which hardware prefetchers do not predict.
 [[gnu::always_inline]] inline void prefetch(const Picture& picture, PixelChannel channel, const Region& region, int y) {
   prefetch_row(picture.planes[0], region.x, y, region.width);
   if (picture.layout != PictureLayout::kYuv || channel == PixelChannel::kLuma) return;

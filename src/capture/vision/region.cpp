@@ -31,8 +31,8 @@ int end_of_stretch(const std::uint8_t* bright, int x, int width, std::uint8_t sa
 }
 
 constexpr double kWiderBelow = 1.6;   // minimum ratio of a shoulder's width to the width above it
-constexpr double kWithin = 0.05;      // share of the length above within which it widens
-constexpr double kSlenderness = 0.7;  // minimum length / width of the part above, since a blunt tip widens too
+constexpr double kWithin = 0.05;      // share of the length above a shoulder within which the region widens
+constexpr double kSlenderness = 0.7;  // minimum length / width of the part above: a blunt tip widens too
 
 bool along_rows(BaseSide side) { return side == BaseSide::kBottom || side == BaseSide::kTop; }
 
@@ -53,7 +53,7 @@ int RegionFinder::join(int a, int b) {
   b = root(b);
   if (a == b) return a;
   if (b < a) std::swap(a, b);
-  parent_[b] = a;  // the older region is the root: its seed is higher
+  parent_[b] = a;  // keeps the older region, whose seed is higher
   regions_[a].box = enclosing(regions_[a].box, regions_[b].box);
   regions_[a].area += regions_[b].area;
   return a;
@@ -116,7 +116,7 @@ std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int lev
 }
 
 void follow_boundary(const ImageView& image, int level, PixelPosition seed, std::vector<PixelPosition>& boundary) {
-  // Moore neighbours, clockwise on the screen from the east.
+  // Steps to the eight neighbours, clockwise on the screen from the east.
   constexpr std::array<int, 8> kDx{1, 1, 0, -1, -1, -1, 0, 1};
   constexpr std::array<int, 8> kDy{0, 1, 1, 1, 0, -1, -1, -1};
   const auto bright = [&](int x, int y) {
@@ -180,7 +180,7 @@ void measure_profile(std::span<const PixelPosition> boundary, BaseSide side, Pro
 
 std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t from) {
   const auto& rows = profile.rows;
-  // Factor by which it widens shortly below row k; 0 where that is no shoulder.
+  // Returns the factor by which the region widens just below row k; 0 if this is no shoulder.
   const auto step = [&](std::size_t k) {
     const std::size_t within = std::max<std::size_t>(2, static_cast<std::size_t>(kWithin * static_cast<double>(k)));
     int below = 0;
@@ -200,7 +200,7 @@ std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t fro
     sharpest = step(k);
     best = k;
   }
-  // The shoulder begins at the first row that widens.
+  // Moves up to the first of the consecutive rows that widen.
   while (best && *best > from && step(*best - 1) > 0) --*best;
   return best;
 }

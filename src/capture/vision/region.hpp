@@ -1,12 +1,12 @@
 #pragma once
-// Connected bright regions of a picture, the line around one of them, and the boundary between an object and its stand,
-// where both have merged into one region.
+// Finds the connected bright regions of a picture, the outer boundary of a region, and the boundary between an object
+// and its stand where both have merged into one region.
 //
 // A region is a maximal set of pixels brighter than a level, connected by sides or corners. Only its outer boundary is
 // followed, so enclosed holes (a wick, a dark core) belong to the region.
 //
 // A flame touches lit wax, its pool or the wick's holder by a few bright pixels or by its whole base. From the tip
-// down, the region then widens abruptly: that is the shoulder. A slanted, hollow or pointed base has none.
+// down, the region then widens abruptly at the shoulder. A slanted, hollow or pointed base has no shoulder.
 
 #include <cmath>
 #include <cstdint>
@@ -35,8 +35,8 @@ struct PixelPosition {
 /// Finds bright regions; reuses its memory between pictures.
 class RegionFinder {
  public:
-  /// All regions of pixels above `level`, largest first, without those under `min_area` pixels.
-  /// The span is valid until the next call.
+  /// Returns the regions of pixels above `level` that have at least `min_area` pixels, largest first. The span is valid
+  /// until the next call.
   std::span<const BrightRegion> find(const ImageView& image, int level, std::int64_t min_area);
 
  private:
@@ -56,14 +56,14 @@ class RegionFinder {
   std::vector<Run> runs_;
   std::vector<Run> above_;
   std::vector<int> parent_;
-  std::vector<BrightRegion> regions_;  // until all rows are seen
+  std::vector<BrightRegion> regions_;  // regions of the rows so far, some joined to another
   std::vector<BrightRegion> found_;
 };
 
-inline constexpr int kMinStep = 3;  ///< minimum step of a boundary that is no noise, pixels
+inline constexpr int kMinStep = 3;  ///< pixels: a smaller step of a boundary is noise
 
 /// Follows the outer boundary of the region at `seed`, clockwise on the screen, starting there: each pixel touches the
-/// next by side or corner and lies in the region. Appends to `boundary`, which is cleared first.
+/// next by side or corner and lies in the region. Replaces the contents of `boundary`.
 ///
 /// Precondition: seed is the leftmost pixel of the region's first row.
 void follow_boundary(const ImageView& image, int level, PixelPosition seed, std::vector<PixelPosition>& boundary);
@@ -72,7 +72,7 @@ void follow_boundary(const ImageView& image, int level, PixelPosition seed, std:
 /// times as long.
 inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// One row of a profile, from its first to its last pixel.
+/// One row of a profile: coordinates of its first and last pixel.
 struct ProfileRow {
   int low = 0;
   int high = 0;
@@ -89,19 +89,19 @@ struct Profile {
 /// Computes the profile of a boundary's interior, for a base on `side`; reuses the profile's memory.
 void measure_profile(std::span<const PixelPosition> boundary, BaseSide side, Profile& profile);
 
-/// Converts a picture coordinate `edge` to depth; the function is its own inverse.
+/// Converts a picture coordinate `edge` to depth, which increases towards the base; the function is its own inverse.
 int depth_of(int edge, BaseSide side);
 
 /// Coordinate of the last row (or column) of `box` towards the base.
 int base_edge(const Region& box, BaseSide side);
 
-/// Depth of `edge` below `other`, in pixels; negative if above.
+/// Returns by how many pixels `edge` lies beyond `other` towards the base; negative if it lies before.
 int deeper(int edge, int other, BaseSide side);
 
-/// Part of `place` on the object's side of `edge`.
+/// Returns the part of `place` on the object's side of `edge`, which is included.
 Region above_edge(const Region& place, int edge, BaseSide side);
 
-/// Index of the last row above the sharpest shoulder, at or after `from`; empty where no shoulder is sharp.
+/// Returns the index, at least `from`, of the last row above the sharpest shoulder; none if there is no shoulder.
 std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t from);
 
 }  // namespace wisp

@@ -23,7 +23,7 @@ SplineTable::SplineTable(std::span<const double> knots) : knots_(knots.begin(), 
   for (int k = kSplineDegree; k < points_; ++k) {
     const double begin = knots_[k], width = knots_[k + 1] - begin;
     if (width <= 0) continue;
-    // The cubic through four values of each weight, at 0, 1/4, 1/2 and 3/4 of the span: its end is in the next span.
+    // The cubic through each weight at 0, 1/4, 1/2 and 3/4 of the span; the span's end belongs to the next span.
     Span span{begin, k - kSplineDegree, {}};
     std::array<BasisWeights, 4> value;
     for (int i = 0; i < 4; ++i) value[i] = basis(knots_, begin + width * (0.25 * i));

@@ -15,7 +15,7 @@ struct CurvePoint {
   double y = 0;
 };
 
-/// Side of the line from a to b on which a point lies: twice the signed area of the triangle, 0 on the line.
+/// Returns the side of the line from a to b on which p lies: twice the signed area of the triangle, 0 on the line.
 inline double side_of(const CurvePoint& a, const CurvePoint& b, const CurvePoint& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
@@ -51,7 +51,7 @@ class CurvePieces {
     std::array<CurvePoint, 4> power;  // coefficients of powers of (s − begin)
   };
   std::vector<Piece> pieces_;
-  std::span<const int> guess_;  // guess_ of the table
+  std::span<const int> guess_;  // SplineTable::guess_ of the table
 };
 
 /// The B-spline basis of one knot vector.

@@ -12,16 +12,16 @@ namespace wisp {
 namespace {
 
 constexpr int kGrid = 320;                // width and height of the coarse grid, points: enough to separate regions
-constexpr int kFineGrid = 160;            // … and of the finer grid around a flame
+constexpr int kFineGrid = 160;            // width and height of the finer grid around the object, points
 constexpr int kLevelStep = 18;            // step between the levels tried, of 255
-constexpr int kHighestLevel = 225;        // above it cameras clip, and a level cuts through the flame
-constexpr double kLitShare = 0.7;         // a picture counts if its maximum reaches this share of the upper quartile
-constexpr double kOtherScene = 64;        // … and it differs by at most so many levels from the median picture, mean
+constexpr int kHighestLevel = 225;        // a higher level would cut through the flame, as cameras clip above it
+constexpr double kLitShare = 0.7;         // minimum brightest_of() of a surveyed picture, share of the upper quartile
+constexpr double kOtherScene = 64;        // maximum mean difference of a surveyed picture from the median picture
 constexpr double kOneBrightness = 16;     // of 255, above the darkest tenth: a smaller contrast is noise
 constexpr double kAsLikely = 0.35;        // minimum score of another flame relative to the first
-constexpr double kAsGood = 0.5;           // minimum relative likelihood of the same object at another level
+constexpr double kAsGood = 0.5;           // minimum relative likeness of the object at another level
 constexpr double kHalfWay = 0.58;         // position of the level between surroundings (0) and object (1)
-constexpr double kNearlyAsLikely = 0.75;  // minimum relative likelihood of a view that shows more of the flame
+constexpr double kNearlyAsLikely = 0.75;  // minimum relative likeness of a view that shows more of the flame
 constexpr double kBrightest = 3e-4;       // share of the picture's points that count as brightest
 
 // Pictures over one area, one grid per channel, sampled once for repeated use.
@@ -46,7 +46,7 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
     if (!wanted(channel, pictures.front(), options) && channel != PixelChannel::kLuma) continue;
     grids.channels[static_cast<std::size_t>(channel)] = grid_over(area, most);
   }
-  // Processes all channels of a picture before the next picture, as the cache holds only one.
+  // Samples all channels of a picture before the next picture, as the cache holds only one picture.
   for (const Picture& picture : pictures) {
     for (const PixelChannel channel : kChannels) {
       auto& grid = grids.channels[static_cast<std::size_t>(channel)];
@@ -56,7 +56,7 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
   return grids;
 }
 
-// The level that only the brightest points reach.
+// Returns the level that only the brightest points reach: kBrightest of all points, at least four.
 double brightest_of(const ImageView& luma) {
   Histogram histogram{};
   add_to_histogram(histogram, luma);
@@ -68,7 +68,7 @@ double brightest_of(const ImageView& luma) {
   return level;
 }
 
-// Mean absolute difference of each picture from the median picture; large for titles and other shots.
+// Returns the mean absolute difference of each picture from the median picture; large for titles and other shots.
 std::vector<double> distances_from_usual(const PictureGrid& luma) {
   std::vector<double> distances(luma.pictures.size());
   std::vector<std::uint8_t> values(luma.pictures.size());
@@ -81,13 +81,13 @@ std::vector<double> distances_from_usual(const PictureGrid& luma) {
   return distances;
 }
 
-// Pictures that count, and their maximum brightness. Fades, titles and pictures after the flame went out are excluded.
+// The surveyed pictures, without fades, titles and pictures after the flame went out; and each one's brightest_of().
 struct LitPictures {
   std::vector<Picture> pictures;
   std::vector<double> brightest;
 };
 
-// Selects the pictures that count, and removes the others from the grids.
+// Selects the pictures to survey, and removes the others from the grids.
 LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
   const PictureGrid& luma = *grids.of(PixelChannel::kLuma);
   std::vector<double> brightest;
@@ -150,8 +150,8 @@ bool same_place(const Candidate& a, const Candidate& b) {
   return !intersection(usual_place(a.seen), usual_place(b.seen)).empty();
 }
 
-// The likeliest candidate, and those of its channel and level that are nearly as likely, as bright and as mobile, the
-// largest first. This selects the other flames, which are alike, but no lit surroundings and no lamps.
+// Returns the likeliest candidate and, of its channel and level, the candidates that are nearly as likely, bright and
+// mobile, largest first: the other flames, but no lit surroundings and no lamps.
 std::vector<Candidate> places(const std::vector<Candidate>& candidates, const SurveyOptions& options) {
   std::vector<Candidate> out;
   const Candidate& best = candidates.front();
@@ -168,13 +168,13 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   return out;
 }
 
-// Brightness of an object (median) and of its surroundings (upper quartile, as their brighter part may brighten).
+// Brightness of an object (median) and of its surroundings (upper quartile, as their bright parts may brighten).
 struct Brightness {
   double inside = 0;
   double outside = 0;
 };
 
-// The object's usual place and what surrounds it.
+// Returns the object's home, enlarged by a margin for its surroundings.
 Region surroundings(const Candidate& thing, const Region& area) {
   return intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
 }
@@ -193,13 +193,13 @@ std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const 
   return Brightness{median(std::move(inside)), *quarter};
 }
 
-// Level slightly above halfway between the brightness of the surroundings and of the object. At this level the object's
-// area depends little on the rim's blur, and the glow, which is darker, is excluded.
+// Returns a level slightly above halfway between the brightness of the surroundings and of the object. There the
+// object's area depends little on the rim's blur, and the glow, which is darker, is excluded.
 int half_way(const Brightness& bright) {
   return static_cast<int>(bright.outside + kHalfWay * (bright.inside - bright.outside));
 }
 
-// The same object at the level nearest to `wanted` at which it is still found; candidates are in order of likelihood.
+// Returns the object found at the level nearest to `wanted`, and moves its level to `wanted` by at most half a step.
 Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& candidates, int wanted) {
   Candidate best = thing;
   for (const Candidate& c : candidates) {
@@ -211,8 +211,8 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
   return best;
 }
 
-// Whether a candidate shows the object as well as `thing` does. Motion is not compared: a part of an object moves more
-// than the whole, and the measured motion of a nearly still flame is random.
+// Returns whether a candidate shows the object as well as `thing` does. Motion is not compared: a part of an object
+// moves more than the whole, and the measured motion of a nearly still flame is random.
 bool as_good(const Candidate& c, const Candidate& thing) {
   return c.stands == thing.stands && c.likeness >= kNearlyAsLikely * thing.likeness && c.softness <= thing.softness &&
          c.seen.size() >= thing.seen.size();
@@ -226,7 +226,7 @@ Candidate settled(const Candidate& thing, const std::vector<Candidate>& candidat
   return out;
 }
 
-// The likeliest good view of an object in each channel, near `home`.
+// Returns, for each channel, the likeliest candidate near `home` that is as_good() as `thing`; null: none.
 std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& home,
                                          const std::vector<Candidate>& candidates) {
   std::array<const Candidate*, 4> views{};
@@ -238,8 +238,8 @@ std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& h
   return views;
 }
 
-// The object at its level, in the channel that shows the largest area of it: another channel may show only the bright
-// core of a flame, or a foot split by the wick. Glow or wax is larger too, but as_good() excludes its softer rim. The
+// Returns the object at its level in the channel that shows the largest area of it: other channels may show only the
+// bright core of a flame, or a foot split by the wick. as_good() excludes glow and wax, which have softer rims. The
 // search is repeated from each larger view, as a view of the core overlaps little with the whole flame.
 Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
                 const Region& area, bool dark) {
@@ -257,7 +257,7 @@ Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates
   return best;
 }
 
-// The same object on a finer grid, if one is possible, at its best level.
+// Finds the object again on a finer grid, unless it is too large for one. Returns it in its best channel and level.
 Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std::span<const Picture> pictures,
                  const Region& area, const SurveyOptions& options, const Evidence& evidence) {
   const Region around = intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
@@ -268,8 +268,8 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
-// Share of an object that is saturated: in every channel about as bright as that channel's upper tenth within the
-// object. Tone curves may saturate below white.
+// Returns the share of an object that is saturated: in every channel about as bright as the channel's 90th percentile
+// within the object, as tone curves may saturate below white.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
   constexpr int kCoding = 5;  // levels: coding errors in a uniform area
   const PictureGrid own = sample_grid(pictures, thing.channel, thing.home, kFineGrid, dark);
@@ -292,7 +292,7 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
   return dark || flat.empty() ? 0 : count / static_cast<double>(flat.size());
 }
 
-// Share of an object's surroundings in which some channel is white: there a film is overexposed.
+// Returns the share of an object's surroundings in which some channel is saturated: there the film is overexposed.
 double white_around(const Candidate& thing, std::span<const Picture> pictures, const Region& area) {
   const Region box = surroundings(thing, area);
   const PictureGrid own = sample_grid(pictures, thing.channel, box, kFineGrid, false);
@@ -323,7 +323,7 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   return out;
 }
 
-// Whether any part of a picture is brighter than its darkest tenth by more than noise.
+// Returns whether any part of a picture exceeds its darkest tenth by more than noise.
 bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions& options) {
   return std::any_of(kChannels.begin(), kChannels.end(), [&](PixelChannel channel) {
     if (!wanted(channel, format, options)) return false;
@@ -341,7 +341,7 @@ Error nothing_found(bool dark) {
                (dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
 }
 
-// For an object that is mostly wider than high: the end that moves less, where it is held.
+// Returns the end that moves less if the object is much wider than high; else the bottom.
 BaseSide steady_end(const Survey& survey) {
   constexpr double kLying = 1.5;  // minimum width / height
   std::vector<double> left, right;
@@ -359,7 +359,7 @@ BaseSide steady_end(const Survey& survey) {
 }  // namespace
 
 void add_to_histogram(Histogram& histogram, const ImageView& image) {
-  // Neighbouring pixels are mostly equal, and each increment would wait for the last: four histograms alternate.
+  // Four histograms alternate: neighbouring pixels are mostly equal, so each increment would wait for the one before.
   std::array<std::array<std::uint32_t, 256>, 4> counts{};
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* row = image.row(y);

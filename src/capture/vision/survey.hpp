@@ -3,12 +3,12 @@
 //
 // Wax, the wick's holder and reflections are bright too. So bright regions at many levels of every channel are rated
 // over a few pictures by the properties of a flame, first in the whole picture on a coarse grid, then around the chosen
-// one on a finer grid. Region, channel and level are chosen together. Candidates are regions present in most pictures.
+// region on a finer grid. Region, channel and level are chosen together. Candidates are regions in most pictures.
 //
 // Evidence for a flame: it emits light, so it is among the brightest regions. Its edges deform, whereas lit wax, glass
-// and tables keep their shape and only change in brightness, and a moving camera preserves shapes. It stands on a place
-// and tapers upwards, so its tip moves more than its base. Its rim is steep, so another level gives nearly the same
-// region.
+// and tables keep their shape and only change in brightness, and a moving camera preserves shapes. Its base stays in
+// place and it tapers upwards, so its tip moves more than its base. Its rim is steep, so another level gives nearly the
+// same region.
 //
 // Section 3.1 of the paper instead uses one level between the histogram's two clusters, flame and background.
 
@@ -23,10 +23,10 @@
 
 namespace wisp {
 
-inline constexpr double kSurelyMoves = 0.06;  ///< change of shape that proves motion
-inline constexpr double kSamePlace = 0.5;     ///< minimum intersection over union of one object's places
-inline constexpr double kAsBright = 0.9;      ///< minimum brightness of a like object, relative to the first
-inline constexpr double kAsNear = 0.35;       ///< maximum displacement of one object's base, in its lengths
+inline constexpr double kSurelyMoves = 0.06;  ///< Candidate::change from which an object certainly moves
+inline constexpr double kSamePlace = 0.5;     ///< minimum intersection over union of boxes of one object
+inline constexpr double kAsBright = 0.9;      ///< minimum relative brightness of another, or refound, flame
+inline constexpr double kAsNear = 0.35;       ///< maximum displacement of an object's base, object lengths
 
 /// One channel of several pictures over one region, sampled at every `step`-th pixel.
 struct PictureGrid {
@@ -41,10 +41,10 @@ struct PictureGrid {
   Region to_pixels(const Region& box) const;
 };
 
-/// An empty grid over `area`, at most `most` points wide and high.
+/// Returns a grid over `area` without pictures, at most `most` points wide and high.
 PictureGrid grid_over(const Region& area, int most);
 
-/// Samples a picture's `channel`, inverted if the object is dark.
+/// Samples a picture's `channel` on the grid, inverted if the object is dark.
 void add_picture(PictureGrid& grid, const Picture& picture, PixelChannel channel, bool dark);
 
 /// Samples several pictures on one grid.
@@ -62,18 +62,18 @@ struct Evidence {
 struct Candidate {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;
-  std::vector<Region> seen;  ///< box in each picture with the region, pixels, without its stand
+  std::vector<Region> seen;  ///< box in each picture that has the region, pixels, stand excluded
   Region home;               ///< union of `seen`
-  bool stands = false;       ///< whether it has merged with its stand
+  bool stands = false;       ///< whether the region merges with its stand, which is then cut off
   double presence = 0;       ///< share of the pictures with the region
-  double area = 0;           ///< median, pixels
-  double light = 1;          ///< its luma divided by that of the picture's brightest points
-  double change = 0;         ///< 1 − overlap of two of its aligned shapes: 0 never deforms
-  double taper = 0;          ///< 1 − width of its first quarter / width of its middle: 0 blunt, 1 pointed
-  double solidity = 0;       ///< its area divided by its convex hull's
+  double area = 0;           ///< median area, pixels
+  double light = 1;          ///< luma divided by that of the picture's brightest points
+  double change = 0;         ///< 1 − overlap of aligned shapes in two pictures, median: 0 never deforms
+  double taper = 0;          ///< 1 − width of the first quarter / width of the middle: 0 blunt, 1 pointed
+  double solidity = 0;       ///< area divided by the convex hull's area
   double steadiness = 0;     ///< tip's motion / (tip's + base's motion): 0 only the base moves, 1 only the tip
-  double contrast = 255;     ///< brightness minus that of its surroundings, levels, once its level is final
-  double softness = 0;       ///< share of its area that changes with the level
+  double contrast = 255;     ///< brightness minus that of the surroundings, levels; set with the final level
+  double softness = 0;       ///< share of the area that changes with the level
   double likeness = 0;       ///< combined evidence from still pictures: larger is likelier
   double score = 0;          ///< likeness combined with evidence from movement
 };
@@ -86,12 +86,12 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence);
 
-/// Median left, upper, right and lower sides of some boxes, robust against occasional merging with other regions.
+/// Returns the box of the median left, upper, right and lower sides, robust against occasional merging of regions.
 ///
-/// Precondition: there is a box.
+/// Precondition: seen is not empty.
 Region usual_place(std::span<const Region> seen);
 
-/// Intersection over union of two rectangles.
+/// Returns the intersection over union of two rectangles.
 double shared_share(const Region& a, const Region& b);
 
 /// Adds an image's pixels to a histogram.
@@ -104,11 +104,11 @@ struct SurveyOptions {
   int flame = 1;                        ///< index of the flame by size, from 1; 0: any moving object
 };
 
-/// The object, at the level above which pixels (inverted for dark objects) belong to it, and the scene.
+/// The object, with the level above which pixels (inverted for dark objects) belong to it, and the scene.
 struct Survey : Candidate {
-  Histogram histogram{};       ///< of the stored channel (inverted for dark objects), over the pictures surveyed
+  Histogram histogram{};       ///< histogram of the channel (inverted for dark objects) over the surveyed pictures
   double clipped = 0;          ///< share of the object that is saturated in every channel
-  double white_around = 0;     ///< share of its surroundings in which some channel is saturated
+  double white_around = 0;     ///< share of the object's surroundings in which some channel is saturated
   int flames = 0;              ///< number of flames; 0 where any object was requested
   std::vector<Region> others;  ///< median boxes of the other flames
 };
@@ -119,8 +119,8 @@ struct Survey : Candidate {
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
 
-/// Side on which the object is held: below, unless another border (and not the lower one) cuts it off in nearly all
-/// pictures. Of an object much wider than high it is the left or right end that moves less.
+/// Returns the side on which the object is held: below if the lower border cuts it off in half of the pictures; else
+/// another border that does in nearly all; else the stiller end of an object much wider than high; else below.
 BaseSide base_side(const Survey& survey, const Region& area);
 
 }  // namespace wisp

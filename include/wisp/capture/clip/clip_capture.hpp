@@ -1,7 +1,7 @@
 #pragma once
-// Converts frames and sound from any source (file, camera, browser) to a recording: of an outline and wind, or of a
-// light object that is dropped before a plain wall. Falls are detected against the wall, which is a median over the
-// whole film, so small pictures of all frames are kept until the film's end.
+// Converts frames and sound from any source (file, camera, browser) to a recording of an outline and wind, or of the
+// falls of a light object before a plain wall. The wall is estimated as the median over the whole film, so FallCapture
+// stores reduced pictures of all frames until the film's end.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,18 +45,18 @@ enum class WindMeasure {
 /// Returns the name of the measure's channel.
 std::string wind_channel_name(WindMeasure measure);
 
-/// Returns the value of a frame in that measure.
+/// Returns the frame's wind by `measure`.
 double wind_value(const WindFrame& frame, WindMeasure measure);
 
 /// The wind estimated from a clip's sound.
 struct ClipWind {
   std::vector<WindFrame> frames;  ///< one per frame of the picture; empty where nothing can be heard
-  double background = 0;          ///< root mean square of the stretches without wind, full scale 1
+  double background = 0;          ///< root mean square of the sound without wind, full scale 1
   double one_rms = 0;             ///< root mean square of the wind band at speed 1, full scale 1
   double clipped_share = 0;       ///< share of samples at full scale
   std::size_t uncovered = 0;      ///< number of picture frames after the sound's end: their wind is missing (NaN)
-  std::size_t holes = 0;          ///< number of picture frames before the sound or in its gaps: also missing
-  std::string note;               ///< one clause for people: what was heard, or why nothing was
+  std::size_t holes = 0;          ///< number of picture frames before the sound or in its gaps: their wind is missing
+  std::string note;               ///< a clause for the user: the share of the clip with wind, or why there is none
 };
 
 /// Parametrisation of a clip's outlines, which another clip's outlines can share.
@@ -79,24 +79,24 @@ struct ClipCapture {
   bool dark = false;                       ///< the object is dark on a light background
   int flame = 0;                           ///< size rank of the flame to capture, 1 the largest; 0: any moving object
   Region region{};                         ///< search region, pixels; empty: the whole picture
-  std::optional<FrameRange> frames{};      ///< frames to capture; none: all. The sound before them is heard too
+  std::optional<FrameRange> frames{};      ///< frames to capture; none: all. Sound before them is analysed too
   double rate_hz = 0;                      ///< frames per second: needed for a folder of images, overrides a video's
-  WindMeasure wind = WindMeasure::kSpeed;  ///< wind measure that is derived from the sound
+  WindMeasure wind = WindMeasure::kSpeed;  ///< measure of the wind in the sound
   std::optional<SharedCurve> curve{};      ///< curve of another clip; overrides `points`
 };
 
-/// Options of capturing the largest flame by its own light.
+/// Options of capturing a clip, by default of its largest flame instead of any moving object.
 struct FlameCapture : ClipCapture {
   FlameCapture() { flame = 1; }
 };
 
-/// A recording and a report on its capture; of falls with the channels of FallCapture::finish().
+/// A recording and a report on its capture. The fields are those of an outline; for falls see FallCapture::finish().
 struct Captured {
   /// Outputs p0.x, p0.y, …, motion base.x, base.y, and, where the clip has sound, an input named by the wind's measure;
-  /// one row per frame, missing rows empty.
+  /// one row per frame, missing rows NaN.
   Recording recording;
-  /// Verdict whether the outline can be learned from; sections Frames, Outline (with the series `brightness`, the
-  /// histogram), Facts and Wind.
+  /// Verdict whether a model can be learned from the outline; sections Frames, Outline (with the histogram as series
+  /// `brightness`), Facts and Wind.
   Report report;
 };
 
@@ -122,7 +122,7 @@ class LiveCapture {
   LiveCapture& operator=(LiveCapture&&) noexcept;
   ~LiveCapture();
 
-  /// Outline capture to feed the frames to, in their order; of `options.frames` only those in the range.
+  /// Returns the outline capture, to which the frames are fed in order; if `options.frames` is given, only its frames.
   OutlineCapture& picture() { return picture_; }
 
   /// Takes the next block of interleaved samples, full scale ±1, which begins `begin` seconds after the clip's first
@@ -152,14 +152,14 @@ struct FallOptions {
   std::optional<FrameRange> frames{};  ///< frames of a file; none: all
   double rate_hz = 0;                  ///< frame rate of a file: needed for a folder of images, overrides a video's
                                        ///< own: slow motion needs the rate of filming
-  std::size_t max_bytes = 384u << 20;  ///< bound of the stored small pictures, one byte per pixel: about 7000 frames of
-                                       ///< a wide film
+  std::size_t max_bytes = 384u << 20;  ///< bound of the stored reduced pictures, one byte per pixel: about 7000 frames
+                                       ///< of a 16:9 film
 };
 
 /// Observations so far, while a film is being captured.
 struct FallSeen {
   std::size_t frames = 0;      ///< number of rows so far, lost frames included
-  std::size_t max_frames = 0;  ///< largest number of frames that fit in memory; 0 before the first
+  std::size_t max_frames = 0;  ///< number of frames that fit in FallOptions::max_bytes; 0 before the first
   Region moving{};             ///< bounding box of pixels that moved since the previous frame; empty: none
 };
 
@@ -196,8 +196,8 @@ class FallCapture {
   FallOptions options_;
   Region frame_{};   // region of the first picture; empty: none yet
   Region region_{};  // search region
-  int step_ = 1;     // pixels per pixel of the small picture, in each direction
-  int width_ = 0;    // width of the small pictures
+  int step_ = 1;     // picture pixels per reduced pixel, in each direction
+  int width_ = 0;    // width of the reduced pictures
   int height_ = 0;
   std::vector<std::vector<std::uint8_t>> frames_;  // empty: lost
   Region moving_{};

@@ -1,5 +1,5 @@
 #pragma once
-// Sound of a WAV file or of a video's track, block by block.
+// Reads the sound of a WAV file or of a video, block by block.
 
 #include <filesystem>
 #include <functional>
@@ -17,7 +17,7 @@ struct SoundInfo {
   std::size_t samples = 0;  ///< samples per channel decoded so far
   double begin = 0;         ///< start of the track, or of a block, seconds after the clip's first frame; may be < 0
   float peak = 0;           ///< largest absolute sample, full scale 1
-  bool cut = false;         ///< the file is truncated: its last block is incomplete, or its header states more
+  bool cut = false;         ///< the file is truncated: its last block is incomplete, or it states a longer duration
 
   /// Returns whether nothing can be heard: peak below −80 dB of full scale.
   bool silent() const { return peak < 1e-4F; }
@@ -27,8 +27,8 @@ struct SoundInfo {
 using SoundBlock = std::function<bool(const SoundInfo& info, std::span<const float> samples)>;
 
 /// Reads a sound track block by block, in bounded memory. Returns its properties, or nothing if the file has no sound
-/// track. While blocks are delivered, `begin` is that of the block; samples and peak include it.
-/// Errors: missing, not a sound or video file, a codec that FFmpeg cannot decode.
+/// track. In the properties passed to `block`, `begin` is the block's start, and samples and peak include the block.
+/// Errors: missing, not a sound or video file, a codec that FFmpeg cannot decode, no stated rate or channels.
 Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path, const SoundBlock& block);
 
 }  // namespace wisp

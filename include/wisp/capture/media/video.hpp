@@ -1,8 +1,8 @@
 #pragma once
 // Reader of the frames of a video file, or of a folder of numbered images, in order.
 //
-// A frame's picture is borrowed: the decoder's own planes, or a copy if they must be converted, scaled or rotated. Its
-// index counts frame times at one fixed rate; the indices of lost frames are skipped, at most 2 s in a row.
+// A frame's picture is borrowed: the decoder's own planes, or a copy if they must be converted, scaled or rotated. A
+// frame's index is its time in periods of one fixed rate; lost frames leave gaps in the indices, each at most 2 s long.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,22 +19,22 @@ namespace wisp {
 
 /// Options of reading a clip.
 struct VideoOptions {
-  double rate_hz = 0;  ///< frames per second; needed for a folder of images, overrides a file's own; 0: none
-  std::optional<FrameRange> frames;  ///< none: all
+  double rate_hz = 0;  ///< frames per second; needed for a folder of images, overrides a video's own; 0: not given
+  std::optional<FrameRange> frames;  ///< frames to read; none: all
   int turn = 0;                      ///< additional clockwise rotation beyond the file's own, in quarter turns, 0 to 3
   int threads = 1;                   ///< decoding threads, 1 to 64; more shorten wall-clock time, not processor time
 };
 
 /// Properties of a clip.
 struct VideoInfo {
-  int width = 0;  ///< square pixels, as shown (after rotation)
+  int width = 0;  ///< width and height as displayed: square pixels, after rotation
   int height = 0;
   double rate_hz = 0;       ///< frames per second
-  std::int64_t frames = 0;  ///< as stated, or as estimated from its duration; 0: unknown
+  std::int64_t frames = 0;  ///< number of frames as stated, or estimated from the duration; 0: unknown
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< the clip has a sound track (it may be silent)
-  double begin = 0;         ///< time of the first frame read, seconds after the track's first
-  double speed = 1;         ///< rate_hz divided by the file's own rate; its sound is played faster by this factor
+  double begin = 0;         ///< time of the first frame read, seconds after the video track's start
+  double speed = 1;         ///< rate_hz divided by the file's own rate; the sound is played faster by this factor
 };
 
 /// One decoded frame; its picture is valid until the reader's next call.
@@ -73,8 +73,8 @@ class VideoReader {
   /// reported by warnings().
   Result<std::optional<VideoFrame>> next();
 
-  /// Returns up to `count` pictures spread over the clip's whole length that are cheap to decode (a video's key
-  /// frames), without affecting next(). None for a folder of images; fewer or none where the file is not seekable.
+  /// Returns up to `count` key frames spread over a video, or over its range if one is given, without affecting next().
+  /// None for a folder of images; fewer or none where the file is not seekable.
   std::vector<OwnedPicture> glimpses(int count);
 
   /// Returns the frame last returned by next(), as RGB.
@@ -82,7 +82,7 @@ class VideoReader {
   /// Precondition: next() has returned a frame.
   RgbImage rgb();
 
-  /// Returns the timing of unevenly spaced frames, from the clip's first frame on; valid until the next call.
+  /// Returns the timing of the frames decoded so far, from the clip's first frame on; valid until the next call.
   ClipTimes times() const;
 
   /// Returns defects that were found and worked around, one sentence each; complete after the last frame.

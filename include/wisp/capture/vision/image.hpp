@@ -41,7 +41,7 @@ struct Region {
 /// Returns the overlap of two rectangles; empty if they do not overlap.
 Region intersection(const Region& a, const Region& b);
 
-/// Returns the smallest rectangle that contains both; an empty one adds nothing.
+/// Returns the smallest rectangle that contains both; an empty rectangle is ignored.
 Region enclosing(const Region& a, const Region& b);
 
 /// Returns the rectangle enlarged by `margin` pixels on every side.

@@ -23,12 +23,12 @@ struct OutlineCaptureOptions {
   bool dark = false;                    ///< the object is dark on a light background
   int flame = 1;                        ///< size rank of the flame to capture, 1 the largest; 0: any moving object
   Region region;                        ///< search region, pixels; empty: the whole picture
-  std::vector<double> knots;            ///< full knot vector to use, of a model or an earlier capture; empty: estimated
-  std::optional<bool> underside;        ///< whether the curve includes the underside; none: where it fits better
+  std::vector<double> knots;            ///< full knot vector of a model or an earlier capture; empty: estimated
+  std::optional<bool> underside;        ///< whether the curve includes the underside; none: if it fits better
   double rate_hz = 0;                   ///< frames a second, > 0
   std::string source;                   ///< name of the frames' source, for messages and the recording
   std::size_t held_bytes = 48u << 20;   ///< bytes of buffered frames (8 or more) at which the first decisions are made
-  int held_frames = 40;                 ///< … and number of buffered frames at which they are made, 8 to 200
+  int held_frames = 40;                 ///< number of buffered frames at which the first decisions are made, 8 to 200
 };
 
 /// A frame without an outline, and the reason.
@@ -40,40 +40,40 @@ struct DroppedFrame {
 /// Properties of a film that do not depend on its subject.
 struct FilmFacts {
   std::size_t pictures = 0;
-  double brightest = 255;         ///< brightness of the brightest point of all pictures, of 255 levels
-  double flat = 0;                ///< share of a picture that is saturated, median
-  double camera = 0;              ///< displacement of the whole picture per frame, share of its size, mean
-  std::vector<std::size_t> cuts;  ///< rows that begin another scene, 0-based, ascending; lost frames are counted
+  double brightest = 255;         ///< brightness of the brightest point of all pictures, 0 to 255
+  double flat = 0;                ///< median share of a picture that is saturated
+  double camera = 0;              ///< mean displacement of the whole picture per frame, share of its size
+  std::vector<std::size_t> cuts;  ///< rows that begin another scene, 0-based, ascending
 };
 
-/// Features that distinguish the outline of a flame from that of another object. Shares are of rows with an outline.
+/// Features that distinguish the outline of a flame from other objects. Shares are of rows with an outline.
 struct OutlineFacts {
   std::size_t rows = 0;            ///< number of rows from the first outline to the last
-  std::size_t absent = 0;          ///< number of these rows without an outline, repeated frames not counted
-  std::size_t blown = 0;           ///< number of absent rows in which the flame was blown out: see excuse_absence()
+  std::size_t absent = 0;          ///< number of rows among `rows` without an outline, repeated frames excluded
+  std::size_t blown = 0;           ///< number of absent rows for which the flame was blown out: see excuse_absence()
   std::size_t seen_from = 0;       ///< index of the first row with an outline
   std::size_t still = 0;           ///< number of rows before `seen_from` in which the object stands motionless
-  std::size_t other_before = 0;    ///< number of rows before `seen_from`, if most show another bright object; else 0
-  std::size_t other_after = 0;     ///< number of rows after the last outline, if most show such an object; else 0
+  std::size_t other_before = 0;    ///< number of rows before `seen_from`, if most show another object; else 0
+  std::size_t other_after = 0;     ///< number of rows after the last outline, if most show another object; else 0
   bool fades_out = false;          ///< the object dims before it disappears, as in a fade to black
   double lost = 0;                 ///< share of the clip's rows without a frame, filled or not
   double repeated = 0;             ///< share of the clip's rows whose frame repeats the previous one
   std::size_t frozen = 0;          ///< number of repeated rows in stretches in which the film stands still
-  double jumps = 0;                ///< share of steps in which base or height change more than a flame's can
+  double jumps = 0;                ///< share of row steps in which base or height change too much for a flame
   std::array<double, 4> border{};  ///< share of rows that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< root-mean-square motion of the shape relative to its base, over median height
-  double edge_noise = 0;           ///< random displacement of the outline's stillest points, standard deviation, pixels
+  double edge_noise = 0;           ///< random displacement of the outline's stiller points, standard deviation, px
   double wander = 0;               ///< motion of the base over motion of the shape relative to it
-  double steadiness = 0;           ///< tip's motion / (tip's + base's motion), in the survey; 1: only the tip moves
+  double steadiness = 0;           ///< tip's motion / (tip's + base's motion), in sampled frames; 1: tip only
   int stands = 1;                  ///< number of consecutive rows that show each frame of the film
   double taper = 0;                ///< median reduction of the width from the middle to near the tip
   double lean = 0;                 ///< median inclination from upright, degrees: 90 is horizontal
   double width = 0;                ///< median of the maximum width across the axis, over height
-  bool burns = true;               ///< the survey found a lit object that moves; false: none was found until the end
+  bool burns = true;               ///< the object is lit and changes shape; false: none such was found
   double light = 0;                ///< luma of the object divided by that of the picture's brightest points
   double contrast = 255;           ///< brightness of the object minus that of its surroundings, levels of 255
   double clipped = 0;              ///< share of the object that is saturated in every channel
-  double white_around = 0;         ///< share of its surroundings in which some channel is saturated
+  double white_around = 0;         ///< share of the object's surroundings in which some channel is saturated
   double height = 0;               ///< median height, pixels
   FilmFacts film;
 };
@@ -106,7 +106,7 @@ struct CaptureReport {
   std::vector<std::string> warnings;  ///< warnings for the author of the film, one sentence each
 };
 
-/// One feature of the verdict, and its reduction of the log odds of a flame and of a correct outline: 0 at its best.
+/// A feature of the verdict, and its penalties on the log odds of a flame and of a correct outline; 0: none.
 struct WeighedFact {
   std::string name;
   double value = 0;
@@ -114,11 +114,11 @@ struct WeighedFact {
   double against_right = 0;
 };
 
-/// Returns the features of a capture; those of a flame only where a flame was captured.
+/// Returns the features of a capture; features that only flames have are left out where any object was requested.
 std::vector<WeighedFact> weighed_facts(const CaptureReport& report);
 
-/// Recomputes the verdict given that `rows` rows have no outline because the flame had been extinguished, `times`
-/// times, and was relit. A picture alone cannot distinguish that from a flame that was not found.
+/// Recomputes the verdict given that `rows` rows have no outline because the flame was blown out and relit `times`
+/// times. Pictures alone cannot distinguish an extinguished flame from a flame that was not found.
 void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times);
 
 /// A recording of an outline and the report on its capture.
@@ -132,7 +132,7 @@ struct OutlineSeen {
   std::size_t frames = 0;        ///< number of rows so far, lost frames included
   bool decided = false;          ///< channel, level and position are chosen; until then all fields below are empty
   std::vector<double> polyline;  ///< x and y of 64 outline points in the last frame, pixels; empty: no outline
-  Region found;                  ///< bounding box of the region found last, pixels; that of an outline if there is one
+  Region found;                  ///< bounding box of the bright region found last, pixels
   PixelChannel channel = PixelChannel::kLuma;
   double threshold = 0;  ///< segmentation threshold, brightness from 0 black to 255 white
   double clipped = 0;    ///< share of the object that is saturated in every channel
@@ -148,8 +148,8 @@ class OutlineCapture {
   OutlineCapture& operator=(OutlineCapture&&) noexcept;
   ~OutlineCapture();
 
-  /// Adds a picture from anywhere in the clip to the sample on which the first decisions are based, as they hold for
-  /// the whole clip; ignored after them. It is copied.
+  /// Copies a picture from anywhere in the clip to the sample on which the first decisions are based, since these hold
+  /// for the whole clip. Without effect after them.
   ///
   /// Precondition: the picture has the size and layout of the frames.
   void glimpse(const Picture& picture);
@@ -169,7 +169,7 @@ class OutlineCapture {
   OutlineSeen seen() const;
 
   /// Ends the clip. Returns the recording: outputs p0.x, p0.y, … and motion base.x, base.y in pixels, flag `filled`,
-  /// one row per frame, missing rows empty.
+  /// one row per frame, missing rows NaN.
   /// Errors: fewer than 10 frames with an outline, with the reason.
   Result<CapturedOutline> finish();
 

@@ -1,8 +1,8 @@
 #pragma once
-// One video frame as borrowed planes, and extraction of any channel of it over a region.
+// A video frame as borrowed planes, and extraction of one of its channels over a region.
 //
 // A decoder delivers luma and two planes of colour difference; a picture file or a browser delivers packed RGB. Both
-// are borrowed unchanged, so that pixels that are never used are never converted.
+// are borrowed unchanged; only the pixels that are analysed are converted.
 
 #include <array>
 #include <cstddef>

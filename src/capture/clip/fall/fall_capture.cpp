@@ -11,15 +11,15 @@ namespace wisp {
 namespace {
 
 constexpr int kLongSide = 320;       // longer side of the reduced pictures, pixels
-constexpr std::uint8_t kMoves = 12;  // grey levels between frames that count as motion, during filming
+constexpr std::uint8_t kMoves = 12;  // grey levels: change between frames from which a pixel counts as moving
 constexpr std::size_t kMinFrames = 16;
 
 using fall::Fall;
 using fall::Falls;
 using fall::Thing;
 
-// Attitude whose second body axis is the object's long axis and whose third is the normal, both in the picture plane
-// (world x and z): a rotation by 90° about z, then by the angle about −y. A leaf glides along the second axis.
+// Returns the attitude whose second body axis is the object's long axis (along which a leaf glides) and whose third is
+// its normal, both in the picture plane (world x and z): a rotation by −90° about z, then by the angle about −y.
 std::array<double, 4> attitude(double angle) {
   const double c = std::sqrt(0.5) * std::cos(angle / 2), s = std::sqrt(0.5) * std::sin(angle / 2);
   return {c, s, -s, -c};
@@ -117,7 +117,7 @@ Result<Captured> FallCapture::finish() {
   std::size_t repeated = 0;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     if (frames_[k].empty()) continue;
-    // A frame repeated by camera or software does not mean that the object stood still.
+    // Repeated frames are interpolated: camera or software repeated them, the object did not stand still.
     const bool repeats = k > 0 && frames_[k] == frames_[k - 1];
     repeated += repeats;
     if (!repeats) seen[k] = fall::seen_in(frames_[k], wall);
@@ -156,7 +156,7 @@ Recording FallCapture::recorded(const std::vector<Fall>& falls, bool tilt) const
     const Fall& fall = falls[episode];
     for (std::size_t k = 0; k < fall.rows.size(); ++k) {
       const Thing& thing = fall.rows[k];
-      // Shifts from pixel centres to pixel corners, from which the picture's height is measured.
+      // Pixel centres lie at whole numbers in Thing, but the picture's height is measured from pixel borders.
       const double x = region_.x + (thing.x + 0.5) * step_, y = region_.y + (thing.y + 0.5) * step_;
       recording.channels[0].samples.push_back(scale * (x - 0.5 * frame_.width));
       recording.channels[1].samples.push_back(0);

@@ -10,15 +10,15 @@ namespace wisp::fall {
 namespace {
 
 constexpr double kMaxUnsteady = 0.2;  // maximum share of the picture that changes all the time
-constexpr double kMaxShake = 0.01;    // share of the picture's height: twice the position error of a fixed camera
+constexpr double kMaxShake = 0.01;    // maximum shake, share of the height: twice a fixed camera's position error
 constexpr std::size_t kMinFalls = 3;  // minimum number of falls; learning checks whether segments suffice
 constexpr std::size_t kGoodFalls = 20;
-constexpr double kMinWhole = 0.8;   // share of falls seen whole; below it, falls that stray are under-represented
+constexpr double kMinWhole = 0.8;   // minimum share of complete falls: below it, falls that stray are under-represented
 constexpr double kMaxFilled = 0.2;  // share of interpolated rows above which a warning is given
-constexpr double kLong = 1.8;       // minimum aspect with which attitude is measurable …
-constexpr double kMaxShort = 0.25;  // … and maximum share of rows with an aspect below kRound
-constexpr double kJerk = 0.52;      // rad per frame: a larger change of the turning rate is a jump of the measured axis
-constexpr double kMaxJerks = 0.05;  // maximum share of rows with a jump, as of a leaf that is seen edge-on
+constexpr double kLong = 1.8;       // minimum median aspect for attitude to be measured
+constexpr double kMaxShort = 0.25;  // maximum share of rows below kRound for attitude to be measured
+constexpr double kJerk = 0.52;      // rad per frame: a larger change of the turning rate counts as a jump of the axis
+constexpr double kMaxJerks = 0.05;  // maximum share of rows with a jump of the axis, as in a leaf seen edge-on
 
 std::size_t jerks_of(const Fall& fall) {
   std::size_t jerks = 0;
@@ -37,7 +37,7 @@ std::string unsteady_sentence(const Wall& wall) {
 
 std::string falls_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " fall" : " falls"); }
 
-// Number of falls, also of missed ones, for each Cut; [0] counts those seen whole.
+// Returns the number of falls, missed ones included, for each Cut; [0] counts falls followed to their end.
 std::array<std::size_t, 5> counted(const Falls& found) {
   std::array<std::size_t, 5> count{};
   for (const Fall& fall : found.falls) ++count[static_cast<std::size_t>(fall.cut)];

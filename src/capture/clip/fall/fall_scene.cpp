@@ -14,17 +14,17 @@ namespace {
 constexpr std::size_t kSamples = 61;     // maximum number of frames from which the wall is estimated
 constexpr std::size_t kGainSpots = 997;  // approximate number of pixels used to measure exposure
 constexpr float kMinGround = 16;         // grey levels: minimum brightness of pixels used to measure exposure
-constexpr float kMinDifference = 8;      // grey levels: above coding noise
+constexpr float kMinDifference = 8;      // grey levels: minimum tolerance, above coding noise
 constexpr float kSigmas = 5;             // tolerance in standard deviations
-constexpr double kUnsteady = 5;          // grey levels: an unsteady pixel deviates by more …
-constexpr double kMoments = 0.7;         // … at this quantile of the frames, so in 30 % of them or more
+constexpr double kUnsteady = 5;          // grey levels: a pixel that deviates by more in 30 % of the frames is unsteady
+constexpr double kMoments = 0.7;         // quantile over the frames that is compared with kUnsteady
 constexpr float kMadToSigma = 1.4826F;
 constexpr int kMinPixels = 4;     // minimum size of an object in pixels beyond the tolerance
-constexpr double kTypical = 0.9;  // quantile of an object's differences that represents it; its edge differs less
-constexpr double kShadow = 0.35;  // share of that below which a pixel is shadow or blur
+constexpr double kTypical = 0.9;  // quantile of its pixels' differences that is an object's contrast: edges differ less
+constexpr double kShadow = 0.35;  // share of the contrast below which a pixel is shadow or blur
 constexpr double kPixelVariance = 1.0 / 12;
 
-// Brightness of the wall in a frame relative to its median over the film: cameras adapt their exposure.
+// Returns the brightness of the wall in a frame relative to its median over the film: cameras adapt their exposure.
 float gain_of(const Frame& frame, const std::vector<float>& brightness) {
   std::vector<float> ratios;
   const std::size_t step = std::max<std::size_t>(1, frame.size() / kGainSpots);
@@ -44,7 +44,7 @@ std::vector<const Frame*> samples_of(std::span<const Frame> frames) {
   return out;
 }
 
-// Calls `take` for the pixels within one row and column of another, itself included.
+// Calls `take` for pixel `p` and its up to eight neighbours.
 template <class Take>
 void for_neighbours(int p, const Wall& wall, Take take) {
   const int x = p % wall.width, y = p / wall.width;
@@ -53,7 +53,7 @@ void for_neighbours(int p, const Wall& wall, Take take) {
   }
 }
 
-// Pixels beyond the tolerance and their neighbours, so that an object with a centre as bright as the wall stays whole.
+// Marks pixels beyond the tolerance and their neighbours, so that an object partly as bright as the wall stays whole.
 std::vector<std::uint8_t> mask_of(const std::vector<float>& difference, const Wall& wall) {
   std::vector<std::uint8_t> mask(difference.size(), 0);
   for (std::size_t p = 0; p < mask.size(); ++p) {
@@ -82,7 +82,7 @@ bool touches_border(const std::vector<int>& pixels, const Wall& wall) {
   });
 }
 
-// Moments of an object, each pixel weighted by the share of it that the object covers.
+// Computes an object from moments, each pixel weighted by the share of its area that the object covers.
 Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vector<float>& difference, int width) {
   double sum = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   for (const int p : pixels) {
@@ -109,7 +109,7 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
   return thing;
 }
 
-// Shift of a frame's wall in reduced pixels, from sums of columns and rows; 0 where the wall has no texture.
+// Returns the shift of a frame from the wall in reduced pixels, by sums of columns and rows; 0 without wall texture.
 double shift_of(const Frame& frame, const Wall& wall, float gain) {
   const auto width = static_cast<std::size_t>(wall.width);
   std::vector<double> across(width), down(static_cast<std::size_t>(wall.height)), across_then = across,

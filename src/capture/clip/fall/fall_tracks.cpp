@@ -12,24 +12,24 @@
 namespace wisp::fall {
 namespace {
 
-constexpr double kGapSeconds = 0.05;  // longest invisibility, edge-on or as bright as the wall
-constexpr std::size_t kMinGap = 2;    // frames
+constexpr double kGapSeconds = 0.05;  // longest absence within a track: edge-on or as bright as the wall
+constexpr std::size_t kMinGap = 2;    // frames: an absence this short is tolerated at any frame rate
 constexpr double kFirstSpeed = 6;     // maximum initial speed, picture heights a second
-constexpr double kChange = 2.5;       // maximum change of speed between frames, heights a second …
-constexpr double kShare = 0.6;        // … and as a share of the speed
+constexpr double kChange = 2.5;       // tolerance of the predicted speed, heights a second, plus kShare of the speed
+constexpr double kShare = 0.6;        // tolerance as a share of the predicted speed, added to kChange
 constexpr double kMinReach = 3;       // minimum search radius, reduced pixels
-constexpr double kJoinSeconds = 0.2;  // longest gap, which a cubic fills well in a swing of half a second, or overlap
-constexpr double kJoinReach = 0.1;    // heights: largest deviation by gravity from a straight path in that time
-constexpr std::size_t kSteady = 3;  // frames: shorter tracks are noise; speed, rest and leaving are judged over as many
+constexpr double kJoinSeconds = 0.2;  // longest gap or overlap of joined tracks; a cubic fits a 0.5 s swing in it
+constexpr double kJoinReach = 0.1;    // heights: maximum distance of joined tracks, extrapolated to mid-gap
+constexpr std::size_t kSteady = 3;    // minimum rows of a track; frames to judge speed, rest and exit
 
 constexpr double kMinSeconds = 0.3;         // minimum duration of a fall
 constexpr std::size_t kMinStretchRows = 8;  // minimum rows of a stretch that a chain can be learned from
 constexpr double kMinDescent = 0.25;        // minimum descent of a fall, picture heights
 constexpr double kPieceDescent = 0.1;       // heights: minimum descent of a fragment of a fall
-constexpr double kAtRest = 0.01;            // heights: distance from start or end within which it hangs or lies
-constexpr double kApart = 0.03;             // heights: variation of the distance of a part or shadow from its object
-constexpr double kNearEnd = 0.1;            // heights: part that may be missing at a fall's end
-constexpr double kNearSide = 2;             // distance from the picture's side at which it is cut, reduced pixels
+constexpr double kAtRest = 0.01;            // heights: an object this near its first or lowest position rests
+constexpr double kApart = 0.03;             // heights: maximum change of the distance between an object and its shadow
+constexpr double kNearEnd = 0.1;            // heights: a fall that ends at most this far above the ground is complete
+constexpr double kNearSide = 2;             // reduced pixels: an object predicted nearer to a side counts as cut off
 constexpr double kSameSeconds = 0.5;        // longest gap between fragments of one fall
 
 struct Track {
@@ -43,7 +43,7 @@ struct Track {
     return (things[b].*axis - things[a].*axis) / static_cast<double>(frames[b] - frames[a]);
   }
 
-  // Mean speed over the first steps, likewise.
+  // Mean speed over the first steps, reduced pixels a frame; 0 for a single row.
   double first_speed(double Thing::*axis, std::size_t steps) const {
     if (things.size() < 2) return 0;
     const std::size_t b = std::min(things.size() - 1, steps);
@@ -51,7 +51,7 @@ struct Track {
   }
 };
 
-// Distance of an object from a track's predicted position in a frame, divided by the tolerated distance.
+// Returns the distance of an object from a track's predicted position in a frame, divided by the tolerated distance.
 double miss(const Track& track, const Thing& thing, std::size_t frame, const Scale& scale) {
   const auto gap = static_cast<double>(frame - track.frames.back());
   const double u = track.speed(&Thing::x, 1), v = track.speed(&Thing::y, 1);
@@ -108,7 +108,7 @@ double seam(const Track& before, const Track& after, const Scale& scale) {
   return far <= kJoinReach * scale.height ? far : -1;
 }
 
-// Joins two tracks; where they overlap, the later one is used from its beginning.
+// Appends a track to an earlier one, replacing the earlier one's rows where the two overlap.
 void append(Track& before, const Track& after) {
   const auto end =
       std::lower_bound(before.frames.begin(), before.frames.end(), after.frames.front()) - before.frames.begin();
@@ -152,7 +152,7 @@ std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale) {
 // A track from the start of motion until the object lies or leaves the picture.
 struct Candidate {
   Track track;
-  bool rests = false;  // whether it is seen lying
+  bool rests = false;  // whether the object is seen lying
 
   std::size_t begin() const { return track.frames.front(); }
   std::size_t end() const { return track.frames.back(); }
@@ -190,7 +190,7 @@ bool is_fall(const Candidate& fall, const Scale& scale) {
   return is_long(fall, scale) && fall.descent() >= kMinDescent * scale.height;
 }
 
-// Whether an object, extrapolated by kSteady frames, crosses one of the picture's sides.
+// Returns whether an object, extrapolated by kSteady frames, is within kNearSide of the picture's left or right side.
 bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
   const double way = speed * kSteady;
   return thing.left + way < kNearSide || thing.right + way > scale.width - 1 - kNearSide;
@@ -205,7 +205,7 @@ Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale
   return crosses_side(track.things.back(), track.speed(&Thing::x, kSteady), scale) ? Cut::kSide : Cut::kLost;
 }
 
-// Half extent of an object plus its motion until the next frame.
+// Returns half an object's extent plus its motion until the next frame, reduced pixels.
 double reach(const Track& track, std::size_t k) {
   const Thing &now = track.things[k], &next = track.things[std::min(k + 1, track.things.size() - 1)];
   return std::max((now.right - now.left) / 2, now.bottom - now.y) + std::hypot(next.x - now.x, next.y - now.y);
@@ -224,7 +224,7 @@ bool pass(const Candidate& one, const Candidate& other) {
   return false;
 }
 
-// Median height (y) at which falls end; the picture's lower border if there are none.
+// Returns the median height (y) at which falls end that do not leave at a side; the lower border if there are none.
 double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   std::vector<double> ends;
   for (const Candidate& fall : falls) {
@@ -234,7 +234,7 @@ double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   return ends.empty() ? scale.height : median(std::move(ends));
 }
 
-// Whether two tracks keep their distance for most of the shorter one: object and shadow, or two parts of an object.
+// Returns whether two tracks keep their distance for half of the shorter one: object and shadow, or parts of an object.
 bool together(const Candidate& one, const Candidate& other_one, double height) {
   const Track &a = one.track, &b = other_one.track;
   std::vector<double> x, y;
@@ -277,8 +277,8 @@ void leave_out_shadows(std::vector<Candidate>& falls, double height) {
   in_order(falls);
 }
 
-// Cuts of sinking tracks that are no falls: fragments of undetected falls, each fall counted once. `rest` is in order
-// of first frames.
+// Returns the cuts of undetected falls, recognised by fragments: sinking tracks in `rest`, which is in order of first
+// frames. Each fall counts once.
 std::vector<Cut> missed_of(const std::vector<Candidate>& rest, const std::vector<Candidate>& falls,
                            const std::vector<Cut>& cuts, double ground, std::size_t frames, const Scale& scale) {
   const auto same = static_cast<std::size_t>(kSameSeconds * scale.rate_hz);
@@ -301,7 +301,7 @@ std::vector<Cut> missed_of(const std::vector<Candidate>& rest, const std::vector
   return missed;
 }
 
-// Unwraps the angle modulo half a turn; in rows with a round silhouette it is interpolated from those around.
+// Unwraps the angle modulo π. In rows with a round silhouette, interpolates the angle from the rows before and after.
 void unwrap(Track& track) {
   std::size_t known = track.things.size();
   for (std::size_t k = 0; k < track.things.size(); ++k) {

@@ -1,6 +1,6 @@
 #pragma once
-// Falls in a film: estimates the wall (the static background) from all frames, finds the objects before it in each
-// frame, tracks them, selects the falls, and reports their figures and whether they are usable, or why there are none.
+// Finds falls in a film: estimates the wall (the static background) from frames of the whole film, finds the objects
+// before the wall in each frame, tracks them, selects the falls, and reports whether they are usable or why none is.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,13 +25,13 @@ struct Wall {
   int width = 0;
   int height = 0;
   std::vector<float> brightness;  ///< median over the film
-  std::vector<float> tolerance;   ///< maximum difference of the background; a larger one is an object
+  std::vector<float> tolerance;   ///< difference above which a pixel shows an object
   double noise = 0;               ///< standard deviation of the median pixel, grey levels
   double shake = 0;               ///< RMS shift in reduced pixels; 0 also for a wall without texture
-  double unsteady = 0;            ///< share of pixels that change in 30 % of the frames or more: the camera moves
+  double unsteady = 0;            ///< share of pixels that change in 30 % of the frames or more, as if the camera moved
 };
 
-/// Estimates the wall. Precondition: at least one frame is not empty, and each such has width × height pixels.
+/// Estimates the wall. Precondition: a frame is not empty, and all that are not empty have width × height pixels.
 Wall wall_of(std::span<const Frame> frames, int width, int height);
 
 /// An object before the wall. Units: pixels of the reduced picture, y down.
@@ -62,23 +62,23 @@ struct Scale {
 /// Whether a fall was followed from its release to its end (kNo), or why not.
 enum class Cut {
   kNo,
-  kSide,    ///< it leaves or enters the picture at a side
-  kLost,    ///< it disappears in the air
-  kPasses,  ///< it comes so near to another object that the two may be confused
-  kQuick,   ///< it lasts less than 0.3 s or 8 frames
+  kSide,    ///< the object leaves or enters the picture at a side
+  kLost,    ///< the object disappears in the air
+  kPasses,  ///< the object comes so near to another that the two may be confused
+  kQuick,   ///< the fall lasts less than 0.3 s or 8 frames
 };
 
 /// A falling object: one row per frame from its release until it lies or leaves the picture.
 struct Fall {
   std::size_t first = 0;             ///< frame of the first row
   std::vector<Thing> rows;           ///< `angle` is unwrapped, beyond ±π/2
-  std::vector<std::uint8_t> filled;  ///< per row, 1: not seen, interpolated
+  std::vector<std::uint8_t> filled;  ///< per row, 1: interpolated, as the object was not detected
   Cut cut = Cut::kNo;
 };
 
 struct Falls {
   std::vector<Fall> falls;  ///< in order of their first frames
-  std::vector<Cut> missed;  ///< cuts of sinking tracks that are no falls, and of falls that pass another object
+  std::vector<Cut> missed;  ///< reason for each fall that was not followed or that passes another object
 };
 
 /// Finds the falls in the frames: objects in view for at least 0.3 s and 8 frames that sink by at least a quarter of
@@ -87,28 +87,28 @@ Falls falls_in(std::span<const Seen> frames, const Scale& scale);
 
 struct Facts {
   std::size_t rows = 0;
-  std::size_t filled = 0;  ///< number of rows interpolated between frames in which it was seen
+  std::size_t filled = 0;  ///< number of rows interpolated between frames with the object
   double aspect = 0;       ///< median of length / width
-  double short_share = 0;  ///< share of rows in which it is too short to measure attitude
-  double jerks = 0;        ///< share of rows in which its axis jumps
+  double short_share = 0;  ///< share of rows in which the object is too round to measure attitude
+  double jerks = 0;        ///< share of rows in which the object's axis jumps
 
-  /// Whether the object is long enough, and its axis steady enough, to measure attitude; with the reason.
+  /// Returns whether the object is long enough and its axis steady enough to measure attitude; tilt_reason(): why.
   bool tilt() const;
   const char* tilt_reason() const;
 };
 
-/// Precondition: there are falls, each with rows.
+/// Precondition: `falls` is not empty, and each fall has rows.
 Facts facts_of(const std::vector<Fall>& falls);
 
-/// The reason why a film contains no fall.
+/// Returns the reason why a film contains no usable track of a fall.
 Error no_fall(const std::string& source, const Wall& wall, const std::vector<Seen>& frames, const Falls& found);
 
 ReportVerdict verdict_on(const Falls& found, const Wall& wall);
 
-/// Warning where too many rows were interpolated.
+/// Returns a warning if more than 20 % of the rows were interpolated.
 std::optional<std::string> filled_warning(const Facts& facts);
 
-/// `frames`: empty for lost frames; `repeated` of them equal the frame before.
+/// `frames`: all frames, lost ones empty; `repeated`: number of frames equal to the frame before.
 ReportSection frames_section(const std::vector<Frame>& frames, std::size_t repeated, const Wall& wall, double rate_hz);
 
 ReportSection falls_section(const Falls& found, const Facts& facts, double metres_per_pixel, double rate_hz);

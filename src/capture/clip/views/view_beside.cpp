@@ -14,14 +14,14 @@
 namespace wisp {
 namespace {
 
-constexpr double kCalm = 0.05;                              // wind up to which it is calm; more is a blow
-constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // longest pause in a blow; lag of flame behind wind
+constexpr double kCalm = 0.05;                              // wind above which a blow is present
+constexpr double kPauseSeconds = 0.25, kLagSeconds = 0.05;  // longest pause within a blow; lag of flame behind wind
 
 struct Blow {
   std::size_t begin = 0, end = 0;  // rows [begin, end)
   double x = 1, z = 0;             // direction, unit vector
-  double alike = 0, answer = 0;    // share of the lean in that direction; pixels of lean per unit of wind
-  double strength = 0;             // mean wind, weighted by its square
+  double alike = 0, answer = 0;    // agreement of the lean's directions, 0 to 1; lean per wind, px
+  double strength = 0;             // mean wind, weighted by the wind's square
   double azimuth() const { return std::atan2(-z, x); }
 };
 
@@ -35,7 +35,7 @@ std::vector<Blow> blows_of(const std::vector<double>& wind, double rate_hz) {
   return out;
 }
 
-// Displacements from the median of calm rows, or of all rows where few are calm.
+// Returns the displacements from the median of the calm rows, or of all rows if at most ten are calm.
 std::vector<double> displaced(std::vector<double> place, const std::vector<double>& wind) {
   std::vector<double> calm, any;
   for (std::size_t row = 0; row < place.size(); ++row) {
@@ -48,7 +48,7 @@ std::vector<double> displaced(std::vector<double> place, const std::vector<doubl
   return place;
 }
 
-// Sets a blow's direction, that of the mean displacement weighted by the wind, and what depends on it.
+// Sets x and z of a blow, the direction of the mean tip displacement weighted by the wind, and `alike` to `strength`.
 void direct(const std::vector<double>& wind, const std::vector<double>& x, const std::vector<double>& z,
             std::size_t lag, Blow& blow) {
   double sum_x = 0, sum_z = 0, all = 0, square = 0, cube = 0;
@@ -75,7 +75,7 @@ std::vector<double> heard_along(const Recording* film, double first_row, std::si
   return wind;
 }
 
-// Report on the blows; also stores in the recording how far the flame deviates from rotational symmetry.
+// Returns a report on the blows. Stores in the recording how far the flame deviates from rotational symmetry.
 ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
   ReportTable table{"blows",
                     "Blows",
@@ -97,11 +97,11 @@ ReportSection wind_section(const std::vector<Blow>& blows, Recording& rings) {
 }
 
 constexpr int kShuffles = 1000;
-// Maximum power of the first two harmonics of the directions: 4 for a single direction, at least 0.87 for two
-// directions, 0 for evenly distributed ones.
+// Maximum harmonics() of ones at the blows' directions: 0 for evenly distributed directions, at least 0.87 for two
+// directions, 4 for a single one.
 constexpr double kMaxDirectionPower = 0.95;
 
-// Mean square over all directions of two harmonics fitted to these numbers, one per blow.
+// Returns the mean square over all directions of the first two harmonics fitted to `numbers`, one per blow.
 double harmonics(std::span<const BlowAnswer> blows, std::span<const double> numbers) {
   double power = 0;
   for (const int times : {1, 2}) {
@@ -117,7 +117,7 @@ double harmonics(std::span<const BlowAnswer> blows, std::span<const double> numb
 ReportSection see_from_beside(const Recording* film, double first_row, Recording& rings) {
   const std::size_t rows = rings.rows(), ring_parts = rings.channels.size(), points = ring_parts / 3;
   const std::vector<double> wind = heard_along(film, first_row, rows);
-  std::vector<std::vector<double>> parts;  // x, y, z, r, tx, tz of each ring; horizontal ones relative to rest
+  std::vector<std::vector<double>> parts;  // x, y, z, r, tx, tz of each ring; x, z, tx, tz relative to rest
   for (std::size_t k = 0; k < ring_parts; ++k) {
     const auto& samples = rings.channels[k].samples;
     parts.push_back(k % 6 == 1 || k % 6 == 3 ? samples : displaced(samples, wind));
@@ -178,7 +178,7 @@ std::optional<std::array<double, 3>> asymmetry_of(std::span<const BlowAnswer> bl
     by_chance.push_back(lost * harmonics(blows, rest));
   }
   const double reach = std::sqrt(quantile(by_chance, 0.95)), share = std::sqrt(seen);
-  // Permuted leans still contain the dependence: 4 / n of its power counts as chance.
+  // Permuted leans still contain the dependence on direction: 4 / n of its power counts as chance.
   return std::array{100 * std::sqrt(std::max(0.0, seen - mean(by_chance)) / (1 - 4 / count)),
                     100 * std::max(0.0, share - reach), 100 * (share + reach)};
 }

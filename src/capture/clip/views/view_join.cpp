@@ -17,16 +17,16 @@ namespace {
 
 using Row = std::vector<double>;
 
-// Best offset of two series, by normalised cross-correlation over all offsets with enough overlap.
+// Offset of two series at which their normalised cross-correlation is highest, among offsets with enough overlap.
 struct TimeOffset {
-  double rows = 0;         ///< delay of the second series behind the first
+  double rows = 0;         ///< row of the first series at which the second begins
   double correlation = 0;  ///< correlation at that offset, −1 to 1
-  double next_best = 0;    ///< best correlation at offsets at least a second away
+  double next_best = 0;    ///< highest correlation at offsets at least 1 s away from `rows`
   // Films of one flame correlate by at least 0.9, 0.3 above the next best; films of two flames by at most 0.3.
   bool certain() const { return correlation >= 0.6 && correlation - next_best >= 0.15; }
 };
 
-// Normalised correlation of first[k + lag] and second[k]; −1 where there are too few rows or a series is constant.
+// Returns the correlation of first[k + lag] and second[k]; −1 if below `least` common rows, or a series is constant.
 double correlation(std::span<const double> first, std::span<const double> second, std::ptrdiff_t lag, double least) {
   double count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
   const auto end = std::min(std::ssize(second), std::ssize(first) - lag);
@@ -39,10 +39,10 @@ double correlation(std::span<const double> first, std::span<const double> second
   return power > 1e-18 ? (xy - x * y / count) / std::sqrt(power) : -1;
 }
 
-// Offset of two series of equal rate; NaN marks missing values. Empty where no offset leaves an overlap of two
-// seconds, or a series is constant wherever they overlap.
+// Returns the best offset of two series of equal rate; NaN marks missing values. None if no offset leaves the minimum
+// overlap, or a series is constant wherever they overlap.
 std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<const double> second, double rate_hz) {
-  // Minimum overlap, as a share of the shorter series: short overlaps correlate by chance.
+  // Minimum overlap: 2 s and 30 % of the shorter series. Shorter overlaps correlate by chance.
   const auto shorter = static_cast<double>(std::min(first.size(), second.size()));
   const double least = std::max(2 * rate_hz, 0.3 * shorter);
   std::vector<double> found;
@@ -56,20 +56,20 @@ std::optional<TimeOffset> time_offset(std::span<const double> first, std::span<c
     if (std::abs(static_cast<double>(k - at)) >= rate_hz)
       out.next_best = std::max(out.next_best, found[static_cast<std::size_t>(k)]);
   }
-  // Refines the maximum between samples by a parabola through three; the correlation at both ends is −1.
+  // Refines the maximum by a parabola through it and its neighbours, which exist, as both ends have −1.
   const double before = best[-1], after = best[1], bend = before - 2 * *best + after;
   if (bend < 0 && before > -1 && after > -1) out.rows += std::clamp(0.5 * (before - after) / bend, -0.5, 0.5);
   return out;
 }
 
-// A view's rows in shape coordinates, y up, about the middle of the base at rest; empty without an outline.
+// A view's outlines in shape coordinates, y up, origin at the middle of the base at rest; empty without an outline.
 struct ViewRows {
-  double right_x = 1, right_z = 0;  // the camera's direction to the right
-  double begins = 0, scale = 1;     // start in rows of the first view; pixels of the first view per pixel
+  double right_x = 1, right_z = 0;  // horizontal unit vector to the camera's right
+  double begins = 0, scale = 1;     // first row, in rows of the first view; first view's pixels per pixel
   std::vector<Row> rows;
-  Row height;  // height of the tip's control points over the base; NaN where missing
+  Row height;  // height of the tip's control points above the base; NaN where missing
 
-  // Interpolates between two rows, at a row of the first view and in its scale.
+  // Returns the shape at a row of the first view, interpolated and in the first view's pixels; empty if missing.
   Row at(double row) const {
     const double place = row - begins;
     const auto before = static_cast<std::size_t>(std::max(0.0, std::floor(place))), after = before + 1;
@@ -123,7 +123,7 @@ ViewRows view_rows(const FilmedView& view) {
   return out;
 }
 
-// Time offsets of a view to the first one: from the sound, and from the body's height, which is equal from every side.
+// Returns a view's time offsets to the first one: by sound, and by the flame's height, which is equal from every side.
 Joint joint_of(const FilmedView& first, const FilmedView& other, const Row& height, const Row& other_height) {
   const auto logarithms = [](Row loudness) {
     for (double& rms : loudness) rms = std::log(rms + 1e-4);
@@ -139,12 +139,12 @@ Joint joint_of(const FilmedView& first, const FilmedView& other, const Row& heig
   return out;
 }
 
-// All views in the time and scale of the first one.
+// All views in the time and scale of the first view.
 struct Joined {
   std::vector<ViewRows> views;
   std::vector<Joint> joints;              // one per view
-  std::size_t first = 0, rows = 0;        // rows of the first view
-  Row apart;                              // per complete row: deviation of the views' heights from their mean
+  std::size_t first = 0, rows = 0;        // first common row, in rows of the first view; number of rows
+  Row apart;                              // per complete row: standard deviation of the views' heights
   double height = 0, widest_degrees = 0;  // mean height in pixels; largest angle between views
   Recording recording;
 
@@ -206,7 +206,7 @@ Recording empty_rings(const Recording& first, std::size_t count, const Joined& j
   return out;
 }
 
-// The horizontal vector whose projections to the views' right directions match best, by least squares.
+// Returns the horizontal vector whose projections on the cameras' right directions fit `coordinate` of the views best.
 std::pair<double, double> level_vector(const Joined& joined, const std::vector<Row>& seen, std::size_t coordinate) {
   double xx = 0, xz = 0, zz = 0, x = 0, z = 0;
   for (std::size_t v = 0; v < seen.size(); ++v) {
