@@ -42,7 +42,7 @@ struct Flag {
   std::vector<std::string> unless{};  ///< flags that make this one optional
   /// Names of additional files of an output: extensions that replace its own or, for a folder, names in it.
   std::vector<std::string> brings{};
-  std::string with{};  ///< another flag, without which this one has no effect
+  std::string with{};  ///< another flag, without which this one is an error
   /// Range of the number, both ends included.
   double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
 };
@@ -79,7 +79,7 @@ struct SampleRange {
 /// Whether a text is a sample range A:B with 1 <= A <= B.
 bool is_sample_range(const std::string& text);
 
-/// Values of the arguments, given() by the user or defaults; the parser has checked them against their Kind.
+/// Values of a command's arguments, each given() by the user or a default. The parser has checked each value's Kind.
 class Arguments {
  public:
   bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
@@ -106,7 +106,7 @@ class Arguments {
   std::vector<std::string> positionals_;
 };
 
-/// Errors: one of the flags was given by the user; the message is the flag and `why`.
+/// Returns an error if the user gave one of the flags; the message is the flag and `why`.
 Result<void> refuse(const Arguments& arguments, std::initializer_list<const char*> flags, const std::string& why);
 
 /// A command: its words (`learn arx`), arguments, flags and function. An error of `run` ends the program with exit
@@ -138,8 +138,8 @@ std::string help(const std::string& words);
 /// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known.
 std::string wrong_words(std::span<const std::string> words);
 
-/// Errors: an output or one of its additional files would overwrite an input; an output's extension belongs to another
-/// kind of file; a file name contains a line break.
+/// Checks file names. Errors: an output or one of its additional files would overwrite an input; an output's extension
+/// belongs to another kind of file; a file name contains a line break.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -101,7 +101,7 @@ void add_flag(Wired& wired, const Flag& flag) {
 
 // Checks flags that are required unless another one is given (Flag::unless), and flags that need another (Flag::with).
 void check_required(const Wired& wired) {
-  // CLI11's search for an option is noexcept and allocates: where memory is short it would end the program.
+  // Looks values up here: CLI11's own search is noexcept and allocates, so where memory is short it ends the program.
   const auto given = [&](const std::string& other) {
     const auto value = wired.values.find(other);
     return value != wired.values.end() ? !value->second.empty() : wired.switches.at(other);
@@ -178,7 +178,7 @@ int run_command(const Wired& wired) {
   if (!outcome) {
     const std::string& message = outcome.error().message;
     terminal.fail(message);
-    // An error that begins with a flag's name is about its value: the command rejected what passed the type check.
+    // An error that begins with a flag's name is about the flag's value, which passed the parser's check.
     return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();

@@ -11,7 +11,8 @@
 namespace wisp::cli {
 namespace {
 
-// Applies --range to recordings of falls. Those of a pair stay whole, since every gust needs all of its clones.
+// Applies --range to recordings of falls. Recordings of a pair (windy and calm) stay whole: a gust's response is the
+// mean over all repetitions of a fall.
 Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
   for (Recording& recording : recordings) {
     if (find_attribute(recording, "pair")) continue;

@@ -82,7 +82,7 @@ Result<std::string> report_page(const std::string& title, const std::vector<Page
 
 namespace fs = std::filesystem;
 
-// A temporary folder for pictures, removed at the end.
+// Name of a temporary folder for pictures; the destructor removes the folder.
 class Scratch {
  public:
   Scratch() : path_(fs::temp_directory_path() / ("wisp-report-" + std::to_string(std::random_device{}()))) {}
@@ -112,7 +112,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return pictures;
 }
 
-// The report of `wisp validate` on a recording, with its pictures in a folder.
+// Validates a model on a recording as `wisp validate` does, with the pictures in `folder`.
 Result<PagePart> judged(const Model& model, const std::string& recording, const fs::path& folder,
                         const Arguments& arguments) {
   Arguments asked = arguments;

@@ -46,7 +46,7 @@ Result<SteerTarget> target_from(const std::string& text) {
   return target;
 }
 
-// Target of the walk from --steer.
+// Parses --steer, the target of a chain's walk; empty without the flag.
 // Errors: a model that cannot be steered; text of another form; a number out of range.
 Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const Arguments& arguments) {
   if (!arguments.has("steer")) return std::optional<SteerTarget>();
@@ -59,7 +59,7 @@ Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const A
   return std::optional(*target);
 }
 
-// Warns of a target that is hardly reachable, however the walk is steered.
+// Warns of a target farther from the mean fall than kReach standard deviations of unsteered walks.
 void warn_of_target(const Model& model, const std::optional<SteerTarget>& target, Terminal& terminal) {
   if (!target) return;
   const ChainDrift& drift = *std::get<ChainModel>(model.dynamics).drift;
@@ -82,21 +82,21 @@ void steer_all(const std::optional<SteerTarget>& target, Bank& bank) {
   for (int slot = 0; slot < bank.slots(); ++slot) chain->steer(bank.at(slot), *target);
 }
 
-constexpr double kMaxNumbers = 5e8;  // 4 GB in memory
+constexpr double kMaxNumbers = 5e8;  // maximum inputs and outputs of a run, over all frames: 4 GB in memory
 
 struct Play {
   Model model;
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
-  Camera camera;                      // camera of a model of bodies
+  Camera camera;                      // --camera, for a flame played as a body
   double orbit = 0;                   // seconds per revolution of the camera; 0: fixed
-  double toward = 0;                  // wind direction, degrees
+  double toward = 0;                  // degrees: wind blows to the right of a camera at this azimuth
   std::vector<std::size_t> relit;     // frames before which all extinguished instances are lit again, ascending
   std::optional<FilmedFlame> film{};  // film on whose candle the flame is drawn
 };
 
-// Plays a bank frame by frame.
+// Steps a bank frame by frame: relights, sets the inputs, and records extinctions.
 class Player {
  public:
   Player(const Play& play, Bank& bank) : play_(play), bank_(bank), burnt_(bank.size(), true) {}
@@ -133,7 +133,7 @@ class Player {
   const ReportTable& deaths() const { return deaths_; }
 
  private:
-  // Scalar wind blows towards --wind-direction, by default to the right in the picture.
+  // Splits a scalar wind into a body's two components by --wind-direction; other inputs stay as they are.
   std::vector<float> turned(std::vector<float> inputs) const {
     if (inputs.size() != 1 || bank_.input_count() != 2) return inputs;
     const double angle = play_.toward * 3.14159265358979323846 / 180;

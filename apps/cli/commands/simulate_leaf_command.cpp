@@ -1,4 +1,5 @@
-// `wisp simulate leaf`: simulates many falls of one leaf as a recording, or gusts with their calm twins as two.
+// `wisp simulate leaf`: simulates falls of one leaf as a recording, or as two: in gusts, and the same falls in calm
+// air.
 
 #include <array>
 #include <cmath>
@@ -15,8 +16,8 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kMinPairSeconds = 0.7;  // a gust's onset is at 0.5 s ± 20 %, and part of the gust is recorded
-constexpr double kMaxJitter = 0.01;      // maximum deviation of the wind's time steps, as a share of a step
+constexpr double kMinPairSeconds = 0.7;  // minimum --seconds with --pairs: gusts begin at 0.5 s ± 20 %
+constexpr double kMaxJitter = 0.01;      // maximum deviation of a time step, as a share of the step
 
 // Checks that a wind's time column, if there is one, has equal steps, as rows are taken at the recording's rate.
 Result<void> check_time(const Recording& recording) {

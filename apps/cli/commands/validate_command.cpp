@@ -176,7 +176,7 @@ Result<void> check_chain_flags(const Arguments& arguments) {
   return ok && arguments.has("film") ? check_film_name(arguments.text("film")) : ok;
 }
 
-// Reads the recording and, for a pair, its calm twin: the third argument, or REC.calm.csv beside REC.csv.
+// Reads the recording and its calm twin: the third argument or, if the recording is of a pair, REC.calm.csv beside it.
 Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
   auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));
@@ -269,7 +269,7 @@ Command validate_command() {
   };
   for (Flag& flag : motion_flags()) flags.push_back(std::move(flag));
   for (Flag& flag : capture_flags("1")) {
-    if (flag.name != "points") flags.push_back(std::move(flag));  // the model determines the number
+    if (flag.name != "points") flags.push_back(std::move(flag));  // the model determines the number of points
   }
   return {
       "validate",

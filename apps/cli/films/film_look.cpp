@@ -18,11 +18,11 @@ constexpr float kOutside = -0.30F, kInside = 0.18F;
 // Depths between which the glow fades: none beyond kGlowEnds, full from kGlowWhole inwards.
 constexpr float kGlowEnds = -0.26F, kGlowWhole = -0.10F;
 
-// Heights in mean flame heights: below kUnder the picture counts as still; up to kFootEnds only pixels of low variance
-// do, such as the wick.
+// Mean flame heights above the base. All pixels count as still below kUnder, none by height alone above kFootBegins;
+// pixels of low variance, such as the wick, do up to kFootBegins, and less and less up to kFootEnds.
 constexpr float kUnder = -0.04F, kFootBegins = 0.05F, kFootEnds = 0.22F;
 
-// Standard deviations, in codes, of still and of moving pixels.
+// Standard deviations over time, in 8-bit codes: a pixel below kStill is still, above kMoves it moves.
 constexpr float kStill = 6, kMoves = 18;
 
 // Smooth step: 0 at `low` and beyond, 1 at `high`; `high` may be below `low`.
@@ -77,7 +77,7 @@ class Depths {
 struct FlamePlace {
   float height = 0;        // 0 at the base, 1 at the outline's top
   float depth = 0;         // distance to the nearest point of the outline
-  float colour_depth = 0;  // the same; above the top its horizontal part, as the glow above a tip stays narrow
+  float colour_depth = 0;  // depth; above the top its horizontal part, as the glow above a tip stays narrow
 };
 
 // Positions of the pixels of one row.

@@ -21,8 +21,8 @@ Place base_of(const Outline& outline) {
   return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
 }
 
-// Rows from whose frames the look is learned: the rows shown, and about 48 spread over the first 1800. If the camera
-// moves, its surroundings change: then only those shown and 24 around the middle row with an outline.
+// Adds the rows from whose frames the look is learned: about 48 spread over the first 1800. If the camera moves
+// (`stands` is false), the surroundings change: then 24 rows around the middle row with an outline.
 std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std::size_t> rows, bool stands) {
   constexpr std::size_t kLessons = 48, kLast = 1800, kPassing = 24;
   std::vector<std::size_t> seen;

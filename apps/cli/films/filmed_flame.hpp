@@ -26,7 +26,7 @@ struct ClipFrames {
 /// The value of an attribute that is one number, such as the clip's width; 0 where it is not recorded.
 int number_attribute(const Recording& recording, const char* name);
 
-/// The clip's frame of the first row, 0-based.
+/// Returns the index, 0-based, of the clip's frame that became the recording's first row.
 std::size_t first_frame_of(const Recording& recording);
 
 /// Visits the clip's frames from the first row to `last_row`; `visit` takes the row and a function that returns its

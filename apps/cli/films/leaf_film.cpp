@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMaxFramesASecond = 60;
 constexpr double kRestSeconds = 2.2;     // time at rest on the floor
-constexpr double kFadeSeconds = 0.6;     // fade at the end of that time
+constexpr double kFadeSeconds = 0.6;     // fade at the end of the rest
 constexpr double kSettleSeconds = 0.12;  // transition from the landing pose to lying flat
 constexpr double kTrailSeconds = 0.9;
 constexpr double kRounding = 1e-6;        // tolerance for rounding, rows
@@ -89,7 +89,8 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
     }
     fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
     falls.push_back(fall);
-    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // when this fall's leaf lies flat
+    begins +=
+        static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // the next fall begins when this leaf lies flat
     row = fall.last + 1;
   }
   return falls;

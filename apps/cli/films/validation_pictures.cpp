@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Residual standard deviation of a channel; the middle of its interval where the training record lacks it.
+// Returns the residual standard deviation of a channel; if the training record lacks it, the middle of its interval.
 double residual_sd(const Model& model, std::size_t channel) {
   if (!model.training.residual_sd.empty()) return model.training.residual_sd[channel];
   const auto& interval = std::get<ArxModel>(model.dynamics).noise.sd_ci95[channel];
@@ -54,7 +54,7 @@ PlotSheet residual_sheet(const Model& model) {
   return {.plots = {std::move(plot)}};
 }
 
-// One plot for every section that has series with ids beginning with `prefix`.
+// Returns one plot for every section whose first series has an id that begins with `prefix`.
 std::vector<Plot> plots_of(const Report& report, std::string_view prefix) {
   std::vector<Plot> plots;
   for (const ReportSection& section : report.sections) {
@@ -94,7 +94,7 @@ Result<void> write_validation_figures(const fs::path& folder, const Model& model
 
 constexpr std::size_t kColumns = 12;
 
-// Horizontal distance of the tip from the base; NaN without an outline.
+// Returns the horizontal offset of the tip from the middle of the base; NaN without an outline.
 double lean_of(const std::vector<std::array<double, 2>>& outline) {
   if (outline.empty()) return std::numeric_limits<double>::quiet_NaN();
   return outline[outline.size() / 2][0] - (outline.front()[0] + outline.back()[0]) / 2;

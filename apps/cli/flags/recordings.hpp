@@ -48,7 +48,7 @@ Result<std::vector<Recording>> read_all(const std::vector<std::string>& paths, c
                                         Terminal& terminal,
                                         const std::function<Result<Recording>(const std::string&)>& read);
 
-/// read_all() by read_table().
+/// Reads every path by read_table(); bad recordings and errors as in read_all().
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
                                            Terminal& terminal, const CsvOptions& otherwise = {});
 
