@@ -22,8 +22,8 @@ inline constexpr int kPolylinePoints = 96;
 inline constexpr float kTrackStep = 1.0F / 120;
 inline constexpr std::size_t kTrackSteps = 90;
 
-// Speed of a gust along a row of candles, flame heights per second (real breath is too fast to be seen), and its loss
-// per height.
+// Speed of a gust along a row of candles, flame heights per second (slower than real breath, so that its way is seen),
+// and the share of the wind lost per flame height.
 inline constexpr float kGustSpeed = 14;
 inline constexpr float kGustLoss = 0.03F;
 
@@ -84,7 +84,7 @@ class CandleScene {
     pointer_ = pixel;
     if (turning_) return wake_.leave();
     if (carried_ && std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;
-    // A carried candle makes its own wind.
+    // The wind on a carried candle comes from the candle's own motion.
     if (carried_) {
       wake_.leave();
     } else {
@@ -147,7 +147,7 @@ class CandleScene {
 
   void draw(Image& image) {
     std::vector<std::vector<Point>> outlines;
-    outlines.reserve(candles_.size());  // flames refer to its elements
+    outlines.reserve(candles_.size());  // never reallocated, as `flames` refers to its elements
     std::vector<int> order(candles_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -330,7 +330,7 @@ class CandleScene {
   int width_ = 1280, height_ = 800;
   float unit_ = 300;
   float wind_ = 0, away_ = 0;
-  float azimuth_ = 0;  // azimuth of the viewer
+  float azimuth_ = 0;  // of the viewer, radians
   bool turning_ = false;
   std::vector<float> winds_;  // past winds of the scene, newest first, one per kTrackStep
   float passed_ = 0;          // elapsed seconds of the current kTrackStep

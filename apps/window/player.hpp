@@ -22,7 +22,7 @@
 
 namespace wisp::window {
 
-/// A scene, for models that several scenes can show.
+/// Scenes that a user can request.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
 struct PlayerOptions {
@@ -88,7 +88,7 @@ class Player {
     return player;
   }
 
-  /// Returns the ear. The sound source opens, feeds and closes it.
+  /// Returns the estimator of wind from sound, which the source of sound opens, feeds and closes.
   Ear& ear() { return ear_; }
 
   void handle(const Event& event) {
@@ -320,7 +320,7 @@ class Player {
     model_index_ = (model_index_ + 1) % options_.models.size();
     drop(options_.models[model_index_].string());
   }
-  // For a model that cannot be shown, displays a notice and keeps the scene.
+  // Loads a model. If it cannot be shown, displays a notice and keeps the scene.
   void drop(const std::string& path) {
     const std::string file = std::filesystem::path(path).filename().string();
     if (auto ok = load(path, {}); !ok) {

@@ -16,7 +16,7 @@
 namespace wisp::window {
 
 inline constexpr std::size_t kKept = 480;      // values per curve, one per frame
-inline constexpr std::size_t kMaxCurves = 12;  // more could not be distinguished
+inline constexpr std::size_t kMaxCurves = 12;  // inputs and outputs beyond these are not drawn
 inline constexpr Colour kPlotGround{16, 17, 22};
 inline constexpr std::array<Colour, 6> kPlotPalette{
     {{86, 180, 233}, {240, 228, 66}, {0, 158, 115}, {230, 159, 0}, {204, 121, 167}, {213, 94, 0}}};

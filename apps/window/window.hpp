@@ -52,7 +52,7 @@ inline constexpr int kFrameRate = 60;
 /// Samples per microphone block: 11 ms at 48 kHz.
 inline constexpr int kSoundBlock = 512;
 
-/// Saves the frame as NAME.png in the folder for pictures.
+/// A script's request to save the current frame as NAME.png in the folder for pictures.
 struct PictureTaken {
   std::string name;
 };
