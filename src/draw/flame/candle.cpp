@@ -14,9 +14,9 @@ constexpr float kFlatness = 0.17F;
 // Position of a candle in pixels.
 struct Body {
   float middle = 0;  // x of the axis
-  float half = 0;    // half its width
-  float top = 0;     // y of the centre of its upper circle
-  float bottom = 0;  // y of the centre of its lower circle
+  float half = 0;    // half the candle's width
+  float top = 0;     // y of the centre of the upper circle
+  float bottom = 0;  // y of the centre of the lower circle
   float unit = 0;
   float squash() const { return kFlatness * half; }
 };

@@ -51,7 +51,7 @@ Stage stage_of(const FlameScene& scene) {
   return stage;
 }
 
-// Amount of soot: a very small flame burns blue.
+// Returns the share of soot, 0 to 1: a very small flame burns blue.
 float sooting(const FlameShape& shape) { return smooth_step(0.06F, 0.40F, shape.height); }
 
 Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
@@ -60,7 +60,7 @@ Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
   return {shape.middle, glowing * std::pow(area, 0.7F)};
 }
 
-// Light as a function of the glowing soot in view (0 none … 1 the thickest part): rim, body and core with soft
+// Table of light by the amount of glowing soot in view (0 none … 1 the thickest part): rim, body and core with soft
 // transitions.
 class SootRamp {
  public:
@@ -106,7 +106,7 @@ float soot_depth(float t, float thick) {
   return std::max(0.0F, thick - shell) / (1 - shell);
 }
 
-// The blue mantle: a thin shell of burning gas, seen edge-on at the sides, that fades upwards.
+// Returns the light of the blue mantle: a thin shell of burning gas, seen edge-on at the sides, that fades upwards.
 float mantle(float t, float thick) {
   const float shell = std::exp(-7.0F * thick * thick) + 0.05F;
   return shell * (1 - smooth_step(0.00F, 0.27F, t));
@@ -135,7 +135,7 @@ void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood
   }
 }
 
-// The wick hides most of the flame's light, since the gas in front of it is thin.
+// Returns the share of the flame's light that the wick hides at each pixel: most, as the gas before the wick is thin.
 Plane wick_shade(const Candle& candle) {
   constexpr float kHides = 0.82F;
   const PixelBox& box = candle.shape.box;
@@ -151,7 +151,7 @@ void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
   if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
   const float out = scene.seconds_since_out;
-  // It becomes visible as the flame shrinks.
+  // The ember becomes visible as the flame shrinks.
   const float bare = 1 - 0.8F * scene.size.value_or(0.0F);
   const float heat = burns(scene) ? 0.16F : bare * (0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F));
   if (heat < 0.004F) return;

@@ -101,7 +101,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
 /// Returns the finest grid that the rings need, as a number of halvings of the picture's size.
 int finest_level(std::span<const HaloRing> rings);
 
-/// Halves the size in both directions, rounded up, about the middle. Outside is dark.
+/// Returns the plane at half its width and height, rounded up. The plane counts as dark beyond its edges.
 Plane halved(const Plane& fine);
 
 /// Returns the share of the background visible through light of that strength, about e^(−light).
@@ -120,7 +120,7 @@ struct FlameShape {
   Plane thickness;     ///< half the chord of glowing gas behind each pixel, in model units
   float thickest = 0;  ///< maximum of thickness
   Point base;          ///< middle of the outline's base, pixels
-  Point middle;        ///< centre of its light, pixels
+  Point middle;        ///< mean of the outline's points, pixels: where the flame's light comes from
   float reach = 0;     ///< distance in pixels from the base to the farthest point
   float height = 0;    ///< reach in model units
   float area = 0;      ///< area in square model units
@@ -230,7 +230,7 @@ struct Row {
 /// columns.
 void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
 
-/// Writes codes with their fraction as pixels, rounded by `dither`.
+/// Writes fractional screen codes of the pixels [first, last), rounded by `dither`.
 void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
 
 /// A flame and its candle, which casts a shadow on the table.
@@ -249,7 +249,7 @@ class Room {
   /// A room for a picture of that size.
   Room(int width, int height);
 
-  /// Returns the light from the room, in cells.
+  /// Returns the light that each cell of the room sends to the eye, lit by the flames and the moon.
   const LightField& lit(std::span<const Stand> stands);
 
  private:

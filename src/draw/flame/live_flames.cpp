@@ -122,7 +122,7 @@ struct LiveFlames::State {
   LightField codes;
   Row light_row, code_row;
   std::vector<float> scratch;
-  std::vector<std::uint8_t> bright;  // flags per pixel of a row: may have own light
+  std::vector<std::uint8_t> bright;  // per pixel of a row: 1 inside a box of `lit`
   std::vector<PixelBox> lit;
 };
 
@@ -189,7 +189,7 @@ void LiveFlames::State::draw_room(std::span<const Candle> candles) {
   }
 }
 
-// Computes screen codes of room and glow where no candle or smoke is in front of them.
+// Computes the screen codes of room and glow, which are shown where no candle or smoke is in front of them.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {

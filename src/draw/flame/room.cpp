@@ -179,8 +179,8 @@ void Room::light_wall(std::span<const Stand> stands) {
   }
 }
 
-// The candle's shadow covers table points whose line to the flame passes through the circle of the candle's rim, so it
-// moves against the flame.
+// Adds a flame's light on the table. Points whose line to the flame passes through the circle of the candle's rim are
+// in the candle's shadow, so the shadow moves against the flame.
 void Room::light_table(const Stand& stand) {
   constexpr int kPixels = 2 * kCell;
   if (stand.lamp.power <= 0) return;
@@ -196,7 +196,7 @@ void Room::light_table(const Stand& stand) {
       const TableSpot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));
       const float dx = p.x - aside, dz = p.z - foot.z;
       const float square = dx * dx + dz * dz + high * high;
-      // Intersection of that line with the plane of the rim.
+      // Intersection of the point's line to the flame with the plane of the rim.
       const float qx = p.x + rim * (aside - p.x) - foot.x, qz = (1 - rim) * dz;
       const float open = stand.height > 0 ? smooth_step(0.75F, 1.35F, std::sqrt(qx * qx + qz * qz) / stand.half) : 1;
       out[i] += stand.lamp.power * (0.08F + 0.92F * open) * 2.2F * high / (square * std::sqrt(square));

@@ -58,7 +58,7 @@ struct Plume {
   int left = 0, top = 0, right = -1, bottom = -1;
 };
 
-// A soft round dab of smoke.
+// Adds a soft round dab of smoke.
 void dab(Plume& plume, float x, float y, float radius, float amount) {
   Plane& density = plume.density;
   const int left = std::max(0, static_cast<int>(std::ceil(x - radius - 0.5F)));
@@ -84,7 +84,7 @@ void dab(Plume& plume, float x, float y, float radius, float amount) {
   }
 }
 
-// Density of all airborne smoke of a wick that smoked for `smoking` seconds, on a grid of `cell` pixels.
+// Returns the density of all airborne smoke of a wick that smoked for `smoking` seconds, on a grid of `cell` pixels.
 Plume risen(const Image& image, const FlameScene& scene, Point wick_end, float cell, float smoking) {
   Plume plume;
   plume.density = Plane(static_cast<int>(std::ceil(static_cast<float>(image.width()) / cell)) + 1,

@@ -263,7 +263,7 @@ void LeafFlock::State::lay_leaf(Image& image, const FlockLeaf& leaf) {
   if (right < 0 || bottom < 0 || left > static_cast<float>(image.width()) || top > static_cast<float>(image.height()))
     return;
   const Texture& side = sides[leaf.look % sides.size()][upper ? 0 : 1];
-  // The texture level whose pixels are nearest in size to the image's.
+  // Selects the texture level whose pixels are nearest in size to the image's.
   const float long_axis =
       view.scale_at(dot(place - view.eye(), view.gaze())) * size * half_length * (kLeafRight - kLeafLeft);
   const float finer = std::log2(std::max(1.0F, kLeafPixels / std::max(1.0F, long_axis)));

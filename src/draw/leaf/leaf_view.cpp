@@ -87,8 +87,8 @@ struct LeafPlace {
   float u = 0, v = 0;
 };
 
-// Position on the leaf at x and y, in halves of the blade's length and width; empty beside it. `slim` is its width /
-// length.
+// Returns the position on the leaf at x and y, in halves of the blade's length and width; empty beside the leaf.
+// `slim`: the blade's width / length.
 std::optional<LeafPlace> place_at(float x, float y, float slim) {
   const float u = (x + 1) / 2;
   if (u >= 0) {
