@@ -49,7 +49,7 @@ struct Track {
   std::int64_t next = 0;  // time of the next frame, in the encoder's time base
 };
 
-// Format by the file name's ending; the first one for unknown endings.
+// Format of a film by the file name's ending. Unknown endings have the first of kKinds.
 struct Kind {
   const char* ending;
   const char* muxer;
