@@ -126,7 +126,7 @@ std::vector<std::filesystem::path> files_written(const Flag& flag, const std::fi
   return files;
 }
 
-// Whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
+// Returns whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
 bool would_destroy(const std::filesystem::path& written, const std::string& input) {
   std::error_code none;
   if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;

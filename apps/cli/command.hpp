@@ -34,7 +34,7 @@ enum class Kind {
 struct Flag {
   std::string name;  ///< name without the dashes
   Kind kind = Kind::kSwitch;
-  std::string value;     ///< placeholder of its value in the help
+  std::string value;     ///< placeholder of the value in the help
   std::string fallback;  ///< default as text; empty: none
   std::string help;
   std::vector<std::string> words{};
@@ -50,12 +50,12 @@ struct Flag {
 /// Adds a numeric range to a flag and to its help.
 Flag ranged(Flag flag, double lowest, double highest);
 
-/// All flags of the lists.
+/// Returns all flags of the lists.
 std::vector<Flag> flags_of(std::initializer_list<std::vector<Flag>> lists);
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
-/// The flag's help; for a choice with the accepted words, unless the placeholder of its value lists them.
+/// Returns the flag's help; for a choice with the accepted words, unless the placeholder of its value lists them.
 std::string help_of(const Flag& flag);
 
 struct Positional {
@@ -76,7 +76,7 @@ struct SampleRange {
   std::size_t last = 0;
 };
 
-/// Whether a text is a sample range A:B with 1 <= A <= B.
+/// Returns whether a text is a sample range A:B with 1 <= A <= B.
 bool is_sample_range(const std::string& text);
 
 /// Values of a command's arguments, each given() by the user or a default. The parser has checked each value's Kind.
@@ -120,19 +120,19 @@ struct Command {
   std::function<Result<void>(const Arguments&, Terminal&)> run;
 };
 
-/// All commands, in the order of the help and the manual.
+/// Returns all commands, in the order of the help and the manual.
 const std::vector<Command>& commands();
 
 const std::vector<Flag>& common_flags();
 
-/// The program's manual, generated from the table, in the form `markdown` (docs/reference/cli.md), `man`, `bash`, `zsh`
-/// or `fish`; empty for another word.
+/// Returns the program's manual, generated from the table, in the form `markdown` (docs/reference/cli.md), `man`,
+/// `bash`, `zsh` or `fish`; empty for another word.
 std::optional<std::string> manual(const std::string& form);
 
-/// A short text with the first commands to try.
+/// Returns a short text with the first commands to try.
 std::string first_steps();
 
-/// Help for the command or group of commands with these words, else for the program.
+/// Returns the help for the command or group of commands with these words, else for the program.
 std::string help(const std::string& words);
 
 /// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known.

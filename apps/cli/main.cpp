@@ -185,13 +185,13 @@ int run_command(const Wired& wired) {
   return flush_output();
 }
 
-// Words before the first flag, joined.
+// Returns the words before the first flag, joined.
 std::string leading(const std::vector<std::string>& words) {
   const auto flag = std::find_if(words.begin(), words.end(), [](const auto& word) { return word.starts_with('-'); });
   return joined({words.begin(), flag}, " ");
 }
 
-// The command or group of commands named by the first words.
+// Returns the command or group of commands named by the first words.
 std::string command_in(const std::vector<std::string>& words) {
   std::string name = leading(words);
   while (!name.empty() && !is_command(name) && !is_group(name)) name.erase(std::min(name.size(), name.rfind(' ')));

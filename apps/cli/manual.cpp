@@ -52,7 +52,7 @@ std::string section(const Command& command) {
   return text;
 }
 
-// Number of characters of UTF-8 text.
+// Returns the number of characters of UTF-8 text.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
@@ -245,7 +245,7 @@ std::string help(const std::string& words) {
 
 namespace {
 
-// Edit distance of two words (V. I. Levenshtein, 1966).
+// Returns the edit distance of two words (V. I. Levenshtein, 1966).
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -53,7 +53,7 @@ struct PointerMoved {
   Point at{};
 };
 
-/// The pointer's button, or a finger, went down or up at that position.
+/// The pointer's button, or a finger, went down or up. The position is as in PointerMoved.
 struct PointerTurned {
   Point at{};
   bool down = true;
@@ -70,7 +70,7 @@ struct Closed {};
 
 using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, FileDropped, MicrophoneLost, Closed>;
 
-/// Exponential approach from `from` to `to` after `seconds`, with time constant `within`.
+/// Returns the exponential approach from `from` to `to` after `seconds`, with time constant `within`.
 inline float towards(float from, float to, float seconds, float within) {
   return to + (from - to) * std::exp(-seconds / within);
 }
@@ -109,7 +109,7 @@ class KeyWind {
   float puff_age_ = 10;
 };
 
-/// The wind behind a moving pointer: the pointer's own speed, decaying when it rests. Lengths are in the scene's unit.
+/// The wind behind a moving pointer: the pointer's own speed, decaying at rest. Lengths are in the scene's unit.
 class PointerWake {
  public:
   void move(Point at) {
@@ -121,7 +121,7 @@ class PointerWake {
   /// Ends the pointer's motion; its wake decays.
   void leave() { last_.reset(); }
 
-  /// Advances the wake: it follows the pointer at once and decays slowly.
+  /// Advances the wake, which follows the pointer at once and decays slowly.
   void advance(float seconds) {
     if (seconds <= 0) return;
     const auto drag = [&](float speed, float pulled) {

@@ -77,7 +77,7 @@ class Microphone {
   bool is(SDL_AudioDeviceID device) const { return device_ != 0 && device_ == device; }
   SDL_AudioDeviceID device() const { return device_; }
 
-  // Passes on the samples since the last call.
+  // Passes the samples since the last call to the ear.
   void pass_on(Ear& ear) {
     if (device_ == 0) return;
     constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // half a second; more comes from a pause of the window

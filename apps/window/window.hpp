@@ -27,7 +27,7 @@ struct PlayOptions {
   std::optional<std::filesystem::path> pictures{};  ///< folder for pictures
   int frames = 0;          ///< without a display: number of frames of 1/60 s; in a window 0: until it is closed
   bool microphone = true;  ///< open it at the window's start
-  const volatile int* interrupted = nullptr;  ///< not null: end after the current frame once it is not 0
+  const volatile int* interrupted = nullptr;  ///< once its value is not 0, the play ends after the current frame
 };
 
 struct PlayReport {

@@ -81,8 +81,7 @@ WISP_API wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model*
 WISP_API void wisp_model_free(wisp_model* model);
 
 /* Creates the three-dimensional body of a flame, by rotational symmetry, as a separate model. Its wind is two inputs: x
- * to the right of the camera that filmed the flame, z towards that camera. WISP_BAD_ARGUMENT if there is no such body.
- */
+ * to the right of the camera that filmed the flame, z towards the camera. WISP_BAD_ARGUMENT if that is impossible. */
 WISP_API wisp_status wisp_model_in_the_round(const wisp_model* model, wisp_model** round);
 
 /* Dynamics of the outputs. */
@@ -435,8 +434,7 @@ WISP_API wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance ins
 WISP_API wisp_status wisp_bank_reset(wisp_bank* bank);
 
 /* Save the whole state as bytes, and restore it: the bank continues with the same bits. The same model and capacity are
- * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version; only this error allocates.
- */
+ * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version; only this allocates. */
 WISP_API wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
 WISP_API wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
 WISP_API wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
@@ -499,8 +497,7 @@ WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* fr
 #define WISP_WIND_BREATHE_GENTLY 0u /* wind that leans a flame without extinguishing it */
 #define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes it */
 
-/* Calibrates by the sound of the next `seconds`, clamped to 0.5 to 30. `what`: the request. NaN is WISP_BAD_ARGUMENT.
- */
+/* Calibrates as requested by the sound of the next `seconds`, clamped to 0.5 to 30. NaN is WISP_BAD_ARGUMENT. */
 WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds);
 
 /* Returns 1 while a calibration's seconds are still running, else 0. */

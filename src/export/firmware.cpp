@@ -199,9 +199,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
   const Shocks shocks = shocks_of(lamp->quantiles);
-  const auto unit = [&](std::size_t mode) {
-    return lamp->shock[mode] * sum_one / shocks.sd;
-  };  // a drawn shock's weight in the sum
+  const auto unit = [&](std::size_t mode) { return lamp->shock[mode] * sum_one / shocks.sd; };  // weight of a shock
   const auto weight = [&](std::size_t mode, std::size_t column) {
     if (column == 0) return lamp->constant[mode] * sum_one - shocks.mean * unit(mode);
     if (column > lamp->lags) return std::min(65536 * unit(mode), 2147483647.0);

@@ -57,13 +57,13 @@ std::string quoted(const std::string& name) {
 
 // A command with its arguments and flags; other flags have their defaults.
 struct Step {
-  std::string name;  // prefix of its figures in the summary
+  std::string name;  // prefix of the step's figures in the summary
   Command command;
   std::vector<std::string> files;
   std::vector<std::pair<std::string, std::string>> flags;
 };
 
-// The command line that runs a step by hand.
+// Returns the command line that runs a step by hand.
 std::string line_of(const Step& step) {
   std::string line = step.command.name;
   for (const std::string& file : step.files) line += " " + quoted(file);

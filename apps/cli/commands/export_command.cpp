@@ -176,8 +176,8 @@ Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> lan
                       terminal);
 }
 
-// Language of a linear system by the file's extension. None for .c or .json unless the model is a plant, an ARX model
-// with inputs and plain outputs: other models become a lamp's .c or an animation's .json.
+// Returns the language of a linear system by the file's extension. None for .c or .json unless the model is a plant, an
+// ARX model with inputs and plain outputs: other models become a lamp's .c or an animation's .json.
 std::optional<PlantLanguage> plant_language(const Model& model, const std::string& extension) {
   const bool plant = std::holds_alternative<ArxModel>(model.dynamics) && !model.inputs.empty() &&
                      std::holds_alternative<PlainView>(model.view);

@@ -73,8 +73,8 @@ std::vector<Flag> arx_part_flags() {
   return flags;
 }
 
-// Whether learning from all named recordings at once would exceed --memory: each recording, its held-out part and
-// buffers for reading take up to 46 bytes per sample (measured), besides the program's own memory.
+// Returns whether learning from all named recordings at once would exceed --memory: each recording, its held-out part
+// and buffers for reading take up to 46 bytes per sample (measured), besides the program's own memory.
 bool too_large(const Arguments& arguments) {
   constexpr double kMebibyte = 1 << 20, kProgram = 24, kBytesASample = 46;
   const auto channels = static_cast<double>(arguments.names("inputs").size() + arguments.names("outputs").size());

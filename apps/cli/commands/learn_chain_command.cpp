@@ -11,8 +11,7 @@
 namespace wisp::cli {
 namespace {
 
-// Applies --range to recordings of falls. Recordings of a pair (windy and calm) stay whole: a gust's response is the
-// mean over all repetitions of a fall.
+// Applies --range to recordings of falls. A pair (windy and calm) stays whole, as a gust needs all repeated falls.
 Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
   for (Recording& recording : recordings) {
     if (find_attribute(recording, "pair")) continue;

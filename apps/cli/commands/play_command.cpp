@@ -50,8 +50,8 @@ std::vector<fs::path> models_in(const fs::path& folder) {
   return paths;
 }
 
-// Folders searched, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the source tree of the
-// build; out/demo, where `wisp demo` writes its model.
+// Returns the folders searched for models, in this order: $WISP_MODELS; share/wisp/models beside the installed program;
+// the source tree of the build; out/demo, where `wisp demo` writes its model.
 std::vector<fs::path> model_folders() {
   std::vector<fs::path> folders;
   if (const char* named = std::getenv("WISP_MODELS")) folders.emplace_back(named);
@@ -63,7 +63,8 @@ std::vector<fs::path> model_folders() {
   return folders;
 }
 
-// Models of the first folder that has any, sorted by rank and then by name. Files that are no models are skipped.
+// Returns the models of the first folder that has any, sorted by rank and then by name. Files that are no models are
+// skipped.
 std::vector<fs::path> shipped_models() {
   for (const fs::path& folder : model_folders()) {
     if (auto models = models_in(folder); !models.empty()) return models;

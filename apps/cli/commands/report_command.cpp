@@ -38,7 +38,7 @@ th { font-weight: 500; } .figures td:last-child { color: #666; }
 img { max-width: 100%; display: block; margin: 1rem 0; }
 )";
 
-// Base64 encoding, RFC 4648, section 4.
+// Encodes bytes as Base64 (RFC 4648, section 4).
 std::string base64(std::span<const std::byte> bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -63,7 +63,7 @@ Result<std::string> picture_of(const std::filesystem::path& path) {
          "\">\n";
 }
 
-// The page as HTML with embedded pictures. Errors: a picture that cannot be read.
+// Returns the page as HTML with embedded pictures. Errors: a picture that cannot be read.
 Result<std::string> report_page(const std::string& title, const std::vector<PagePart>& parts) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
@@ -98,7 +98,7 @@ class Scratch {
   fs::path path_;
 };
 
-// Pictures below a folder: all .svg files, and .png files without an .svg of the same name, such as a film strip.
+// Returns the pictures below a folder: all .svg files, and .png files without an .svg of the same name (film strips).
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> pictures;
   std::error_code error;

@@ -116,7 +116,7 @@ class Player {
 
   bool burns(int slot) const { return burnt_[slot]; }
 
-  // Wind that carries smoke: the input of the extinction rule; of a body, the wind to the right of the camera.
+  // Returns the wind that carries smoke: the input of the extinction rule; of a body, the wind to the camera's right.
   float wind(const std::vector<float>& inputs) const {
     const auto& rule = play_.model.extinction;
     if (!rule) return 0.0F;
@@ -129,7 +129,7 @@ class Player {
     return camera;
   }
 
-  // Table of extinctions: instance and frame.
+  // Returns the table of extinctions: instance and frame.
   const ReportTable& deaths() const { return deaths_; }
 
  private:
@@ -303,8 +303,8 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// Applies --camera, --orbit and --wind-direction: converts the model to a body. Errors: it cannot be one; a bad
-// --camera or --orbit; --wind-direction alone.
+// Applies --camera, --orbit and --wind-direction: converts the model to a body. Errors: a model without a body;
+// a bad --camera or --orbit; --wind-direction alone.
 Result<void> go_round(const Arguments& arguments, Play& play) {
   if (arguments.number("orbit") < 0)
     return Error{"--orbit: found " + arguments.text("orbit") + ", expected seconds above 0"};

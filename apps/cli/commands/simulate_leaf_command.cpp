@@ -1,5 +1,4 @@
-// `wisp simulate leaf`: simulates falls of one leaf as a recording, or as two: in gusts, and the same falls in calm
-// air.
+// `wisp simulate leaf`: simulates falls of one leaf as a recording, or as two: in gusts, and the same falls without.
 
 #include <array>
 #include <cmath>
@@ -133,7 +132,7 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".csv")
     return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
-  // Checked before the simulation, which takes long.
+  // Checks the names before the simulation, which takes long.
   if (auto good = check_writable(path.string()); !good) return good;
   if (arguments.has("video"))
     if (auto good = check_film_name(arguments.text("video")); !good) return good;

@@ -97,7 +97,7 @@ void style(std::string_view what, PlotSeries& series) {
   }
 }
 
-// A plot of the series whose id is `panel` or begins with `panel` and a dot.
+// Returns a plot of the series whose id is `panel` or begins with `panel` and a dot.
 Plot plot_of(const Report& report, const std::string& panel, const std::string& title) {
   Plot plot{.title = title, .equal_units = true};
   for (const ReportSection& section : report.sections) {

@@ -16,7 +16,7 @@ double median_of(std::vector<double> values) {
 
 using Place = std::array<double, 2>;
 
-// Middle of an outline's base.
+// Returns the middle of an outline's base.
 Place base_of(const Outline& outline) {
   return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
 }
@@ -38,7 +38,7 @@ std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std:
   return rows;
 }
 
-// Whether the flame is out: no outline in the row nor in any of the seven before and after.
+// Returns whether the flame is out: no outline in the row nor in any of the seven before and after.
 bool is_out(const OutlineRows& captured, std::size_t row) {
   constexpr std::size_t kAround = 7;
   const auto first = captured.begin() + static_cast<std::ptrdiff_t>(row - std::min(row, kAround));

@@ -23,7 +23,7 @@ struct ClipFrames {
   std::size_t first_frame = 0;
 };
 
-/// The value of an attribute that is one number, such as the clip's width; 0 where it is not recorded.
+/// Returns the value of an attribute that is one number, such as the clip's width; 0 if it is not recorded.
 int number_attribute(const Recording& recording, const char* name);
 
 /// Returns the index, 0-based, of the clip's frame that became the recording's first row.
@@ -59,12 +59,12 @@ class FilmedFlame {
   Result<std::map<std::size_t, Image>> watch(const ClipFrames& clip, const OutlineRows& captured,
                                              const std::vector<std::size_t>& shown = {});
 
-  /// Whether watch() found frames with an outline.
+  /// Returns whether watch() found frames with an outline.
   bool known() const { return look_.known(); }
 
   const FilmView& view() const { return view_; }
 
-  /// Draws an outline, in model units, in the look of the clip, lit by `light` of its flame, 0 to 1.
+  /// Draws an outline, in model units, in the look of the clip. `light`: as in FilmLook::draw().
   ///
   /// Precondition: known().
   Image draw(std::span<const Point> outline, float light = 1) const;
@@ -82,7 +82,7 @@ class FilmedFlame {
   FilmLook look_;
 };
 
-/// The flame of the film that a recording names as its source, after watch(), in a view of `height` pixels.
+/// Returns the flame of the film that a recording names as its source, after watch(), in a view of `height` pixels.
 /// Errors: the recording names no film or has no outline; the film cannot be read; none of its frames has an outline.
 Result<FilmedFlame> filmed_flame(const Recording& recording, int height);
 

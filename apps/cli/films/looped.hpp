@@ -25,8 +25,7 @@ Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal
 /// Converts a take in constant wind to a recording; several bodies give one episode each.
 Recording recording_of(const Model& model, const Take& taken, double wind, const std::string& seed);
 
-/// Returns a recording without rows. Channels: the model's inputs, then the outputs of each instance, prefixed i0.,
-/// i1., … for several instances.
+/// Returns a recording without rows: the inputs, then each instance's outputs (of several prefixed i0., i1., …).
 Recording played_channels(const Model& model, int instances, const std::string& seed);
 
 /// Converts a recording of several bodies to consecutive episodes, one per instance.

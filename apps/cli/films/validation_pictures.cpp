@@ -31,7 +31,7 @@ double residual_sd(const Model& model, std::size_t channel) {
   return (interval[0] + interval[1]) / 2;
 }
 
-// Residual standard deviation of one coordinate over the control points, with its interval.
+// Returns the residual standard deviation of one coordinate over the control points, with its interval.
 PlotSeries residual_series(const Model& model, std::size_t coordinate, const std::string& label, Dash dash) {
   const auto& intervals = std::get<ArxModel>(model.dynamics).noise.sd_ci95;
   PlotSeries series{.label = label, .dash = dash, .marker = Marker::kDot};
@@ -100,8 +100,8 @@ double lean_of(const std::vector<std::array<double, 2>>& outline) {
   return outline[outline.size() / 2][0] - (outline.front()[0] + outline.back()[0]) / 2;
 }
 
-// Rows of a film strip: twelve moments, an eighth of a second apart, in the stretch with complete outlines in which the
-// captured tip moves most. Fewer where the recording is shorter.
+// Returns the rows of a film strip: twelve moments (fewer in a short recording), an eighth of a second apart, in the
+// stretch with complete outlines in which the captured tip moves most.
 std::vector<std::size_t> liveliest_rows(const OutlineRows& captured, double rate_hz) {
   const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rate_hz / 8)));
   const std::size_t count = std::min(kColumns, (captured.size() + apart - 1) / apart);

@@ -24,22 +24,22 @@ std::vector<Flag> recording_flags();
 Flag prepare_flag();
 Result<Preparation> preparation_of(const Arguments& arguments);
 
-/// Whether a file is a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than a clip.
+/// Returns whether a file is a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// Whether a file is a MATLAB file.
+/// Returns whether a file is a MATLAB file.
 bool is_matlab(const std::filesystem::path& path);
 
-/// Options for reading a table from --inputs, --outputs, --columns, --rate and --dt, with `otherwise` for flags not
-/// given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
+/// Returns options for reading a table from --inputs, --outputs, --columns, --rate and --dt, with `otherwise` for flags
+/// not given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
 /// Reads one table with the options of csv_options(), and renames its columns by as_motion().
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise = {});
 
-/// Handles a bad recording: with --skip-bad it is skipped, with a warning and an entry of `skipped` in the result.
-/// Returns whether it is skipped.
+/// Handles a bad recording: with --skip-bad warns of it and lists it in the result as `skipped`. Returns whether the
+/// recording is skipped.
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal);
 
 /// Reads every path by `read`. A bad recording is an error, or handled by leave_out().

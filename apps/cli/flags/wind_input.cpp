@@ -39,8 +39,7 @@ WindMeasure measure_of(const Input& input) {
   return WindMeasure::kSpeed;
 }
 
-// Returns the value of a measure of sound that equals 1 in the model: for an RMS the training's scale; 1 for other
-// measures, which have the model's unit.
+// Returns the divisor from a measure of sound to an input: the training's scale for an RMS, 1 for the other measures.
 Result<double> scale_of(const Model& model, std::size_t input) {
   if (measure_of(model.inputs[input]) != WindMeasure::kRms) return 1.0;
   if (input < model.training.inputs.size()) return model.training.inputs[input].scale;

@@ -1,5 +1,5 @@
 #pragma once
-// Inputs of a model in `wisp run`: a constant, or a recording resampled to the model's rate.
+// Inputs of a played model: constant, or from a recording or a sound file at the model's rate.
 
 #include <vector>
 
@@ -22,7 +22,7 @@ class InputTrack {
   /// Number of frames of the recording or sound; 0 for a constant.
   std::size_t rows() const { return rows_; }
 
-  /// The inputs at a frame; after the recording's end, its last ones.
+  /// Returns the inputs at a frame; after the end of the recording, those of its last frame.
   std::vector<float> at(std::size_t frame) const;
 
  private:

@@ -118,7 +118,7 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
                                  line * static_cast<double>(entries.size()), size * 0.6);
   double middle = plate.y + line / 2;
   for (const LegendEntry& entry : entries) {
-    // Centred on a row of pixels, even a thin line has its full colour.
+    // Centres the line on a row of pixels, where even a thin line has its full colour.
     const double row = std::floor(middle) + 0.5;
     cairo_new_path(context.get());
     cairo_move_to(context.get(), plate.x, row);

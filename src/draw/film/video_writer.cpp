@@ -223,7 +223,7 @@ Result<void> VideoWriter::Encoder::start_track(Track& track, const AVCodec* code
 Result<void> VideoWriter::Encoder::open_scaler() {
   const int width = padded_width();
   const int height = padded_height();
-  // Chroma is averaged where it is subsampled; rounding is accurate, as flames are mostly dark gradients.
+  // Averages subsampled chroma, and rounds accurately, as flames are mostly dark gradients.
   constexpr int kQuality = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP;
   scaler.reset(
       sws_getContext(width, height, AV_PIX_FMT_BGRA, width, height, kind.pixels, kQuality, nullptr, nullptr, nullptr));

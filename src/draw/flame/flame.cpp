@@ -24,8 +24,7 @@ void show_state(const LitState& state, FlameScene& scene) {
 }
 
 void SmokeDrift::blow(float wind, const LitState& state, std::chrono::nanoseconds step_time, FlameScene& scene) {
-  // Speed of smoke in a wind of 1, flame heights a second: slower than real smoke, which would leave the picture at
-  // once.
+  // Flame heights a second that smoke drifts in a wind of 1; real smoke would leave the picture at once.
   constexpr float kSmokeCarried = 1.5F;
   if (state.since_out == kNever) return;
   if (state.since_out <= step_time) sum_ = count_ = 0;
@@ -81,8 +80,7 @@ SeenRing seen(const float* ring, const Camera& camera) {
           up * (s * ring[4] + c * ring[5]) - down * ring[3]};
 }
 
-// Returns the cross product, in the picture, of the surface's two tangents at an angle of a ring. Its sign changes at
-// the silhouette.
+// Returns the cross product of the surface's tangents in the picture, whose sign changes at the silhouette.
 double facing(const SeenRing& below, const SeenRing& ring, const SeenRing& above, double angle) {
   const Point from = below.rim(angle), to = above.rim(angle);
   const double around_x = -ring.radius * std::sin(angle);
@@ -111,7 +109,7 @@ constexpr Colour kShape{176, 184, 192, 255};
 constexpr Colour kEdge{236, 240, 244, 255};
 constexpr float kNarrower = 0.8F;  // maximum ratio of a flame's width at 0.88 of the tip's height to the width at 0.4
 
-// The control polygon at the centre of its range, in the model's units.
+// Returns the control polygon at the centre of its range, in the model's units.
 std::vector<Point> middle_polygon(const Model& model) {
   std::vector<Point> out;
   const auto middle = [](const Output& output) { return static_cast<float>(0.5 * (output.lowest + output.highest)); };

@@ -34,7 +34,7 @@ struct Stage {
   FlameMood mood;
 };
 
-// Brightness and colour of a flame that has grown to the share `grown`.
+// Returns brightness and colour of a flame that has grown to the share `grown`.
 FlameMood re_igniting(float grown) { return {0.5F + 0.5F * grown, 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)}; }
 
 Stage stage_of(const FlameScene& scene) {
@@ -91,16 +91,16 @@ class SootRamp {
   std::array<Light, kSteps + 1> table_{};
 };
 
-// Share of glowing soot at the share t of the way from base to tip: the dark zone around the wick, the luminous zone,
-// and the tip where soot burns off.
+// Returns the amount of glowing soot, 0 to 1, at the share t of the way from base to tip: low around the wick, high in
+// the luminous zone, lower at the tip, where soot burns off.
 float soot_profile(float t) {
   const float rise = 0.04F + 0.34F * smooth_step(0.04F, 0.22F, t) + 0.62F * smooth_step(0.14F, 0.44F, t);
   const float burn_off = 1 - 0.55F * smooth_step(0.74F, 1.04F, t);
   return rise * burn_off;
 }
 
-// Depth of soot: the whole thickness in the upper flame; near the base only the inside of the blue mantle, which soot
-// would turn purple.
+// Returns the depth of soot: the whole thickness in the upper flame; near the base only the inside of the blue mantle,
+// which soot would turn purple.
 float soot_depth(float t, float thick) {
   const float shell = 0.50F * (1 - smooth_step(0.05F, 0.34F, t));
   return std::max(0.0F, thick - shell) / (1 - shell);
@@ -112,8 +112,7 @@ float mantle(float t, float thick) {
   return shell * (1 - smooth_step(0.00F, 0.27F, t));
 }
 
-// Adds the flame's light to the field. `shade`, 0 … 1 over the shape's box, dims it where the wick is; empty: no
-// dimming.
+// Adds the flame's light to the field. `shade`, 0 … 1 over the shape's box, dims the light; empty: no dimming.
 void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const Plane& shade) {
   if (shape.empty() || shape.thickest <= 0) return;
   const SootRamp ramp;

@@ -30,7 +30,7 @@ inline constexpr float kWickGap = 0.12F;       ///< distance from the candle's t
 inline constexpr float kWickHeight = 0.24F;    ///< distance from the candle's top to the wick's end
 inline constexpr float kAmbient = 0.06F;       ///< room light on the candle, which keeps it visible without a flame
 
-/// A number in [0, 1) for a seed and an index (the finaliser of SplitMix64; G. Steele, D. Lea, C. Flood 2014).
+/// Returns a number in [0, 1) for a seed and an index (the finaliser of SplitMix64; G. Steele, D. Lea, C. Flood 2014).
 inline float random_at(std::uint64_t seed, std::uint64_t index) {
   std::uint64_t z = seed + 0x9E3779B97F4A7C15U * (index + 1);
   z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
@@ -64,7 +64,7 @@ struct Bounds {
 /// Precondition: at least one point.
 Bounds bounds_of(std::span<const Point> points);
 
-/// Returns the pixels of a picture that bounds touch, and `margin` more on each side; zero width: none.
+/// Returns the pixels of a picture within bounds, extended by `margin` on each side; zero width: none.
 PixelBox visible_box(const Bounds& bounds, int margin, int width, int height);
 
 /// Emitted light per pixel of a picture.
@@ -128,8 +128,8 @@ struct FlameShape {
   bool empty() const { return box.width == 0; }
 };
 
-/// Rasterises an outline (model units), scaled by `scale` about its base. Points that are not finite are left out; the
-/// base is drawn as a drop around the wick, down to `cap` units under the base's middle.
+/// Rasterises an outline (model units), scaled by `scale` about the origin. Points that are not finite are left out;
+/// the base is drawn as a drop around the wick, down to `cap` units under the base's middle.
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
                        int height);
 
@@ -140,23 +140,23 @@ struct FlameMood {
 
 /// The wick, a short, bent, tapering cord between candle and flame, rasterised over a picture.
 struct Wick {
-  PixelBox box;     ///< part of the picture that it touches; zero width: no wick
+  PixelBox box;     ///< part of the picture that the wick touches; zero width: no wick
   Plane coverage;   ///< share of each pixel of the box inside the wick
-  Point root;       ///< where it leaves the wax, pixels
-  Point end;        ///< its upper end, pixels
-  float width = 0;  ///< width at its root, pixels
+  Point root;       ///< where the wick leaves the wax, pixels
+  Point end;        ///< upper end, pixels
+  float width = 0;  ///< width at the root, pixels
 
   bool empty() const { return box.width == 0; }
 };
 
 Wick make_wick(const FlameScene& scene, int width, int height);
 
-/// The wick's coverage at a pixel of the picture; 0 outside its box.
+/// Returns the wick's coverage at a pixel of the picture; 0 outside the wick's box.
 float wick_at(const Wick& wick, int x, int y);
 
 /// A flame as a source of light for other candles, smoke and the room.
 struct Lamp {
-  Point place;      ///< pixel of its centre
+  Point place;      ///< pixel of the centre of the light
   float power = 0;  ///< light relative to a calm flame's
 };
 

@@ -137,7 +137,7 @@ Plane solve_thickness(const Plane& inside) {
   return phi;
 }
 
-// Bilinear value of a grid with a border of one cell, at cell coordinates (cell centres at halves).
+// Returns the bilinear value of a grid with a border of one cell, at cell coordinates (cell centres at halves).
 float sampled(const Plane& bordered, float x, float y) {
   const float u = std::clamp(x + 0.5F, 0.0F, static_cast<float>(bordered.width) - 1.001F);
   const float v = std::clamp(y + 0.5F, 0.0F, static_cast<float>(bordered.height) - 1.001F);

@@ -55,7 +55,7 @@ PixelBox around(PixelBox a, PixelBox b) {
   return {left, top, right - left, bottom - top};
 }
 
-// Box of a candle's own light: flame and ember.
+// Returns the box of a candle's own light: flame and ember.
 PixelBox own_light_box(const Candle& candle, int width, int height) {
   const PixelBox& flame = candle.shape.box;
   const PixelBox& wick = candle.wick.box;
@@ -114,7 +114,7 @@ struct LiveFlames::State {
 
   FlameStyle style;
   Room room;
-  const LightField* room_light = nullptr;  // in the current picture
+  const LightField* room_light = nullptr;  // light of the room in the current picture
   Image behind;                            // picture of the room alone
   Plane dither;
   LightField own;   // flames and embers, in pixels; dark outside `lit`

@@ -36,7 +36,7 @@ std::array<Swing, 4> swings_of(std::uint64_t seed) {
            {3.60F, 0.004F, 0.002F, phase(3), 0.4F}}};
 }
 
-// Position of smoke of age `age` that left the wick `left` seconds after extinction: model units from the wick's end.
+// Returns the position, in model units from the wick's end, of smoke of age `age` that left `left` s after extinction.
 Point drift(float left, float age, float side, float wind, std::span<const Swing> swings) {
   // Hot smoke starts fast and is slowed by entrained air.
   const float rise = 0.75F * age + 0.30F * (1 - std::exp(-age / 0.35F));

@@ -72,7 +72,7 @@ Range fixed_ends(Range range, const PlotAxis& axis) {
   if (axis.lowest && valid(*axis.lowest)) range.low = *axis.lowest;
   if (axis.highest && valid(*axis.highest)) range.high = *axis.highest;
   if (range.low < range.high) return range;
-  // Where the requested ends leave an empty range, the lower one is kept.
+  // If the requested ends leave an empty range, the lower end is kept.
   return {range.low, axis.logarithmic ? range.low * 10 : range.low + 1};
 }
 

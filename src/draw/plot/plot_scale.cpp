@@ -33,7 +33,7 @@ std::string formatted(double value, int decimals) {
   return (value < 0 && !zero ? "−" : "") + std::string(text.data());
 }
 
-// Number of decimals needed to distinguish multiples of the step.
+// Returns the number of decimals needed to distinguish multiples of the step.
 int decimals_of(double step) {
   for (int decimals = 0; decimals < 12; ++decimals) {
     const double scaled = step * std::pow(10.0, decimals);
@@ -99,7 +99,7 @@ Ticks logarithmic_ticks(const Scale& scale, int wanted) {
 
 double Scale::operator()(double value) const {
   const double share = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-  // Cairo's coordinates are fixed-point numbers of limited range: limits points to four axis lengths outside.
+  // Points are clamped to four axis lengths outside, as Cairo's fixed-point coordinates have a limited range.
   return from + std::clamp(share, -4.0, 5.0) * (to - from);
 }
 

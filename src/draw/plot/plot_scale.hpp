@@ -16,7 +16,7 @@ struct Scale {
 
   double operator()(double value) const;
 
-  /// Whether a value can be drawn: finite, and positive on a logarithmic axis.
+  /// Returns whether a value can be drawn: finite, and positive on a logarithmic axis.
   bool shows(double value) const;
 };
 
