@@ -22,8 +22,8 @@ inline constexpr int kPolylinePoints = 96;
 inline constexpr float kTrackStep = 1.0F / 120;
 inline constexpr std::size_t kTrackSteps = 90;
 
-// Speed of a gust along a row of candles, flame heights per second (slower than real breath, so that its way is seen),
-// and the share of the wind lost per flame height.
+// Speed of a gust along a row of candles, flame heights per second (slower than real breath, so that gusts are seen to
+// move), and the share of the wind lost per flame height.
 inline constexpr float kGustSpeed = 14;
 inline constexpr float kGustLoss = 0.03F;
 

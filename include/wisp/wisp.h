@@ -73,11 +73,11 @@ WISP_API const char* wisp_last_error(void);
 
 typedef struct wisp_model wisp_model;
 
-/* Reads a model from the bytes of a .wisp file; they are not needed afterwards. Sets *model.
- * Fails with WISP_BAD_DATA if they are not a complete, valid model of a known version. */
+/* Reads a model from the bytes of a .wisp file, which are not needed afterwards. Sets *model.
+ * Fails with WISP_BAD_DATA if the bytes are not a complete, valid model of a known version. */
 WISP_API wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model);
 
-/* Frees a model; banks made from it stay valid. NULL is allowed. */
+/* Frees a model; banks made from the model stay valid. NULL is allowed. */
 WISP_API void wisp_model_free(wisp_model* model);
 
 /* Creates the three-dimensional body of a flame, by rotational symmetry, as a separate model. Its wind is two inputs: x
@@ -113,14 +113,14 @@ typedef struct wisp_model_facts {
   int64_t operations_per_frame;    /* all arithmetic, including noise and a polyline of 32 points. Both counts are as
                                       stored in the file; 0: not stored */
   double blow_out_level;   /* least wind that blows an instance out, in the unit of its input; 0: no wind does */
-  double blow_out_seconds; /* duration until it is out at that wind; stronger wind takes less */
+  double blow_out_seconds; /* duration until the flame is out at that wind; stronger wind takes less */
   uint32_t dynamics;       /* one of WISP_DYNAMICS_* */
   uint32_t view;           /* WISP_VIEW_PLAIN, WISP_VIEW_OUTLINE, WISP_VIEW_POSE or WISP_VIEW_POSITION */
   double half_width;       /* metres along the first axis of a body with pose, a leaf's midrib; 0: unknown */
   double half_length;      /* metres along its second axis; 0: unknown */
   double blow_out_haste;   /* the duration at twice the level is blow_out_seconds / (1 + blow_out_haste) */
   double blow_out_recovery_seconds; /* time below the level until full recovery */
-  uint32_t blow_out_input;          /* index of the input that blows it out */
+  uint32_t blow_out_input;          /* index of the input that blows instances out */
   uint32_t reserved_2;
 } wisp_model_facts;
 
@@ -134,7 +134,7 @@ typedef struct wisp_channel {
   const char* unit;
   double lowest;     /* range in training */
   double highest;    /* inputs, and outputs except a chain's, are clamped to that range extended by half its width */
-  uint32_t even_odd; /* for inputs: 1 if even and odd functions of it are the regressors */
+  uint32_t even_odd; /* 1 if an input enters by regressors that are even and odd functions of the input */
   uint32_t reserved2;
 } wisp_channel;
 
@@ -154,8 +154,8 @@ typedef struct wisp_provenance {
   uint32_t figures;
   uint32_t usable; /* 1 if learning found the model fit for use */
   uint32_t reserved;
-  const char* program; /* name and version of the program that wrote it */
-  const char* reason;  /* reason why it is fit for use, or not */
+  const char* program; /* name and version of the program that wrote the model */
+  const char* reason;  /* reason why the model is fit for use, or not */
 } wisp_provenance;
 
 /* A named fact: an option given to the learner. */
@@ -279,7 +279,7 @@ WISP_API wisp_status wisp_bank_end(wisp_bank* bank, wisp_instance instance);
 /* Returns 1 if the instance lives in this bank, else 0. */
 WISP_API int32_t wisp_bank_alive(const wisp_bank* bank, wisp_instance instance);
 
-/* Returns the instance in a slot; WISP_NO_INSTANCE if it is empty. */
+/* Returns the instance in a slot; WISP_NO_INSTANCE for an empty slot. */
 WISP_API wisp_instance wisp_bank_at(const wisp_bank* bank, uint32_t slot);
 
 /* Set the inputs from the next step on, in their units: of all (slots * inputs), equal for all (inputs), of one
@@ -293,7 +293,7 @@ WISP_API wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instanc
  * always takes the likeliest mode and its best-joining segment, other scales change nothing. */
 WISP_API wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
 
-/* Reads the current scale. */
+/* Reads the current scale of the residual noise. */
 WISP_API wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
 
 /* Makes one step of the model, whatever the time. */
@@ -356,7 +356,7 @@ typedef struct wisp_flame_state {
   int64_t since_lit; /* since it was last relit; WISP_NEVER if never since spawned */
   int64_t since_out; /* since it was last extinguished */
   float light[3];    /* position: centroid of its outline, x, y, and z of a body */
-  float intensity;   /* area relative to that at rest */
+  float intensity;   /* area relative to the area at rest */
   float kelvin;      /* colour temperature: 1900 at rest, times the 16th root of the intensity */
 } wisp_flame_state;
 
@@ -426,7 +426,7 @@ typedef struct wisp_chain_settings {
   float ground;
 } wisp_chain_settings;
 
-/* Reads the current settings. */
+/* Reads the current height of the ground. */
 WISP_API wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
 
 /* Reset one instance, or all instances and the time passed since the last step, to the state at spawning, lit. */
@@ -464,12 +464,12 @@ WISP_API wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_win
 /* Frees an estimator. NULL is allowed. */
 WISP_API void wisp_wind_free(wisp_wind* wind);
 
-/* The wind during one frame. Since it comes in arrays, fields will never be added. Amplitudes are root mean squares
+/* The wind during one frame. Frames come in arrays, so fields will never be added. Amplitudes are root mean squares
  * with full scale 1. */
 typedef struct wisp_wind_frame {
   int64_t index;    /* frame k covers the sound from k / frame rate to (k + 1) / frame rate */
   float rms;        /* RMS of all samples in the frame */
-  float rms_clean;  /* rms minus the background's, at least 0 */
+  float rms_clean;  /* rms minus the background's RMS, at least 0 */
   float level;      /* RMS of the wind band (100 to 900 Hz, whitened) after its background's power is subtracted */
   float speed;      /* proportional to wind speed; 1 lies between soft breath and hard blowing */
   float wind;       /* a model's input: speed while the sound is like blowing, 0 if nothing is heard */
@@ -495,7 +495,7 @@ WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* fr
 
 /* Requests of a guided calibration. The room needs none. */
 #define WISP_WIND_BREATHE_GENTLY 0u /* wind that leans a flame without extinguishing it */
-#define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes it */
+#define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes a flame */
 
 /* Calibrates as requested by the sound of the next `seconds`, clamped to 0.5 to 30. NaN is WISP_BAD_ARGUMENT. */
 WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds);
@@ -601,7 +601,7 @@ typedef struct wisp_fit wisp_fit;
 
 /* Learns one model from recordings. `progress` may be NULL. Sets *fit. A bad model is no failure: wisp_fit_usable()
  * reports it. Fails with WISP_BAD_DATA if the recordings cannot be learned from, with WISP_STOPPED if stopped, with
- * WISP_BAD_ARGUMENT for an unknown kind of recipe or event. */
+ * WISP_BAD_ARGUMENT for an unknown kind or event, or a number out of range. */
 WISP_API wisp_status wisp_learn(const wisp_recording* const* recordings, size_t count, const wisp_recipe* recipe,
                                 wisp_progress progress, void* of, wisp_fit** fit);
 

@@ -31,7 +31,7 @@ constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503,
 
 // The coefficients of a model with one output.
 struct Lamp {
-  std::vector<std::vector<double>> feedback;                      // per mode and lag, with the sign of the prediction
+  std::vector<std::vector<double>> feedback;                      // per mode and lag: weight in the prediction
   std::vector<double> constant, shock;                            // per mode
   std::vector<double> transitions;                                // modes × modes
   std::vector<double> quantiles{kNormal.begin(), kNormal.end()};  // quantiles of the shocks

@@ -75,8 +75,8 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   json.value(true, "c");
 }
 
-// Writes the path with one key per frame, linear between them. A key has its start and end value, for old players; the
-// last one only its time.
+// Writes the path with one key per frame, linear between them. A key has the values at its start and end, for old
+// players; the last key has only its time.
 void write_keys(const OutlineView& view, const Take& take, const Frame& frame, JsonText& json) {
   json.object().value("sh", "ty").value("path", "nm").object("ks").value(1, "a").list("k");
   const std::size_t last = take.frames - (take.loop ? 0 : 1);
@@ -100,7 +100,7 @@ void write_fixed(const char* key, const Values& values, JsonText& json) {
   json.object(key).value(0, "a").values(values, "k").end();
 }
 
-// Writes a scaling about a point, percent.
+// Writes a transform that scales about a point, in percent.
 void write_transform(JsonText& json, std::array<double, 2> about = {0, 0}, std::array<double, 2> scale = {100, 100}) {
   write_fixed("p", about, json);
   write_fixed("a", about, json);

@@ -63,8 +63,7 @@ std::vector<fs::path> model_folders() {
   return folders;
 }
 
-// Returns the models of the first folder that has any, sorted by rank and then by name. Files that are no models are
-// skipped.
+// Returns the models of the first folder that has any, by rank and then by name. Skips files that are no models.
 std::vector<fs::path> shipped_models() {
   for (const fs::path& folder : model_folders()) {
     if (auto models = models_in(folder); !models.empty()) return models;

@@ -133,7 +133,7 @@ void LiveFlames::State::gather(Plane& luminance, PixelBox box) const {
   for (int k = 0; k < kHalvings; ++k) soft = halved(soft);
   const int left = part.x / kCell, top = part.y / kCell;
   for (int y = 0; y < soft.height; ++y) {
-    // Parts overlap at their edges, where one of them lacks the other's light; the larger value is complete.
+    // Parts overlap at their edges, where each may lack light of the other; the larger value is complete.
     float* out = luminance.row(top + y) + left;
     for (int x = 0; x < soft.width; ++x) out[x] = std::max(out[x], soft.row(y)[x]);
   }
