@@ -144,7 +144,7 @@ std::string kind_of(const std::filesystem::path& name) {
   return known == kinds.end() ? std::string() : known->second;
 }
 
-// Returns whether an output's extension belongs to another kind of file than the flag writes: .png for a table.
+// Returns whether an output's extension belongs to another kind of file than the flag writes (a .png for a table).
 bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
   const std::string expected = kind_of(flag.value), found = kind_of(output);
   return !expected.empty() && !found.empty() && expected != found;

@@ -29,7 +29,7 @@ inline constexpr float kGustLoss = 0.03F;
 
 // Wind on a candle that moves, or from a pointer that moves, at one flame height per second.
 inline constexpr float kWindPerSpeed = 0.11F;
-inline constexpr float kPointerReach = 0.9F;  // flame heights
+inline constexpr float kPointerReach = 0.9F;  // radius of the wind from the pointer, flame heights
 inline constexpr float kMaxPointerWind = 1.1F;
 
 // Seconds in which gas rises by one flame height.
@@ -42,7 +42,7 @@ inline constexpr float kClickPixels = 5;
 
 class CandleScene {
  public:
-  /// Errors: those of Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
+  /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
   static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed) {
     const auto round = in_the_round(model);
     auto bank =
@@ -76,7 +76,7 @@ class CandleScene {
   }
 
   /// Returns a wind that extinguishes a candle of this model.
-  // Well above the level of extinction, so that the flame is extinguished during the puff.
+  // The wind is well above the level of extinction, so that the flame is extinguished during a puff.
   float strong() const { return 1.7F * level_; }
 
   void pointer_moved(Point pixel) {
@@ -176,7 +176,7 @@ class CandleScene {
 
   bool goes_out() const { return bank_.extinction() != nullptr; }
 
-  /// Returns the x of the first candle's tip relative to its base, in flame heights; 0 if it is out.
+  /// Returns the x of the first candle's tip relative to its base, in flame heights; 0 if the candle is out.
   float tip() const {
     const Candle& candle = candles_.front();
     if (!state_of(candle).lit) return 0;

@@ -156,7 +156,7 @@ inline constexpr double kWindRate = 120;
 /// Estimates the wind in a stream of sound.
 class Ear {
  public:
-  /// Errors: those of WindLevel::create().
+  /// Starts listening. Errors: those of WindLevel::create().
   Result<void> open(const SoundFormat& format) {
     auto level = WindLevel::create(format, {.frame_rate_hz = kWindRate});
     if (!level) return level.error();
@@ -194,7 +194,7 @@ class Ear {
 /// A sound file in place of a microphone: its samples arrive in real time, then a second of silence that ends its wind.
 class SoundFile {
  public:
-  /// Errors: those of stream_sound(), or a file without sound.
+  /// Reads a file. Errors: those of stream_sound(), or a file without sound.
   static Result<SoundFile> open(const std::string& path) {
     SoundFile file;
     const auto sound = stream_sound(path, [&](const SoundInfo& info, std::span<const float> samples) {

@@ -43,7 +43,7 @@ inline float room_width(int width, int height) {
 
 class LeafScene {
  public:
-  /// Errors: those of Bank::create(). Precondition: the view is a pose or a position; 1 <= leaves <= kMaxLeaves.
+  /// Errors: as Bank::create(). Precondition: the view is a pose or a position; 1 <= leaves <= kMaxLeaves.
   static Result<LeafScene> create(const Model& model, int leaves, std::uint64_t seed) {
     auto bank = Bank::create(model, {.capacity = kMaxLeaves, .seed = seed});
     if (!bank) return bank.error();

@@ -45,7 +45,7 @@ inline constexpr int kMin = 64, kMax = 8192;
 inline constexpr int kCake = 7;
 inline constexpr int kLeaves = 60;
 inline constexpr double kNoticeSeconds = 6;
-inline constexpr std::size_t kNoticeBytes = 76;  // bytes per line
+inline constexpr std::size_t kNoticeBytes = 76;  // maximum bytes per line of a notice
 
 // Strength of the space bar's puff in scenes without candles.
 inline constexpr float kPuff = 2;
@@ -79,7 +79,7 @@ inline bool is_body(const Model& model) {
 
 class Player {
  public:
-  /// Errors: the first model cannot be read, or its view does not fit the requested scene.
+  /// Creates a player. Errors: the first model cannot be read, or its view does not fit the requested scene.
   static Result<Player> create(const PlayerOptions& options) {
     Player player(options);
     player.resize(options.width, options.height);

@@ -23,7 +23,7 @@ inline constexpr std::array<Colour, 6> kPlotPalette{
 
 class PlotScene {
  public:
-  /// Errors: those of Bank::create().
+  /// Creates a scene. Errors: those of Bank::create().
   static Result<PlotScene> create(const Model& model, std::uint64_t seed) {
     auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
     if (!bank) return bank.error();

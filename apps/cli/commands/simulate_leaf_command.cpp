@@ -105,7 +105,7 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
   return options;
 }
 
-// Path of the calm twin: REC.calm.csv for REC.csv.
+// Returns the path of the recording of calm air: REC.calm.csv for REC.csv.
 std::filesystem::path calm_path(std::filesystem::path path) { return path.replace_extension(".calm.csv"); }
 
 Result<Recording> write_drops(const std::filesystem::path& path, const LeafPairsOptions& options) {

@@ -13,12 +13,12 @@ namespace wisp::cli {
 
 class CandlePictures {
  public:
-  /// Pictures sized for the living instances of the model's bank.
+  /// Creates pictures sized for the living instances of the model's bank.
   ///
   /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
   CandlePictures(const Model& model, const Bank& bank);
 
-  /// Pictures sized for `count` outlines of `points` points, without a bank.
+  /// Creates pictures sized for `count` outlines of `points` points, without a bank.
   ///
   /// Precondition: the view is an outline, count > 0 and points >= 2.
   CandlePictures(const Model& model, int count, int points);

@@ -22,7 +22,7 @@ class FilmLook {
  public:
   FilmLook() = default;
 
-  /// Precondition: width, height >= 1 and unit > 0.
+  /// Creates an empty look. Precondition: width, height >= 1 and unit > 0.
   explicit FilmLook(const FilmView& view);
 
   /// Learns from a frame's view and its captured outline, both in the view's pixels; without an outline learns the look

@@ -47,8 +47,8 @@ struct ViewSpace {
 
 class FilmedFlame {
  public:
-  /// A view of `height` pixels on outlines captured from a clip of `clip_size` (width and height in pixels, 0:
-  /// unknown). The view follows the flame's base only if the base moves, as with a hand-held camera.
+  /// Creates a view, `height` pixels high, on outlines captured from a clip of `clip_size` (width and height in pixels,
+  /// 0: unknown). The view follows the flame's base only if the base moves, as with a hand-held camera.
   ///
   /// Precondition: height > 0, pixels_per_unit > 0.
   FilmedFlame(const OutlineRows& captured, double pixels_per_unit, std::array<int, 2> clip_size, const ViewSpace& space,

@@ -11,7 +11,7 @@
 
 namespace wisp::cli {
 
-/// The flag --loop of `run` and `export`.
+/// Returns the flag --loop of `run` and `export`.
 Flag loop_flag();
 
 /// Plays the take requested by --loop, --seconds, --instances, --seed, --noise and --wind or --input; adds its size to

@@ -15,7 +15,7 @@ struct OrderHelp {
   const char* delay = "";  ///< appended to the help of --nk: further values
 };
 
-/// The flags --na, --nb and --nk.
+/// Returns the flags --na, --nb and --nk.
 std::vector<Flag> order_flags(const OrderHelp& help);
 
 /// Parses --na, --nb or --nk: a number for all pairs of channels, or a matrix such as '4,2;3,4' (rows separated by

@@ -10,7 +10,7 @@
 
 namespace wisp::cli {
 
-/// Flags --points, --channel, --flame (default `flame`), --dark, --region, --frames, --rate and --wind-measure.
+/// Returns --points, --channel, --flame (default `flame`), --dark, --region, --frames, --rate and --wind-measure.
 std::vector<Flag> capture_flags(const std::string& flame);
 
 /// Returns the capture options from these flags.

@@ -14,13 +14,13 @@
 
 namespace wisp::cli {
 
-/// Flags --columns, --rate and --dt of every command that reads a table.
+/// Returns the flags --columns, --rate and --dt of every command that reads a table.
 std::vector<Flag> table_flags();
 
-/// table_flags(), and --skip-bad of commands that read several recordings.
+/// Returns table_flags(), and --skip-bad of commands that read several recordings.
 std::vector<Flag> recording_flags();
 
-/// The flag --prepare and its value. Errors: as parse_preparation().
+/// Return the flag --prepare, and its value. Errors: as parse_preparation().
 Flag prepare_flag();
 Result<Preparation> preparation_of(const Arguments& arguments);
 

@@ -55,7 +55,7 @@ bool burns(const FlameScene& scene);
 /// Copies a bank's flame state into a scene: the time since it was lit or extinguished, and its size.
 void show_state(const LitState& state, FlameScene& scene);
 
-/// Mean wind since a flame was extinguished, which advects its smoke.
+/// A mean of the wind since a flame was extinguished, which advects the flame's smoke.
 class SmokeDrift {
  public:
   /// Adds the wind of a step, in the model's units, and sets the scene's wind to 1.5 times the mean since extinction.

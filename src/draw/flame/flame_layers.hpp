@@ -61,7 +61,7 @@ struct Bounds {
   float height() const { return bottom - top; }
 };
 
-/// Precondition: at least one point.
+/// Returns the bounding box of points. Precondition: at least one point.
 Bounds bounds_of(std::span<const Point> points);
 
 /// Returns the pixels of a picture within bounds, extended by `margin` on each side; zero width: none.
@@ -246,7 +246,7 @@ Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lam
 
 class Room {
  public:
-  /// A room for a picture of that size.
+  /// Creates a room for a picture of that size.
   Room(int width, int height);
 
   /// Returns the light that each cell of the room sends to the eye, lit by the flames and the moon.

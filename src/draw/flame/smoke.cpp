@@ -24,7 +24,7 @@ struct Swing {
   float across;  // model units, at full size
   float upward;
   float phase;
-  float twist;  // phase difference over the ribbon's width, in turns
+  float twist;  // phase difference over half the ribbon's width, in turns
 };
 
 std::array<Swing, 4> swings_of(std::uint64_t seed) {
