@@ -309,7 +309,7 @@ namespace Wisp
         public Dynamics Dynamics { get { return (Dynamics)facts.Dynamics; } }
         public string Name { get { return Native.Text(Native.wisp_model_name(Handle)); } }
 
-        /// <summary>Reason: why the model may be used, or not. Program: wrote the file. Sources: recordings learned from.</summary>
+        /// <summary>Reason of the verdict; program that wrote the file; recordings that the model learned from.</summary>
         public string Reason { get { return Native.Text(Origin().Reason); } }
         public string Program { get { return Native.Text(Origin().Program); } }
         public string[] Sources()
