@@ -16,7 +16,7 @@ double Arguments::number(std::string_view flag) const { return std::strtod(text(
 
 namespace {
 
-// Whether the round brackets are balanced. Only then do they protect the commas inside them.
+// Returns whether round brackets are balanced. names() does not split at commas inside balanced brackets.
 bool is_balanced(std::string_view text) {
   int depth = 0;
   for (char c : text) {
@@ -76,7 +76,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
 }
 
 std::string help_of(const Flag& flag) {
-  // The words of some flags are listed in `value`.
+  // Some flags list their words in `value`, which the help shows too.
   if (flag.words.empty() || flag.value == joined(flag.words, "|") || flag.kind != Kind::kChoice) return flag.help;
   return flag.help + " (one of " + joined(flag.words, ", ") + ")";
 }
@@ -107,7 +107,7 @@ const std::vector<Flag>& common_flags() {
 
 namespace {
 
-// Arguments that may name input files: positionals, paths, and texts (--wind is a word or a file).
+// Returns all arguments that may name input files: positionals, paths, and texts (--wind is a word or a file).
 std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
   std::vector<std::string> files = arguments.positionals();
   for (const Flag& flag : command.flags) {
@@ -126,7 +126,7 @@ std::vector<std::filesystem::path> files_written(const Flag& flag, const std::fi
   return files;
 }
 
-// Whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
+// Returns whether writing a file would overwrite an input or a numbered image of an input folder, also through a link.
 bool would_destroy(const std::filesystem::path& written, const std::string& input) {
   std::error_code none;
   if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
@@ -134,7 +134,7 @@ bool would_destroy(const std::filesystem::path& written, const std::string& inpu
   return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
 }
 
-// Kind of file by its extension; empty: any.
+// Returns the kind of a file by its extension; empty for other extensions, which any kind may have.
 std::string kind_of(const std::filesystem::path& name) {
   static const std::map<std::string, std::string> kinds = {
       {".csv", "table"}, {".wisp", "model"},  {".html", "page"},   {".json", "document"},
@@ -144,7 +144,7 @@ std::string kind_of(const std::filesystem::path& name) {
   return known == kinds.end() ? std::string() : known->second;
 }
 
-// Whether the extension of a name contradicts the contents, such as a table in a .png.
+// Returns whether an output's extension belongs to another kind of file than the flag writes (a .png for a table).
 bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
   const std::string expected = kind_of(flag.value), found = kind_of(output);
   return !expected.empty() && !found.empty() && expected != found;

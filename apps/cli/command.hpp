@@ -34,7 +34,7 @@ enum class Kind {
 struct Flag {
   std::string name;  ///< name without the dashes
   Kind kind = Kind::kSwitch;
-  std::string value;     ///< placeholder of its value in the help
+  std::string value;     ///< placeholder of the value in the help
   std::string fallback;  ///< default as text; empty: none
   std::string help;
   std::vector<std::string> words{};
@@ -42,7 +42,7 @@ struct Flag {
   std::vector<std::string> unless{};  ///< flags that make this one optional
   /// Names of additional files of an output: extensions that replace its own or, for a folder, names in it.
   std::vector<std::string> brings{};
-  std::string with{};  ///< another flag, without which this one has no effect
+  std::string with{};  ///< another flag, without which this one is an error
   /// Range of the number, both ends included.
   double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
 };
@@ -50,12 +50,12 @@ struct Flag {
 /// Adds a numeric range to a flag and to its help.
 Flag ranged(Flag flag, double lowest, double highest);
 
-/// All flags of the lists.
+/// Returns all flags of the lists.
 std::vector<Flag> flags_of(std::initializer_list<std::vector<Flag>> lists);
 
 std::string joined(const std::vector<std::string>& words, const std::string& separator);
 
-/// The flag's help; for a choice with the accepted words, unless the placeholder of its value lists them.
+/// Returns the flag's help; for a choice with the accepted words, unless the placeholder of its value lists them.
 std::string help_of(const Flag& flag);
 
 struct Positional {
@@ -76,10 +76,10 @@ struct SampleRange {
   std::size_t last = 0;
 };
 
-/// Whether a text is a sample range A:B with 1 <= A <= B.
+/// Returns whether a text is a sample range A:B with 1 <= A <= B.
 bool is_sample_range(const std::string& text);
 
-/// Values of the arguments, given() by the user or defaults; the parser has checked them against their Kind.
+/// Values of a command's arguments, each given() by the user or a default. The parser has checked each value's Kind.
 class Arguments {
  public:
   bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
@@ -106,7 +106,7 @@ class Arguments {
   std::vector<std::string> positionals_;
 };
 
-/// Errors: one of the flags was given by the user; the message is the flag and `why`.
+/// Returns an error if the user gave one of the flags; the message is the flag and `why`.
 Result<void> refuse(const Arguments& arguments, std::initializer_list<const char*> flags, const std::string& why);
 
 /// A command: its words (`learn arx`), arguments, flags and function. An error of `run` ends the program with exit
@@ -120,26 +120,26 @@ struct Command {
   std::function<Result<void>(const Arguments&, Terminal&)> run;
 };
 
-/// All commands, in the order of the help and the manual.
+/// Returns all commands, in the order of the help and the manual.
 const std::vector<Command>& commands();
 
 const std::vector<Flag>& common_flags();
 
-/// The program's manual, generated from the table, in the form `markdown` (docs/reference/cli.md), `man`, `bash`, `zsh`
-/// or `fish`; empty for another word.
+/// Returns the program's manual, generated from the table, in the form `markdown` (docs/reference/cli.md), `man`,
+/// `bash`, `zsh` or `fish`; empty for another word.
 std::optional<std::string> manual(const std::string& form);
 
-/// A short text with the first commands to try.
+/// Returns a short text with the first commands to try.
 std::string first_steps();
 
-/// Help for the command or group of commands with these words, else for the program.
+/// Returns the help for the command or group of commands with these words, else for the program.
 std::string help(const std::string& words);
 
 /// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known.
 std::string wrong_words(std::span<const std::string> words);
 
-/// Errors: an output or one of its additional files would overwrite an input; an output's extension belongs to another
-/// kind of file; a file name contains a line break.
+/// Checks file names. Errors: an output or one of its additional files would overwrite an input; an output's extension
+/// belongs to another kind of file; a file name contains a line break.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -101,7 +101,7 @@ void add_flag(Wired& wired, const Flag& flag) {
 
 // Checks flags that are required unless another one is given (Flag::unless), and flags that need another (Flag::with).
 void check_required(const Wired& wired) {
-  // CLI11's search for an option is noexcept and allocates: where memory is short it would end the program.
+  // Looks values up here: CLI11's own search is noexcept and allocates, so where memory is short it ends the program.
   const auto given = [&](const std::string& other) {
     const auto value = wired.values.find(other);
     return value != wired.values.end() ? !value->second.empty() : wired.switches.at(other);
@@ -178,20 +178,20 @@ int run_command(const Wired& wired) {
   if (!outcome) {
     const std::string& message = outcome.error().message;
     terminal.fail(message);
-    // An error that begins with a flag's name is about its value: the command rejected what passed the type check.
+    // An error that begins with a flag's name is about the flag's value, which passed the parser's check.
     return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();
   return flush_output();
 }
 
-// Words before the first flag, joined.
+// Returns the words before the first flag, joined.
 std::string leading(const std::vector<std::string>& words) {
   const auto flag = std::find_if(words.begin(), words.end(), [](const auto& word) { return word.starts_with('-'); });
   return joined({words.begin(), flag}, " ");
 }
 
-// The command or group of commands named by the first words.
+// Returns the command or group of commands named by the first words.
 std::string command_in(const std::vector<std::string>& words) {
   std::string name = leading(words);
   while (!name.empty() && !is_command(name) && !is_group(name)) name.erase(std::min(name.size(), name.rfind(' ')));

@@ -52,12 +52,12 @@ std::string section(const Command& command) {
   return text;
 }
 
-// Number of characters of UTF-8 text.
+// Returns the number of characters of UTF-8 text.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-// An entry with a word or flag on the left and its meaning on the right, in lines of kLineWidth.
+// Formats an entry with a word or flag on the left and its meaning on the right, in lines of kLineWidth.
 std::string entry(const std::string& left, const std::string& right) {
   std::string line = "  " + left, text;
   if (width_of(line) + 2 > kColumn) {
@@ -123,7 +123,7 @@ std::string man_page() {
   return text;
 }
 
-// First words of all commands; if `first` is not empty, the second words of the commands that begin with it.
+// Returns the first words of all commands; if `first` is not empty, the second words of commands that begin with it.
 std::vector<std::string> next_words(const std::string& first) {
   std::vector<std::string> words;
   for (const Command& command : commands()) {
@@ -245,7 +245,7 @@ std::string help(const std::string& words) {
 
 namespace {
 
-// Edit distance of two words (V. I. Levenshtein, 1966).
+// Returns the edit distance of two words (V. I. Levenshtein, 1966).
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -260,7 +260,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// Ends the sentence, with a suggestion where a known word is near enough for a typing error.
+// Returns the end of an error message: a suggestion if a known word differs by few letters, else a full stop.
 std::string nearest(const std::string& word, const std::vector<std::string>& known, const std::string& before) {
   const auto nearer = [&](const std::string& a, const std::string& b) { return distance(word, a) < distance(word, b); };
   const auto best = std::min_element(known.begin(), known.end(), nearer);

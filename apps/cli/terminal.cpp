@@ -107,7 +107,7 @@ void Terminal::finish() {
 void Terminal::fail(std::string_view message) {
   clear_bar();
   std::fprintf(stderr, "wisp: %.*s\n", static_cast<int>(message.size()), message.data());
-  // Results from before the failure are kept: an unstable model is not written, but its report is shown.
+  // The JSON document keeps the results from before the failure.
   add("error", std::string(message));
   finish();
 }

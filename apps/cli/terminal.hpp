@@ -21,7 +21,7 @@ class Terminal {
   /// Draws a progress bar on standard error: `done` in [0, 1], or negative for an unknown length. Only on a terminal.
   void progress(std::string_view what, double done);
 
-  /// The progress bar as the library's callback.
+  /// Returns the progress bar as the library's callback.
   Progress progress();
 
   /// Shows a report as the command's result: as text immediately, or as part of the JSON document at the end. Its
@@ -31,7 +31,7 @@ class Terminal {
   /// Adds a figure to the JSON result only.
   void add(std::string id, ReportValue value);
 
-  /// Adds a table to the JSON result only. If the result has a table of that id, its rows are appended to it.
+  /// Adds a table to the JSON result only. Rows are appended to a table of the same id, if there is one.
   void add(ReportTable table);
 
   /// Prints the verdict of an intermediate result, for people.
@@ -43,8 +43,8 @@ class Terminal {
   /// Prints one line of the result for people; silent with --json.
   void say(std::string_view text);
 
-  /// The result so far, which finish() prints as one JSON document with --json. `wisp demo` takes out the result of
-  /// each step and puts it back as a part of the whole.
+  /// Returns the result so far, which finish() prints as one JSON document with --json. `wisp demo` takes out the
+  /// result of each step and puts it back as a part of the whole.
   Report& result() { return result_; }
 
   /// Ends the progress bar, and prints the JSON document with --json.

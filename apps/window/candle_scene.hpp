@@ -22,14 +22,14 @@ inline constexpr int kPolylinePoints = 96;
 inline constexpr float kTrackStep = 1.0F / 120;
 inline constexpr std::size_t kTrackSteps = 90;
 
-// Speed of a gust along a row of candles, flame heights per second (real breath is too fast to be seen), and its loss
-// per height.
+// Speed of a gust along a row of candles, flame heights per second (slower than real breath, so that gusts are seen to
+// move), and the share of the wind lost per flame height.
 inline constexpr float kGustSpeed = 14;
 inline constexpr float kGustLoss = 0.03F;
 
 // Wind on a candle that moves, or from a pointer that moves, at one flame height per second.
 inline constexpr float kWindPerSpeed = 0.11F;
-inline constexpr float kPointerReach = 0.9F;  // flame heights
+inline constexpr float kPointerReach = 0.9F;  // radius of the wind from the pointer, flame heights
 inline constexpr float kMaxPointerWind = 1.1F;
 
 // Seconds in which gas rises by one flame height.
@@ -42,7 +42,7 @@ inline constexpr float kClickPixels = 5;
 
 class CandleScene {
  public:
-  /// Errors: those of Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
+  /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
   static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed) {
     const auto round = in_the_round(model);
     auto bank =
@@ -76,7 +76,7 @@ class CandleScene {
   }
 
   /// Returns a wind that extinguishes a candle of this model.
-  // Well above the level of extinction, so that the flame is extinguished during the puff.
+  // The wind is well above the level of extinction, so that the flame is extinguished during a puff.
   float strong() const { return 1.7F * level_; }
 
   void pointer_moved(Point pixel) {
@@ -84,7 +84,7 @@ class CandleScene {
     pointer_ = pixel;
     if (turning_) return wake_.leave();
     if (carried_ && std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;
-    // A carried candle makes its own wind.
+    // The wind on a carried candle comes from the candle's own motion.
     if (carried_) {
       wake_.leave();
     } else {
@@ -147,7 +147,7 @@ class CandleScene {
 
   void draw(Image& image) {
     std::vector<std::vector<Point>> outlines;
-    outlines.reserve(candles_.size());  // flames refer to its elements
+    outlines.reserve(candles_.size());  // never reallocated, as `flames` refers to its elements
     std::vector<int> order(candles_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
@@ -176,7 +176,7 @@ class CandleScene {
 
   bool goes_out() const { return bank_.extinction() != nullptr; }
 
-  /// Returns the x of the first candle's tip relative to its base, in flame heights; 0 if it is out.
+  /// Returns the x of the first candle's tip relative to its base, in flame heights; 0 if the candle is out.
   float tip() const {
     const Candle& candle = candles_.front();
     if (!state_of(candle).lit) return 0;
@@ -330,7 +330,7 @@ class CandleScene {
   int width_ = 1280, height_ = 800;
   float unit_ = 300;
   float wind_ = 0, away_ = 0;
-  float azimuth_ = 0;  // azimuth of the viewer
+  float azimuth_ = 0;  // of the viewer, radians
   bool turning_ = false;
   std::vector<float> winds_;  // past winds of the scene, newest first, one per kTrackStep
   float passed_ = 0;          // elapsed seconds of the current kTrackStep

@@ -53,7 +53,7 @@ struct PointerMoved {
   Point at{};
 };
 
-/// The pointer's button, or a finger, went down or up at that position.
+/// The pointer's button, or a finger, went down or up. The position is as in PointerMoved.
 struct PointerTurned {
   Point at{};
   bool down = true;
@@ -70,7 +70,7 @@ struct Closed {};
 
 using Event = std::variant<KeyTurned, PointerMoved, PointerTurned, FileDropped, MicrophoneLost, Closed>;
 
-/// Exponential approach from `from` to `to` after `seconds`, with time constant `within`.
+/// Returns the exponential approach from `from` to `to` after `seconds`, with time constant `within`.
 inline float towards(float from, float to, float seconds, float within) {
   return to + (from - to) * std::exp(-seconds / within);
 }
@@ -109,7 +109,7 @@ class KeyWind {
   float puff_age_ = 10;
 };
 
-/// The wind behind a moving pointer: the pointer's own speed, decaying when it rests. Lengths are in the scene's unit.
+/// The wind behind a moving pointer: the pointer's own speed, decaying at rest. Lengths are in the scene's unit.
 class PointerWake {
  public:
   void move(Point at) {
@@ -121,7 +121,7 @@ class PointerWake {
   /// Ends the pointer's motion; its wake decays.
   void leave() { last_.reset(); }
 
-  /// Advances the wake: it follows the pointer at once and decays slowly.
+  /// Advances the wake, which follows the pointer at once and decays slowly.
   void advance(float seconds) {
     if (seconds <= 0) return;
     const auto drag = [&](float speed, float pulled) {
@@ -156,7 +156,7 @@ inline constexpr double kWindRate = 120;
 /// Estimates the wind in a stream of sound.
 class Ear {
  public:
-  /// Errors: those of WindLevel::create().
+  /// Starts listening. Errors: those of WindLevel::create().
   Result<void> open(const SoundFormat& format) {
     auto level = WindLevel::create(format, {.frame_rate_hz = kWindRate});
     if (!level) return level.error();
@@ -194,7 +194,7 @@ class Ear {
 /// A sound file in place of a microphone: its samples arrive in real time, then a second of silence that ends its wind.
 class SoundFile {
  public:
-  /// Errors: those of stream_sound(), or a file without sound.
+  /// Reads a file. Errors: those of stream_sound(), or a file without sound.
   static Result<SoundFile> open(const std::string& path) {
     SoundFile file;
     const auto sound = stream_sound(path, [&](const SoundInfo& info, std::span<const float> samples) {

@@ -22,20 +22,20 @@ namespace wisp::window {
 // Height of the visible room, metres.
 inline constexpr float kViewHeight = 1.5F;
 inline constexpr float kDepth = 0.55F;       // leaves fall within this distance before and behind the middle
-inline constexpr float kAbove = 0.12F;       // restart height above the picture's upper edge
+inline constexpr float kAbove = 0.12F;       // least restart height above the picture's upper edge
 inline constexpr float kShownLarger = 1.5F;  // scale factor of display: a leaf in a room is a few pixels
 inline constexpr float kLift = 0.006F;       // height above the floor, so that the floor does not cut a resting leaf
 
 inline constexpr float kGustMetres = 1.6F;  // metres per second at wind 1
 
 inline constexpr float kPointerMetres = 0.22F;  // radius of the pointer's wind, metres
-inline constexpr float kMaxWake = 2.5F;         // metres per second
-inline constexpr float kKicking = 0.55F;        // least wind that lifts a resting leaf, metres per second
-inline constexpr int kMaxKicks = 40;            // leaves lifted per frame, since each searches all segments
-inline constexpr float kMinRest = 1.5F;         // least seconds on the ground before a restart
-inline constexpr float kMoreRest = 4;           // largest random addition to kMinRest, seconds
-inline constexpr float kFade = 0.6F;            // seconds of fading out before a restart
-inline constexpr float kCatch = 0.25F;          // seconds of fading in
+inline constexpr float kMaxWake = 2.5F;         // maximum wind from the pointer, metres per second
+inline constexpr float kKicking = 0.55F;  // wind that lifts a resting leaf, metres per second, × 0.8 … 1.5 by leaf
+inline constexpr int kMaxKicks = 40;      // maximum leaves lifted per frame, as each searches the whole chain
+inline constexpr float kMinRest = 1.5F;   // least seconds on the ground before a restart
+inline constexpr float kMoreRest = 4;     // largest random addition to kMinRest, seconds
+inline constexpr float kFade = 0.6F;      // seconds of fading out before a restart
+inline constexpr float kCatch = 0.25F;    // seconds of fading in
 
 inline float room_width(int width, int height) {
   return kViewHeight * static_cast<float>(width) / static_cast<float>(height);
@@ -43,7 +43,7 @@ inline float room_width(int width, int height) {
 
 class LeafScene {
  public:
-  /// Errors: those of Bank::create(). Precondition: the view is a pose or a position; 1 <= leaves <= kMaxLeaves.
+  /// Errors: as Bank::create(). Precondition: the view is a pose or a position; 1 <= leaves <= kMaxLeaves.
   static Result<LeafScene> create(const Model& model, int leaves, std::uint64_t seed) {
     auto bank = Bank::create(model, {.capacity = kMaxLeaves, .seed = seed});
     if (!bank) return bank.error();

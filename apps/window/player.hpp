@@ -22,7 +22,7 @@
 
 namespace wisp::window {
 
-/// A scene, for models that several scenes can show.
+/// Scenes that a user can request.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
 struct PlayerOptions {
@@ -45,7 +45,7 @@ inline constexpr int kMin = 64, kMax = 8192;
 inline constexpr int kCake = 7;
 inline constexpr int kLeaves = 60;
 inline constexpr double kNoticeSeconds = 6;
-inline constexpr std::size_t kNoticeBytes = 76;  // bytes per line
+inline constexpr std::size_t kNoticeBytes = 76;  // maximum bytes per line of a notice
 
 // Strength of the space bar's puff in scenes without candles.
 inline constexpr float kPuff = 2;
@@ -79,7 +79,7 @@ inline bool is_body(const Model& model) {
 
 class Player {
  public:
-  /// Errors: the first model cannot be read, or its view does not fit the requested scene.
+  /// Creates a player. Errors: the first model cannot be read, or its view does not fit the requested scene.
   static Result<Player> create(const PlayerOptions& options) {
     Player player(options);
     player.resize(options.width, options.height);
@@ -88,7 +88,7 @@ class Player {
     return player;
   }
 
-  /// Returns the ear. The sound source opens, feeds and closes it.
+  /// Returns the estimator of wind from sound, which the source of sound opens, feeds and closes.
   Ear& ear() { return ear_; }
 
   void handle(const Event& event) {
@@ -320,7 +320,7 @@ class Player {
     model_index_ = (model_index_ + 1) % options_.models.size();
     drop(options_.models[model_index_].string());
   }
-  // For a model that cannot be shown, displays a notice and keeps the scene.
+  // Loads a model. If it cannot be shown, displays a notice and keeps the scene.
   void drop(const std::string& path) {
     const std::string file = std::filesystem::path(path).filename().string();
     if (auto ok = load(path, {}); !ok) {

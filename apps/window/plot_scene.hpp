@@ -16,14 +16,14 @@
 namespace wisp::window {
 
 inline constexpr std::size_t kKept = 480;      // values per curve, one per frame
-inline constexpr std::size_t kMaxCurves = 12;  // more could not be distinguished
+inline constexpr std::size_t kMaxCurves = 12;  // inputs and outputs beyond these are not drawn
 inline constexpr Colour kPlotGround{16, 17, 22};
 inline constexpr std::array<Colour, 6> kPlotPalette{
     {{86, 180, 233}, {240, 228, 66}, {0, 158, 115}, {230, 159, 0}, {204, 121, 167}, {213, 94, 0}}};
 
 class PlotScene {
  public:
-  /// Errors: those of Bank::create().
+  /// Creates a scene. Errors: those of Bank::create().
   static Result<PlotScene> create(const Model& model, std::uint64_t seed) {
     auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
     if (!bank) return bank.error();

@@ -77,10 +77,10 @@ class Microphone {
   bool is(SDL_AudioDeviceID device) const { return device_ != 0 && device_ == device; }
   SDL_AudioDeviceID device() const { return device_; }
 
-  // Passes on the samples since the last call.
+  // Passes the samples since the last call to the ear.
   void pass_on(Ear& ear) {
     if (device_ == 0) return;
-    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // half a second; if more waits, the window slept
+    constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;  // half a second; more comes from a pause of the window
     block_.resize(static_cast<std::size_t>(kSoundBlock) * channels_);
     if (SDL_GetQueuedAudioSize(device_) > kMaxWaitingBytes) SDL_ClearQueuedAudio(device_);
     for (;;) {
@@ -102,7 +102,7 @@ class Microphone {
   std::vector<float> block_;
 };
 
-// Larger pictures are drawn at this size and scaled up by the window, so that a frame is ready in time.
+// Pictures above kMaxPixels are drawn smaller and scaled up by the window. Slow frames lower the limit to kMinPixels.
 constexpr double kMaxPixels = 1280.0 * 800.0;
 constexpr double kMinPixels = 240'000;
 constexpr double kBudgetMs = 13;  // time for step and picture, of 16.7 ms per frame
@@ -206,7 +206,7 @@ class Window {
  private:
   std::string error(const char* what) const { return std::string(what) + ": " + SDL_GetError(); }
 
-  // Fits the picture to the window, within what can be drawn in time.
+  // Fits the picture to the window, with at most max_pixels_.
   void fit_picture() {
     int width = 0, height = 0;
     if (SDL_GetRendererOutputSize(renderer_.get(), &width, &height) != 0 || width < 1 || height < 1) return;
@@ -289,7 +289,7 @@ class Window {
     }
   }
 
-  // A script's events pass through SDL's queue, like a person's.
+  // Pushes a script's event to SDL's queue, through which a person's events come too.
   void push(const Event& event) const {
     SDL_Event sdl{};
     int width = 1, height = 1;

@@ -27,7 +27,7 @@ struct PlayOptions {
   std::optional<std::filesystem::path> pictures{};  ///< folder for pictures
   int frames = 0;          ///< without a display: number of frames of 1/60 s; in a window 0: until it is closed
   bool microphone = true;  ///< open it at the window's start
-  const volatile int* interrupted = nullptr;  ///< not null: end after the current frame once it is not 0
+  const volatile int* interrupted = nullptr;  ///< once its value is not 0, the play ends after the current frame
 };
 
 struct PlayReport {
@@ -52,7 +52,7 @@ inline constexpr int kFrameRate = 60;
 /// Samples per microphone block: 11 ms at 48 kHz.
 inline constexpr int kSoundBlock = 512;
 
-/// Saves the frame as NAME.png in the folder for pictures.
+/// A script's request to save the current frame as NAME.png in the folder for pictures.
 struct PictureTaken {
   std::string name;
 };

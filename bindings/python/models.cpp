@@ -40,7 +40,7 @@ const char* word_of(const View& view) {
                                                              : 0];
 }
 
-// The ARX models of all modes.
+// Returns the ARX models of all modes.
 std::vector<ArxModel> arx_of(const Model& model) {
   if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) return {*arx};
   std::vector<ArxModel> modes;
@@ -51,7 +51,7 @@ std::vector<ArxModel> arx_of(const Model& model) {
   throw py::attribute_error("the model is a chain of segments, which has no coefficients");
 }
 
-// Dense coefficients [mode, if switched][lag][output][column]; the columns are outputs for A, inputs for B.
+// Returns dense coefficients [mode, if switched][lag][output][column]; columns are outputs for A, inputs for B.
 py::array_t<double> coefficients(const Model& model, bool of_inputs) {
   const auto modes = arx_of(model);
   const int outputs = modes[0].orders.outputs(), columns = of_inputs ? modes[0].orders.inputs() : outputs;

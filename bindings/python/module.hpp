@@ -82,10 +82,10 @@ class Watch {
   bool raised_ = false;
 };
 
-/// Documentation of a field TYPE.FIELD from the library's headers; "" where there is none. field_docs.py extracts it.
+/// Returns the documentation of a field TYPE.FIELD, which field_docs.py extracts from the headers; "" if it has none.
 const char* doc_of(std::string_view type, std::string_view field);
 
-/// Makes a T with each keyword as a field. An unknown keyword or an unsuitable value is a TypeError that names it.
+/// Makes a T whose fields are set by keywords. An unknown keyword or an unsuitable value is a TypeError that names it.
 template <class T>
 T from_keywords(const py::kwargs& fields) {
   T made;

@@ -36,7 +36,7 @@ Recording make(double rate_hz, const py::object& outputs, const py::object& inpu
   return recording;
 }
 
-/// The samples themselves, without a copy; the array keeps the recording alive.
+/// Returns a channel's samples, without a copy; the array keeps the recording alive.
 py::array column(const py::object& self, const std::string& name) {
   auto& recording = self.cast<Recording&>();
   const auto found = find_channel(recording, name);

@@ -309,7 +309,7 @@ namespace Wisp
         public Dynamics Dynamics { get { return (Dynamics)facts.Dynamics; } }
         public string Name { get { return Native.Text(Native.wisp_model_name(Handle)); } }
 
-        /// <summary>Reason of the verdict. Program: what wrote the file. Sources: the training recordings.</summary>
+        /// <summary>Reason of the verdict; program that wrote the file; recordings that the model learned from.</summary>
         public string Reason { get { return Native.Text(Origin().Reason); } }
         public string Program { get { return Native.Text(Origin().Program); } }
         public string[] Sources()
@@ -377,7 +377,7 @@ namespace Wisp
         public int Segment, Step, Mode;
         /// <summary>Over the last step: metres and radians a second, z up.</summary>
         public float VelocityX, VelocityY, VelocityZ, SpinX, SpinY, SpinZ;
-        /// <summary>Whether it rests on the ground; whether it touched it in the last Step or Advance.</summary>
+        /// <summary>Lies: at rest on the ground. Landed: touched the ground in the last Step or Advance.</summary>
         public bool Lies, Landed;
     }
 
@@ -508,7 +508,7 @@ namespace Wisp
 
         public bool IsLit(ulong instance) { return Flame(instance).Lit; }
 
-        /// <summary>Sizes from 0 to 1 per slot; outlines already include them.</summary>
+        /// <summary>Writes the flame's size of each slot, 0 to 1; outlines already include it.</summary>
         public void FlameSizes(float[] values) { Native.Check(Native.wisp_bank_flame_sizes(handle, values, Native.Count(values))); }
 
         public void Relight(ulong instance) { Native.Check(Native.wisp_bank_relight(handle, instance)); }
@@ -681,7 +681,7 @@ namespace Wisp
     /// <summary>The role of a channel.</summary>
     public enum Role { Input = 0, Output = 1, Motion = 2 }
 
-    /// <summary>The recipe, as in wisp.h.</summary>
+    /// <summary>Kind of model to learn, as in wisp.h.</summary>
     public enum Recipe { Arx = 1, Outline = 2, Flame = 3, Chain = 4, Leaf = 5, Flicker = 6 }
 
     /// <summary>A recording: channels of one rate and length. NaN is a missing sample.</summary>

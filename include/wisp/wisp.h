@@ -63,7 +63,7 @@ enum {
   WISP_NO_INSTANCE_LEFT = 3, /* the bank is full */
   WISP_NOT_ALIVE = 4,        /* the instance has ended, or never was */
   WISP_NO_MEMORY = 5,
-  WISP_STOPPED = 6 /* a wisp_progress requested it */
+  WISP_STOPPED = 6 /* a wisp_progress callback returned 0 */
 };
 
 /* Returns one sentence about this thread's last failure; "" before the first. Valid until its next failure. */
@@ -73,15 +73,15 @@ WISP_API const char* wisp_last_error(void);
 
 typedef struct wisp_model wisp_model;
 
-/* Reads a model from the bytes of a .wisp file; they are not needed afterwards. Sets *model.
- * Fails with WISP_BAD_DATA if they are not a complete, valid model of a known version. */
+/* Reads a model from the bytes of a .wisp file, which are not needed afterwards. Sets *model.
+ * Fails with WISP_BAD_DATA if the bytes are not a complete, valid model of a known version. */
 WISP_API wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model);
 
-/* Frees a model; banks made from it stay valid. NULL is allowed. */
+/* Frees a model; banks made from the model stay valid. NULL is allowed. */
 WISP_API void wisp_model_free(wisp_model* model);
 
-/* Creates the three-dimensional body of a flame, by rotational symmetry, as a separate model. Its wind is two inputs, x
- * to the right of the camera that filmed it and z towards it. WISP_BAD_ARGUMENT if the model cannot be made a body. */
+/* Creates the three-dimensional body of a flame, by rotational symmetry, as a separate model. Its wind is two inputs: x
+ * to the right of the camera that filmed the flame, z towards the camera. WISP_BAD_ARGUMENT if that is impossible. */
 WISP_API wisp_status wisp_model_in_the_round(const wisp_model* model, wisp_model** round);
 
 /* Dynamics of the outputs. */
@@ -113,14 +113,14 @@ typedef struct wisp_model_facts {
   int64_t operations_per_frame;    /* all arithmetic, including noise and a polyline of 32 points. Both counts are as
                                       stored in the file; 0: not stored */
   double blow_out_level;   /* least wind that blows an instance out, in the unit of its input; 0: no wind does */
-  double blow_out_seconds; /* duration until it is out at that wind; stronger wind takes less */
+  double blow_out_seconds; /* duration until the flame is out at that wind; stronger wind takes less */
   uint32_t dynamics;       /* one of WISP_DYNAMICS_* */
   uint32_t view;           /* WISP_VIEW_PLAIN, WISP_VIEW_OUTLINE, WISP_VIEW_POSE or WISP_VIEW_POSITION */
   double half_width;       /* metres along the first axis of a body with pose, a leaf's midrib; 0: unknown */
   double half_length;      /* metres along its second axis; 0: unknown */
   double blow_out_haste;   /* the duration at twice the level is blow_out_seconds / (1 + blow_out_haste) */
   double blow_out_recovery_seconds; /* time below the level until full recovery */
-  uint32_t blow_out_input;          /* index of the input that blows it out */
+  uint32_t blow_out_input;          /* index of the input that blows instances out */
   uint32_t reserved_2;
 } wisp_model_facts;
 
@@ -134,7 +134,7 @@ typedef struct wisp_channel {
   const char* unit;
   double lowest;     /* range in training */
   double highest;    /* inputs, and outputs except a chain's, are clamped to that range extended by half its width */
-  uint32_t even_odd; /* for inputs: 1 if even and odd functions of it are the regressors */
+  uint32_t even_odd; /* 1 if an input enters by regressors that are even and odd functions of the input */
   uint32_t reserved2;
 } wisp_channel;
 
@@ -154,8 +154,8 @@ typedef struct wisp_provenance {
   uint32_t figures;
   uint32_t usable; /* 1 if learning found the model fit for use */
   uint32_t reserved;
-  const char* program; /* name and version of the program that wrote it */
-  const char* reason;  /* reason why it is fit for use, or not */
+  const char* program; /* name and version of the program that wrote the model */
+  const char* reason;  /* reason why the model is fit for use, or not */
 } wisp_provenance;
 
 /* A named fact: an option given to the learner. */
@@ -216,7 +216,7 @@ WISP_API wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_fa
 WISP_API wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count);
 WISP_API wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count);
 
-/* Reads mode and number of steps of each segment: segments. Either pointer may be NULL. */
+/* Reads mode and number of steps of each segment, wisp_chain_facts.segments values each. Either pointer may be NULL. */
 WISP_API wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count);
 
 /* ---- Banks: instances of one model, stepped together ---- */
@@ -279,7 +279,7 @@ WISP_API wisp_status wisp_bank_end(wisp_bank* bank, wisp_instance instance);
 /* Returns 1 if the instance lives in this bank, else 0. */
 WISP_API int32_t wisp_bank_alive(const wisp_bank* bank, wisp_instance instance);
 
-/* Returns the instance in a slot; WISP_NO_INSTANCE if it is empty. */
+/* Returns the instance in a slot; WISP_NO_INSTANCE for an empty slot. */
 WISP_API wisp_instance wisp_bank_at(const wisp_bank* bank, uint32_t slot);
 
 /* Set the inputs from the next step on, in their units: of all (slots * inputs), equal for all (inputs), of one
@@ -293,7 +293,7 @@ WISP_API wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instanc
  * always takes the likeliest mode and its best-joining segment, other scales change nothing. */
 WISP_API wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
 
-/* Reads the current scale. */
+/* Reads the current scale of the residual noise. */
 WISP_API wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
 
 /* Makes one step of the model, whatever the time. */
@@ -342,9 +342,9 @@ WISP_API wisp_status wisp_ring_mesh(const float* rings, uint32_t count, uint32_t
                                     size_t stride);
 WISP_API wisp_status wisp_ring_triangles(uint32_t rings, uint32_t segments, uint32_t* indices, size_t count);
 
-/* Whether an instance burns. In a model with a blow_out_level, wind that is too strong for too long extinguishes it,
- * until it is relit. Outputs and outlines then shrink to 0; for smoke and ember there is the time since the event, in
- * nanoseconds of the displayed state, or WISP_NEVER. An outline also has its light, which is 0 for other views. */
+/* State of an instance's flame. In a model with a blow_out_level, wind that is too strong for too long extinguishes the
+ * instance, until it is relit; outputs and outlines then shrink to 0. Times since these events, for smoke and ember,
+ * are nanoseconds up to the displayed state, or WISP_NEVER. Light is that of an outline, and 0 for other views. */
 #define WISP_WENT_OUT 1u
 #define WISP_RELIT 2u
 #define WISP_NEVER INT64_MAX
@@ -356,13 +356,13 @@ typedef struct wisp_flame_state {
   int64_t since_lit; /* since it was last relit; WISP_NEVER if never since spawned */
   int64_t since_out; /* since it was last extinguished */
   float light[3];    /* position: centroid of its outline, x, y, and z of a body */
-  float intensity;   /* area relative to that at rest */
+  float intensity;   /* area relative to the area at rest */
   float kelvin;      /* colour temperature: 1900 at rest, times the 16th root of the intensity */
 } wisp_flame_state;
 
 WISP_API wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state);
 
-/* Reads the flame_size of all: slots. */
+/* Reads the flame_size of every slot: slots values. */
 WISP_API wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count);
 
 /* Relight an extinguished instance, which grows from rest, or extinguish a burning one, whatever the wind; no effect on
@@ -400,7 +400,7 @@ typedef struct wisp_body {
  * WISP_BAD_ARGUMENT if a number is not within +-1e6, or the orientation's norm is below 0.001. */
 WISP_API wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
 
-/* Position that a body shall reach, and when. */
+/* Position that a body is to reach, and the time until then. */
 typedef struct wisp_target {
   uint32_t size;       /* sizeof(wisp_target), set by the caller */
   float position[3];   /* in the world, metres */
@@ -426,7 +426,7 @@ typedef struct wisp_chain_settings {
   float ground;
 } wisp_chain_settings;
 
-/* Reads the current settings. */
+/* Reads the current height of the ground. */
 WISP_API wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
 
 /* Reset one instance, or all instances and the time passed since the last step, to the state at spawning, lit. */
@@ -434,7 +434,7 @@ WISP_API wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance ins
 WISP_API wisp_status wisp_bank_reset(wisp_bank* bank);
 
 /* Save the whole state as bytes, and restore it: the bank continues with the same bits. The same model and capacity are
- * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version: only then it allocates. */
+ * needed. WISP_BAD_DATA if the bytes are damaged or of another model, capacity or version; only this allocates. */
 WISP_API wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
 WISP_API wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
 WISP_API wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
@@ -448,10 +448,10 @@ typedef struct wisp_wind_options {
   uint32_t channels;               /* interleaved channels of the sound, 1 to 8; 0: 1 */
   double rate_hz;                  /* samples per second of each channel, 8000 to 192000 */
   double frame_rate_hz;            /* frames of wind per second, 1 to 1000: best the model's rate */
-  double exponent;                 /* exponent of wind speed as a power of the sound's RMS, 0.1 to 2 */
+  double exponent;                 /* exponent of wind speed as a power of the wind band's RMS, 0.1 to 2 */
   double smoothing_seconds;        /* averaging time of the level, 0 to 1 */
   double floor_rise_db_per_second; /* largest growth rate of the background estimate, 0 to 60 */
-  double first_gust_rms;           /* initial RMS of the wind band at wind 1, full scale 1, 1e-6 to 8 */
+  double first_gust_rms;           /* initial RMS of the wind band (100 to 900 Hz) at wind 1, full scale 1, 1e-6 to 8 */
 } wisp_wind_options;
 
 /* Returns the default options: one channel of 44100 Hz, 60 frames per second (reasons: docs/explanation/wind.md). */
@@ -464,15 +464,15 @@ WISP_API wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_win
 /* Frees an estimator. NULL is allowed. */
 WISP_API void wisp_wind_free(wisp_wind* wind);
 
-/* The wind during one frame. Since it comes in arrays, fields will never be added. Amplitudes are root mean squares
+/* The wind during one frame. Frames come in arrays, so fields will never be added. Amplitudes are root mean squares
  * with full scale 1. */
 typedef struct wisp_wind_frame {
   int64_t index;    /* frame k covers the sound from k / frame rate to (k + 1) / frame rate */
   float rms;        /* RMS of all samples in the frame */
-  float rms_clean;  /* rms minus the background's, at least 0 */
-  float level;      /* RMS of the wind band, minus the background in power */
+  float rms_clean;  /* rms minus the background's RMS, at least 0 */
+  float level;      /* RMS of the wind band (100 to 900 Hz, whitened) after its background's power is subtracted */
   float speed;      /* proportional to wind speed; 1 lies between soft breath and hard blowing */
-  float wind;       /* a model's input: speed if it sounds like blowing, 0 if nothing is heard */
+  float wind;       /* a model's input: speed while the sound is like blowing, 0 if nothing is heard */
   float confidence; /* 0 to 1: that this is blowing, not talking */
   float background; /* RMS of the background as estimated at this frame */
   float clipped;    /* share of samples at full scale, 0 to 1 */
@@ -495,12 +495,12 @@ WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* fr
 
 /* Requests of a guided calibration. The room needs none. */
 #define WISP_WIND_BREATHE_GENTLY 0u /* wind that leans a flame without extinguishing it */
-#define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes it */
+#define WISP_WIND_BLOW_HARD 1u      /* wind that extinguishes a flame */
 
-/* Uses the next seconds of sound, clamped to 0.5 to 30, for the requested calibration; NaN is WISP_BAD_ARGUMENT. */
+/* Calibrates as requested by the sound of the next `seconds`, clamped to 0.5 to 30. NaN is WISP_BAD_ARGUMENT. */
 WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds);
 
-/* Returns 1 while that time is still running, else 0. */
+/* Returns 1 while a calibration's seconds are still running, else 0. */
 WISP_API int32_t wisp_wind_calibrating(const wisp_wind* wind);
 
 /* Returns 1 if the last calibration has ended and heard at least 0.1 s of blowing, else 0. */
@@ -517,7 +517,7 @@ typedef struct wisp_wind_calibration {
   float background_rms;   /* RMS without wind, 0 to 8 */
   float background_level; /* RMS of the wind band, without wind, 0 to 8 */
   float floor_db;         /* level without wind, dB of full scale, -200 to 40 */
-  float gust_rms;         /* RMS of the band at wind 1, 0 to 8; 0: unknown */
+  float gust_rms;         /* RMS of the wind band at wind 1, 0 to 8; 0: unknown */
 } wisp_wind_calibration;
 
 WISP_API wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration);
@@ -585,9 +585,9 @@ typedef struct wisp_recipe {
   int32_t na;        /* ARX: number of lags of outputs */
   int32_t nb;        /* ARX: number of lags of inputs */
   int32_t nk;        /* ARX: delay, samples; -1: estimated for each pair of channels */
-  int32_t modes;     /* number of modes of a chain or a flicker; 0: the recipe's default */
-  const char* event; /* event of a chain, such as "min:horizontal_speed"; NULL: the recipe's default */
-  const char* name;  /* name of the model; NULL: the recipe's default */
+  int32_t modes;     /* number of modes of a chain or a flicker; 0: the default of the kind */
+  const char* event; /* event that cuts a chain, such as "min:horizontal_speed"; NULL: the default of the kind */
+  const char* name;  /* name of the model; NULL: the default of the kind */
 } wisp_recipe;
 
 /* Returns the library's default recipe of that kind. Learning chooses the settings that it leaves open. */
@@ -601,7 +601,7 @@ typedef struct wisp_fit wisp_fit;
 
 /* Learns one model from recordings. `progress` may be NULL. Sets *fit. A bad model is no failure: wisp_fit_usable()
  * reports it. Fails with WISP_BAD_DATA if the recordings cannot be learned from, with WISP_STOPPED if stopped, with
- * WISP_BAD_ARGUMENT for an unknown kind of recipe or event. */
+ * WISP_BAD_ARGUMENT for an unknown kind or event, or a number out of range. */
 WISP_API wisp_status wisp_learn(const wisp_recording* const* recordings, size_t count, const wisp_recipe* recipe,
                                 wisp_progress progress, void* of, wisp_fit** fit);
 

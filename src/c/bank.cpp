@@ -1,4 +1,4 @@
-// Banks: instances of one model, stepped together; for a chain also their segments, placement, steering and ground.
+// C interface of banks: stepping, outputs, outlines, rings, extinction, saved state, and the control of chains.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ bool has_outline(const char* function, const wisp_bank* bank) {
   return false;
 }
 
-// A model without extinction always burns.
+// Returns an instance's flame state, nothing if it is not alive. Without a rule of extinction an instance always burns.
 std::optional<wisp::LitState> state_of(const wisp_bank* bank, InstanceId id) {
   if (const wisp::ExtinctionFacet* extinction = bank->bank.extinction()) return extinction->state_of(id);
   return bank->bank.valid(id) ? std::optional<wisp::LitState>(wisp::LitState{}) : std::nullopt;

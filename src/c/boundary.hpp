@@ -12,7 +12,7 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/wisp.h"
 
-// The format attribute for C99 strings, which MinGW's own printf does not support.
+// Attribute that checks format strings by C99's rules, which MinGW's default, its own printf, does not follow.
 #if defined(__MINGW32__) && !defined(__clang__)
 #define WISP_FORMAT __attribute__((format(gnu_printf, 2, 3)))
 #elif defined(__GNUC__)
@@ -96,7 +96,7 @@ void take_in(const Struct* given, Struct& known) {
   std::memcpy(&known, given, std::min<std::size_t>(given->size, sizeof known));
 }
 
-/// Fills an array; its count must match.
+/// Fills an array, whose count must equal the number of values.
 template <class Values, class Value>
 wisp_status hand_out_values(const char* function, const Values& from, Value* values, std::size_t count) {
   if (!buffer_is_right(function, values, count, from.size())) return WISP_BAD_ARGUMENT;

@@ -1,4 +1,4 @@
-// Models: reading from bytes, and their properties.
+// C interface of models: reading from bytes, channels, dynamics, and the record of a model's making.
 
 #include <type_traits>
 #include <utility>
@@ -58,7 +58,7 @@ std::uint32_t kind_of(const wisp::ArxModel&) { return WISP_DYNAMICS_ARX; }
 std::uint32_t kind_of(const wisp::ChainModel&) { return WISP_DYNAMICS_CHAIN; }
 std::uint32_t kind_of(const wisp::SwitchedArxModel&) { return WISP_DYNAMICS_SWITCHED; }
 
-// Calls use(dynamics) if the model's dynamics are of that kind, and returns its result.
+// Calls use(dynamics) if the model's dynamics are a `Kind`, and returns the call's status; else fails.
 template <class Kind, class Use>
 wisp_status on_dynamics(const char* function, const wisp_model* model, Use use) {
   if (!model) return null_argument(function);

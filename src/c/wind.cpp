@@ -1,4 +1,4 @@
-// Wind estimated from a microphone.
+// C interface of wind estimated from a microphone's sound.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ wisp_wind_frame frame_of(const wisp::WindFrame& frame) {
           frame.wind,  frame.confidence, frame.background, frame.clipped};
 }
 
-// Converts a few frames at a time, without allocation or reinterpretation of structs.
+// Feeds samples and converts up to 16 frames at a time, without allocation or reinterpretation of structs.
 template <class Sample>
 wisp_status feed(const char* function, wisp_wind* wind, std::span<const Sample> samples, wisp_wind_frame* frames,
                  std::size_t room, std::size_t* taken, std::size_t* made) {

@@ -26,7 +26,7 @@ cairo_status_t append_bytes(void* text, const unsigned char* data, unsigned leng
 
 namespace {
 
-// Length of the UTF-8 sequence that begins the text, or 0 where there is none (RFC 3629).
+// Returns the length of the UTF-8 sequence with which the text begins; 0 if it begins with none (RFC 3629).
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const auto follows = [&](std::size_t k, unsigned low, unsigned high) {
@@ -54,7 +54,7 @@ void choose(cairo_t* context, Font font) {
   cairo_set_font_size(context, font.size);
 }
 
-// The text with every invalid UTF-8 byte replaced by '?': Cairo would stop drawing at it.
+// Returns the text with every invalid UTF-8 byte, at which Cairo would stop drawing, replaced by '?'.
 std::string as_utf8(std::string_view text) {
   std::string clean;
   clean.reserve(text.size());

@@ -21,10 +21,10 @@ using CairoContext = std::unique_ptr<cairo_t, DestroyCairo>;
 using CairoSurface = std::unique_ptr<cairo_surface_t, DestroyCairo>;
 using CairoPattern = std::unique_ptr<cairo_pattern_t, DestroyCairo>;
 
-/// A surface over the image's own pixels, which must neither be freed nor move while the surface exists.
+/// Returns a surface over the image's own pixels, which must neither be freed nor move while the surface exists.
 CairoSurface surface_of(Image& image);
 
-/// A context that draws into the image; the pixels are complete once the context is destroyed.
+/// Returns a context that draws into the image; the pixels are complete once the context is destroyed.
 CairoContext context_of(Image& image);
 
 void set_colour(cairo_t* context, Colour colour);

@@ -26,7 +26,7 @@ const Tone& Tone::get() {
 }
 
 Light emission_of(Colour colour) {
-  // Limited below 1, as white itself would need infinite light.
+  // Linear values are limited to below 1, as white itself would need infinite light.
   const auto emission = [](float linear) { return -std::log1p(-std::min(linear, 0.95F)); };
   const Light light = Tone::get().linear(colour);
   return {emission(light.red), emission(light.green), emission(light.blue)};

@@ -31,7 +31,7 @@ constexpr std::array<double, kShockQuantiles> kNormal{-3.2,    -1.5341, -1.1503,
 
 // The coefficients of a model with one output.
 struct Lamp {
-  std::vector<std::vector<double>> feedback;                      // per mode and lag, with the sign of the prediction
+  std::vector<std::vector<double>> feedback;                      // per mode and lag: weight in the prediction
   std::vector<double> constant, shock;                            // per mode
   std::vector<double> transitions;                                // modes × modes
   std::vector<double> quantiles{kNormal.begin(), kNormal.end()};  // quantiles of the shocks
@@ -199,7 +199,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
   const Shocks shocks = shocks_of(lamp->quantiles);
-  const auto unit = [&](std::size_t mode) { return lamp->shock[mode] * sum_one / shocks.sd; };  // shock unit of a mode
+  const auto unit = [&](std::size_t mode) { return lamp->shock[mode] * sum_one / shocks.sd; };  // weight of a shock
   const auto weight = [&](std::size_t mode, std::size_t column) {
     if (column == 0) return lamp->constant[mode] * sum_one - shocks.mean * unit(mode);
     if (column > lamp->lags) return std::min(65536 * unit(mode), 2147483647.0);

@@ -29,7 +29,7 @@ namespace {
 // Shape of a value, by its number of components.
 enum class Shape { kScalar = 1, kVector2 = 2, kVector3 = 3, kVector4 = 4 };
 
-// glTF 2.0 Specification (ISO/IEC 12113:2022), sections 3.6 and 4.4.
+// Codes of glTF 2.0 (ISO/IEC 12113:2022), sections 3.6 and 4.4.
 constexpr int kFloat = 5126, kShort = 5123, kVertices = 34962, kIndices = 34963, kLinear = 9729, kClamped = 33071;
 constexpr std::uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
@@ -115,7 +115,7 @@ void Buffer::describe(JsonText& json) const {
   json.end();
   if (has_picture()) {
     json.list("images").object().value(accessors_.size() - 1, "bufferView").value("image/png", "mimeType").end().end();
-    // Without mipmaps, which would mix the columns.
+    // Samples without mipmaps, which would mix the texture's columns.
     json.list("samplers").object().value(kLinear, "magFilter").value(kLinear, "minFilter");
     json.value(kClamped, "wrapS").value(kClamped, "wrapT").end().end();
     json.list("textures").object().value(0, "source").value(0, "sampler").end().end();
@@ -190,7 +190,7 @@ Start start_of(const Take& take, std::size_t instance) {
   return {std::max<std::size_t>(1, frame), {radius * std::cos(angle), radius * std::sin(angle)}};
 }
 
-// Returns a unit quaternion, x first, with the sign that is nearer to the previous one.
+// Returns a unit quaternion, x first, with the sign that is nearer to the previous quaternion.
 std::array<float, 4> turn_of(std::span<const float> row, std::span<const float> before) {
   std::array<float, 4> q{row[4], row[5], row[6], row[3]};
   double size = 0, along = 0;
@@ -268,9 +268,9 @@ constexpr std::array kShells{1.0, 0.93, 0.82, 0.66, 0.46, 0.22};
 // A row of vertices made from a ring. Some rows form a drop around the wick below the base, and one closes the tip.
 struct MeshRow {
   int ring = 0;
-  double width = 1;  // width as a share of the ring's
-  double down = 0;   // distance below the ring, in its radii
-  double up = 0;     // distance above it, as a share of the distance to the ring two before
+  double width = 1;  // width as a share of the ring's width
+  double down = 0;   // distance below the ring, in ring radii
+  double up = 0;     // distance above the ring, as a share of the distance to the ring two before
 };
 
 std::vector<MeshRow> mesh_rows() {
@@ -300,7 +300,7 @@ std::vector<float> mesh_vertices(const std::vector<float>& rings) {
 
 constexpr double kFlameDrop = 0.12;  // lower edge of the picture, as a share of the distance from base to tip
 
-// Texture coordinates: a column per shell, and the height of a vertex row above the base in the outline at rest.
+// Returns texture coordinates: the shell's column, and a row's height above the base in the outline at rest.
 std::vector<float> mesh_coordinates(const std::vector<float>& rest) {
   const double base = rest[1], tip = std::max(rest[(kRings - 1) * kRingNumbers + 1] - base, 1e-6);
   std::vector<float> coordinates;
@@ -387,7 +387,7 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
     json.object().value("instance " + std::to_string(k), "name").value(0, "mesh");
     if (document.apart > 0) json.values(std::array{document.apart * static_cast<double>(k), 0.0, 0.0}, "translation");
     if (take.travel.size() == 1) {
-      // Rounded to the precision of the keys: further digits depend on the C library.
+      // Rounds to the precision of the keys: further digits depend on the C library.
       const auto [x, y, z] = take.travel[k];
       const std::array travel{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
       json.object("extras").values(travel, "travel").end();

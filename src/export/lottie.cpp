@@ -16,7 +16,7 @@ namespace {
 using namespace exporting;
 
 constexpr int kShapeLayer = 4;
-constexpr double kDrop = 0.6;  // tangents of the drop below the base, in units of its width
+constexpr double kDrop = 0.6;  // length of the tangents of the drop below the base, as a share of the base's width
 
 // Position and scale of the outline in the picture.
 struct Frame {
@@ -45,7 +45,7 @@ Frame frame_of(const Take& take, int height) {
   return frame;
 }
 
-// One path: vertices with their incoming and outgoing tangents.
+// Writes one path: vertices with their incoming and outgoing tangents.
 void write_path(const std::vector<double>& knots, std::span<const float> control, const Frame& frame, JsonText& json) {
   auto points = bezier_points(knots, control);
   for (auto& point : points) point = {frame.left + frame.scale * point[0], frame.top - frame.scale * point[1]};
@@ -56,7 +56,7 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   const auto write = [&](const char* key, int step) {
     json.list(key);
     for (std::size_t k = 0; k < points.size(); k += 3) {
-      // Below the base it closes as a drop around the wick: both sides continue in their final directions.
+      // Below the base the path closes as a drop around the wick: both sides continue in their final directions.
       const bool closing = step < 0 ? k == 0 : k + 1 == points.size();
       const std::size_t beside = (step < 0) != closing ? k - 1 : k + 1;
       const double share = closing ? -drop / std::max(1e-6, between(points[k], points[beside])) : 1;
@@ -75,8 +75,8 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   json.value(true, "c");
 }
 
-// Writes the path with one key per frame, linear between them. A key has its start and end value, for old players; the
-// last one only its time.
+// Writes the path with one key per frame, linear between them. A key has the values at its start and end, for old
+// players; the last key has only its time.
 void write_keys(const OutlineView& view, const Take& take, const Frame& frame, JsonText& json) {
   json.object().value("sh", "ty").value("path", "nm").object("ks").value(1, "a").list("k");
   const std::size_t last = take.frames - (take.loop ? 0 : 1);
@@ -100,7 +100,7 @@ void write_fixed(const char* key, const Values& values, JsonText& json) {
   json.object(key).value(0, "a").values(values, "k").end();
 }
 
-// Writes a scaling about a point, percent.
+// Writes a transform that scales about a point, in percent.
 void write_transform(JsonText& json, std::array<double, 2> about = {0, 0}, std::array<double, 2> scale = {100, 100}) {
   write_fixed("p", about, json);
   write_fixed("a", about, json);

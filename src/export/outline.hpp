@@ -17,8 +17,7 @@ namespace wisp::exporting {
 /// Returns points of the spline at equal steps of its parameter, as x, y, 0.
 std::vector<float> outline_points(const std::vector<double>& knots, std::span<const double> control, int points);
 
-/// Returns the spline as consecutive cubic Bézier curves: 3 · curves + 1 points, each curve's last the next one's
-/// first.
+/// Returns the spline as consecutive cubic Bézier curves: 3 · curves + 1 points, as neighbouring curves share one.
 std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knots, std::span<const float> control);
 
 /// Returns the operating point of the outputs of an ARX or switched model; zeros for a chain.
@@ -31,11 +30,11 @@ inline constexpr int kRings = 12, kSegments = 12;  ///< mesh size of an exported
 std::vector<float> rings_of(const std::vector<double>& knots, std::span<const float> front,
                             std::span<const float> side);
 
-/// Return the vertex positions of the surface of rings, and three vertex indices per triangle of it.
+/// Return the vertex positions of the surface through rings, and three vertex indices per triangle of the surface.
 std::vector<float> ring_places(const std::vector<float>& rings, int segments);
 std::vector<std::uint16_t> ring_corners(int rings, int segments);
 
-/// x, y, z of vertices, of their normals, and three indices per triangle.
+/// A surface: x, y, z of vertices and of their normals, and three vertex indices per triangle.
 struct Surface {
   std::vector<float> places, normals;
   std::vector<std::uint16_t> triangles;
@@ -45,7 +44,8 @@ struct Surface {
 /// an unknown length (0) becomes 0.03, an unknown width the length.
 Surface leaf_blade(double half_first, double half_second);
 
-/// Errors: the number of outputs differs from the model's; no frames or instances; a wrong number of values.
+/// Checks that a take fits a model. Errors: another number of outputs; no frames or instances; a wrong number of
+/// values.
 Result<void> check_take(const Model& model, const Take& take);
 
 /// Replaces rows of an ARX or switched model's outputs by the periodic orbit under their own shocks: adds to each row

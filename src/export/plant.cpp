@@ -107,7 +107,7 @@ std::string names_of(const Channels& channels) {
   return exporting::comment_text(text);
 }
 
-// Values of the placeholders that the templates of all languages have.
+// Returns the values of the placeholders that the templates of all languages have.
 Words common_words(const Model& model, const ArxModel& arx) {
   const Usable& use = model.training.usable;
   return {{"MODEL", exporting::comment_text(model.name)},

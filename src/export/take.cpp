@@ -60,7 +60,7 @@ Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
   bank->set_noise(options.noise ? 1.0F : 0.0F);
   for (int k = 0; k < options.instances; ++k) bank->spawn();
   bank->set_common_inputs(inputs_of(model, options));
-  // A body's take begins at the start of its fall.
+  // A body's take begins at the start of the fall.
   if (bank->chain()) return bank;
   for (int step = 0; step < kSettle * model.rate_hz; ++step) bank->step();
   return bank;
@@ -93,7 +93,7 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
-// Clamps like a bank, since the orbit may exceed the range of its play slightly.
+// Clamps a value as a bank does, since an orbit may slightly exceed the range of play.
 float clamped_to(const Output& output, double value) {
   const double room = kRangeMargin * (output.highest - output.lowest);
   return static_cast<float>(std::clamp(value, output.lowest - room, output.highest + room));
@@ -137,7 +137,7 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
 Model model_of_components(const Model& model, const ShapeComponents& shape) {
   Model out = model;
   out.view = PlainView{};
-  if (out.extinction) out.extinction->catching = {};  // recorded shapes are of an outline
+  if (out.extinction) out.extinction->catching = {};  // recorded re-ignitions are outlines
   out.training = {};
   out.outputs.clear();
   for (const ValueRange& range : shape.components) {

@@ -9,7 +9,7 @@ namespace wisp::exporting {
 
 extern const char *const lamp_h, *const lamp_c, *const plant_h, *const plant_c, *const plant_m, *const plant_py;
 
-/// Replaces every @KEY@.
+/// Replaces every @KEY@ in a text by the key's word.
 inline std::string filled(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {
   for (const auto& [key, word] : words) {
     const std::string mark = "@" + key + "@";

@@ -18,15 +18,15 @@
 namespace wisp::cli {
 namespace {
 
-// Whether --output is a folder: there are several clips, or its name ends in a slash, or the folder exists. A wildcard
-// may match a single clip.
+// Returns whether --output names a folder: there are several clips, the name ends in a slash, or the folder exists (so
+// that a wildcard may match a single clip).
 bool goes_to_folder(const Arguments& arguments) {
   std::error_code none;
   const std::filesystem::path output(arguments.text("output"));
   return arguments.positionals().size() > 1 || !output.has_filename() || std::filesystem::is_directory(output, none);
 }
 
-// One output path per clip: the clip's name in the folder, which is created.
+// Creates the folder and returns one path in it per clip, with the clip's name.
 // Errors: two clips with the same name; `folder` is a table's name or cannot be created.
 Result<std::vector<std::filesystem::path>> tables_in(const std::string& folder, const std::vector<std::string>& clips) {
   if (is_table(folder)) {
@@ -101,8 +101,8 @@ Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
-// Number of samples during which a lamp or an amplifier starts up: the first ones that are below all samples after the
-// first second. 0 if the first sample is at least half of the mean, or if the trace lasts at most a second.
+// Returns the number of samples during which a lamp or an amplifier starts up: the leading samples below all samples
+// after the first second. 0 if the first sample is at least half of the mean, or if the trace lasts at most a second.
 std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
   const auto second = std::min(light.size(), static_cast<std::size_t>(std::max(1.0, rate_hz)));
   if (second == light.size() ||
@@ -114,7 +114,7 @@ std::size_t start_up_samples(std::span<const double> light, double rate_hz) {
                                   light.begin());
 }
 
-// The light of a clip, or a photodiode's trace, normalised to mean 1.
+// Returns the light of a clip, or a photodiode's trace, normalised to mean 1.
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
   if (!is_table(path)) {

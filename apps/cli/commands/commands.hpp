@@ -1,5 +1,5 @@
 #pragma once
-// Declarations of the table's entries, each defined in its own file.
+// Each function creates one command of the table commands().
 
 #include "command.hpp"
 

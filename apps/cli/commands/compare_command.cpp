@@ -29,7 +29,7 @@ Result<std::vector<NamedModel>> read_models(const std::vector<std::string>& path
   return models;
 }
 
-// Table options with the inputs and outputs of all models, and the rate of the first.
+// Returns options for reading plain tables: the inputs and outputs of all models, and the rate of the first model.
 CsvOptions channels_of(const std::vector<NamedModel>& models) {
   CsvOptions all{.rate_hz = models.front().model.rate_hz};
   const auto add = [&](const auto& channels, std::vector<std::string>& names) {
@@ -44,7 +44,7 @@ CsvOptions channels_of(const std::vector<NamedModel>& models) {
   return all;
 }
 
-// One plot per output, up to kMaxPlots, with the measured line first.
+// Returns one plot per output, up to kMaxPlots: first the measured line, then a line per model.
 PlotSheet sheet_of(const Report& report) {
   PlotSheet sheet{.columns = 1, .plot_width = 800};
   for (const ReportSeries& series : report.sections.front().series) {

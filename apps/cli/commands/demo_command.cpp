@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A step's report as part of the summary: the step's name prefixes the ids of its figures and tables.
+// Converts a step's report to a part of the summary: the step's name prefixes the ids of its figures and tables.
 Report part_of_whole(const std::string& name, const std::string& line, Report step) {
   step.add("").entries = {{"command", "wisp " + line, "", ""},
                           {"warnings", ReportList(step.warnings.begin(), step.warnings.end()), "", ""}};
@@ -44,7 +44,7 @@ struct Places {
   std::string at(const char* name) const { return (folder / name).string(); }
 };
 
-// A name quoted for the shell.
+// Returns a file name for the shell, quoted if necessary.
 std::string quoted(const std::string& name) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/._-+=:,@%", c) != nullptr;
@@ -57,13 +57,13 @@ std::string quoted(const std::string& name) {
 
 // A command with its arguments and flags; other flags have their defaults.
 struct Step {
-  std::string name;  // prefix of its figures in the summary
+  std::string name;  // prefix of the step's figures in the summary
   Command command;
   std::vector<std::string> files;
   std::vector<std::pair<std::string, std::string>> flags;
 };
 
-// The command line that runs a step by hand.
+// Returns the command line that runs a step by hand.
 std::string line_of(const Step& step) {
   std::string line = step.command.name;
   for (const std::string& file : step.files) line += " " + quoted(file);
@@ -122,7 +122,7 @@ Result<void> all_steps(const Places& places, const Clips& clips, const Arguments
   for (const std::string flag : kCaptureFlags) {
     if (!arguments.has(flag)) continue;
     capture.flags.push_back({flag, arguments.text(flag)});
-    if (flag != "points") validate.flags.push_back(capture.flags.back());  // the model has the number
+    if (flag != "points") validate.flags.push_back(capture.flags.back());  // validate takes the number from the model
   }
   if (auto ok = run(capture, terminal); !ok) return ok;
   if (auto ok = run({"learn", learn_flame_command(), {recording}, {{"output", path}}}, terminal); !ok) return ok;
@@ -173,7 +173,7 @@ Result<void> fill(const Places& places, const Arguments& arguments, Terminal& te
   return run({"play", play_command(), {places.at("flame.wisp")}, {}}, terminal);
 }
 
-// The outermost missing folder of a path; empty where all exist.
+// Returns the outermost missing folder of a path; empty if all exist.
 fs::path first_missing(fs::path folder) {
   fs::path missing;
   std::error_code ignored;
@@ -189,7 +189,7 @@ Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
   auto filled = fill(places, arguments, terminal);
   if (!filled && !missing.empty()) {
-    // On failure, removes the folders made for it if they are empty.
+    // On failure, removes those of the folders just created that are empty.
     for (fs::path folder = places.folder; fs::remove(folder, code) && folder != missing;) folder = folder.parent_path();
   }
   return filled;

@@ -70,7 +70,7 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, const Page
       top = std::max(top, points[k + 1]);
     }
   }
-  // A small halo that nearly fits into the margin.
+  // The smallest halo nearly fits into the margin; fade_edges() removes the rest.
   const FlameStyle style{.glow_reach = 0.25F, .candle = false};
   FlameScene scene;
   const float across = right - left + 2 * kHalo;
@@ -146,7 +146,7 @@ Result<void> write_vertices(Job& job, const Take& taken) {
   return write_file(std::filesystem::path(job.path).replace_extension(".json"), made->json);
 }
 
-// Writes the file; for NAME.c also NAME.h.
+// Writes source text to the job's file NAME.c (.m, .py, .json) and, unless `declared` is empty, `declared` to NAME.h.
 Result<void> write_source(const std::string& text, const std::string& declared, const std::string& what, const Job& job,
                           Terminal& terminal) {
   const std::string header = std::filesystem::path(job.path).replace_extension(".h").string();
@@ -176,8 +176,8 @@ Result<void> write_model_source(const Job& job, std::optional<PlantLanguage> lan
                       terminal);
 }
 
-// Language of a linear system by the file's extension. None for .c or .json unless the model is a plant, an ARX model
-// with inputs and plain outputs: other models become a lamp's .c or an animation's .json.
+// Returns the language of a linear system by the file's extension. None for .c or .json unless the model is a plant, an
+// ARX model with inputs and plain outputs: other models become a lamp's .c or an animation's .json.
 std::optional<PlantLanguage> plant_language(const Model& model, const std::string& extension) {
   const bool plant = std::holds_alternative<ArxModel>(model.dynamics) && !model.inputs.empty() &&
                      std::holds_alternative<PlainView>(model.view);

@@ -73,8 +73,8 @@ std::vector<Flag> arx_part_flags() {
   return flags;
 }
 
-// Whether learning from all named recordings at once would exceed --memory: each recording, its held-out part and
-// buffers for reading take up to 46 bytes per sample (measured), besides the program's own memory.
+// Returns whether learning from all named recordings at once would exceed --memory: each recording, its held-out part
+// and buffers for reading take up to 46 bytes per sample (measured), besides the program's own memory.
 bool too_large(const Arguments& arguments) {
   constexpr double kMebibyte = 1 << 20, kProgram = 24, kBytesASample = 46;
   const auto channels = static_cast<double>(arguments.names("inputs").size() + arguments.names("outputs").size());
@@ -93,8 +93,8 @@ bool too_large(const Arguments& arguments) {
   return kProgram + kBytesASample * channels * rows / kMebibyte > arguments.integer("memory");
 }
 
-// Takes in the named tables, or the share of --part of each, at bounded memory. --range selects rows; MATLAB files are
-// read whole. A bad table is an error, or is skipped with --skip-bad.
+// Accumulates the statistics of the named tables, of each the share of --part, in bounded memory. --range selects rows;
+// MATLAB files are read whole. A bad table is an error, or is skipped with --skip-bad.
 Result<ArxPart> part_of_tables(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
   const auto share = table_share(arguments);
   if (!share) return share.error();
@@ -208,8 +208,8 @@ std::vector<Flag> search_flags() {
   return flags;
 }
 
-// Options of the search from the flags. `whole` are the recordings before --range, from which --validate selects its
-// rows.
+// Reads the options of the search from the flags. `whole`: the recordings without --range; --validate selects rows of
+// these.
 Result<ArxSearch> search_of(const std::vector<Recording>& whole, const Arguments& arguments) {
   auto search = parse_grid(arguments);
   if (!search) return search;
@@ -257,7 +257,7 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   return {};
 }
 
-// The recipe from the flags, except for the search, which needs the recordings.
+// Reads the recipe from the flags, without the search, which needs the recordings.
 Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   ArxRecipe recipe;
   if (auto ok = read_recipe(arguments, recipe); !ok) return ok.error();

@@ -11,7 +11,7 @@
 namespace wisp::cli {
 namespace {
 
-// Applies --range to recordings of falls. Those of a pair stay whole, since every gust needs all of its clones.
+// Applies --range to recordings of falls. A pair (windy and calm) stays whole, as a gust needs all repeated falls.
 Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
   for (Recording& recording : recordings) {
     if (find_attribute(recording, "pair")) continue;

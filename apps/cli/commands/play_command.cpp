@@ -26,10 +26,10 @@ using window::PlayOptions;
 using window::PlayReport;
 using window::SceneKind;
 
-// Model that is listed first: a flame learned with the default recipe, as on the page.
+// Model listed first, as on the web page: a flame learned with the default recipe.
 constexpr const char* kFirst = "flame.wisp";
 
-// Rank in the list: the first flame, falling bodies, other outlines, then plain models.
+// Returns the rank in the list of models: kFirst, falling bodies, other outlines, then plain models.
 int rank(const fs::path& path, const View& view) {
   if (path.filename() == kFirst) return 0;
   if (std::holds_alternative<PlainView>(view)) return 3;
@@ -50,8 +50,8 @@ std::vector<fs::path> models_in(const fs::path& folder) {
   return paths;
 }
 
-// Folders searched, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the source tree of the
-// build; out/demo, where `wisp demo` writes its model.
+// Returns the folders searched for models, in this order: $WISP_MODELS; share/wisp/models beside the installed program;
+// the source tree of the build; out/demo, where `wisp demo` writes its model.
 std::vector<fs::path> model_folders() {
   std::vector<fs::path> folders;
   if (const char* named = std::getenv("WISP_MODELS")) folders.emplace_back(named);
@@ -63,7 +63,7 @@ std::vector<fs::path> model_folders() {
   return folders;
 }
 
-// Models of the first folder that has any, sorted by rank and then by name. Files that are no models are skipped.
+// Returns the models of the first folder that has any, by rank and then by name. Skips files that are no models.
 std::vector<fs::path> shipped_models() {
   for (const fs::path& folder : model_folders()) {
     if (auto models = models_in(folder); !models.empty()) return models;
@@ -71,7 +71,7 @@ std::vector<fs::path> shipped_models() {
   return {};
 }
 
-// Set by a signal: the current frame is finished first, so that no picture is written in part.
+// Number of the signal received, or 0. The player finishes its frame before it stops, so that pictures are complete.
 volatile int interrupted = 0;
 
 void interrupt(int signal) { interrupted = signal; }
@@ -94,7 +94,7 @@ std::optional<SceneKind> scene_of(const Arguments& arguments) {
   return word == "candle" ? SceneKind::kCandle : word == "cake" ? SceneKind::kCake : SceneKind::kLeaves;
 }
 
-// Models that come with Wisp; the first is one that the scene can show.
+// Returns the models that come with Wisp, those that the scene can show first. Errors: no model is found.
 Result<std::vector<std::filesystem::path>> models_of_our_own(std::optional<SceneKind> scene) {
   auto models = shipped_models();
   if (models.empty()) {

@@ -38,7 +38,7 @@ th { font-weight: 500; } .figures td:last-child { color: #666; }
 img { max-width: 100%; display: block; margin: 1rem 0; }
 )";
 
-// Base64 encoding, RFC 4648, section 4.
+// Encodes bytes as Base64 (RFC 4648, section 4).
 std::string base64(std::span<const std::byte> bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
@@ -63,7 +63,7 @@ Result<std::string> picture_of(const std::filesystem::path& path) {
          "\">\n";
 }
 
-// The page as HTML with embedded pictures. Errors: a picture that cannot be read.
+// Returns the page as HTML with embedded pictures. Errors: a picture that cannot be read.
 Result<std::string> report_page(const std::string& title, const std::vector<PagePart>& parts) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n"
@@ -82,7 +82,7 @@ Result<std::string> report_page(const std::string& title, const std::vector<Page
 
 namespace fs = std::filesystem;
 
-// A temporary folder for pictures, removed at the end.
+// Name of a temporary folder for pictures; the destructor removes the folder.
 class Scratch {
  public:
   Scratch() : path_(fs::temp_directory_path() / ("wisp-report-" + std::to_string(std::random_device{}()))) {}
@@ -98,7 +98,7 @@ class Scratch {
   fs::path path_;
 };
 
-// Pictures below a folder: all .svg files, and .png files without an .svg of the same name, such as a film strip.
+// Returns the pictures below a folder: all .svg files, and .png files without an .svg of the same name (film strips).
 std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::vector<fs::path> pictures;
   std::error_code error;
@@ -112,7 +112,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   return pictures;
 }
 
-// The report of `wisp validate` on a recording, with its pictures in a folder.
+// Validates a model on a recording as `wisp validate` does, with the pictures in `folder`.
 Result<PagePart> judged(const Model& model, const std::string& recording, const fs::path& folder,
                         const Arguments& arguments) {
   Arguments asked = arguments;

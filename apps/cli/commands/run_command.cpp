@@ -46,7 +46,7 @@ Result<SteerTarget> target_from(const std::string& text) {
   return target;
 }
 
-// Target of the walk from --steer.
+// Parses --steer, the target of a chain's walk; empty without the flag.
 // Errors: a model that cannot be steered; text of another form; a number out of range.
 Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const Arguments& arguments) {
   if (!arguments.has("steer")) return std::optional<SteerTarget>();
@@ -59,7 +59,7 @@ Result<std::optional<SteerTarget>> steer_target_from(const Model& model, const A
   return std::optional(*target);
 }
 
-// Warns of a target that is hardly reachable, however the walk is steered.
+// Warns of a target farther from the mean fall than kReach standard deviations of unsteered walks.
 void warn_of_target(const Model& model, const std::optional<SteerTarget>& target, Terminal& terminal) {
   if (!target) return;
   const ChainDrift& drift = *std::get<ChainModel>(model.dynamics).drift;
@@ -82,21 +82,21 @@ void steer_all(const std::optional<SteerTarget>& target, Bank& bank) {
   for (int slot = 0; slot < bank.slots(); ++slot) chain->steer(bank.at(slot), *target);
 }
 
-constexpr double kMaxNumbers = 5e8;  // 4 GB in memory
+constexpr double kMaxNumbers = 5e8;  // maximum inputs and outputs of a run, over all frames: 4 GB in memory
 
 struct Play {
   Model model;
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
-  Camera camera;                      // camera of a model of bodies
+  Camera camera;                      // --camera, for a flame played as a body
   double orbit = 0;                   // seconds per revolution of the camera; 0: fixed
-  double toward = 0;                  // wind direction, degrees
+  double toward = 0;                  // degrees: wind blows to the right of a camera at this azimuth
   std::vector<std::size_t> relit;     // frames before which all extinguished instances are lit again, ascending
   std::optional<FilmedFlame> film{};  // film on whose candle the flame is drawn
 };
 
-// Plays a bank frame by frame.
+// Steps a bank frame by frame: relights, sets the inputs, and records extinctions.
 class Player {
  public:
   Player(const Play& play, Bank& bank) : play_(play), bank_(bank), burnt_(bank.size(), true) {}
@@ -116,7 +116,7 @@ class Player {
 
   bool burns(int slot) const { return burnt_[slot]; }
 
-  // Wind that carries smoke: the input of the extinction rule; of a body, the wind to the right of the camera.
+  // Returns the wind that carries smoke: the input of the extinction rule; of a body, the wind to the camera's right.
   float wind(const std::vector<float>& inputs) const {
     const auto& rule = play_.model.extinction;
     if (!rule) return 0.0F;
@@ -129,11 +129,11 @@ class Player {
     return camera;
   }
 
-  // Table of extinctions: instance and frame.
+  // Returns the table of extinctions: instance and frame.
   const ReportTable& deaths() const { return deaths_; }
 
  private:
-  // Scalar wind blows towards --wind-direction, by default to the right in the picture.
+  // Splits a scalar wind into a body's two components by --wind-direction; other inputs stay as they are.
   std::vector<float> turned(std::vector<float> inputs) const {
     if (inputs.size() != 1 || bank_.input_count() != 2) return inputs;
     const double angle = play_.toward * 3.14159265358979323846 / 180;
@@ -303,8 +303,8 @@ Result<void> check_size(const Play& play, int instances) {
                ": run it in parts with other seeds"};
 }
 
-// Applies --camera, --orbit and --wind-direction: converts the model to a body. Errors: it cannot be one; a bad
-// --camera or --orbit; --wind-direction alone.
+// Applies --camera, --orbit and --wind-direction: converts the model to a body. Errors: a model without a body;
+// a bad --camera or --orbit; --wind-direction alone.
 Result<void> go_round(const Arguments& arguments, Play& play) {
   if (arguments.number("orbit") < 0)
     return Error{"--orbit: found " + arguments.text("orbit") + ", expected seconds above 0"};

@@ -33,7 +33,7 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   return options;
 }
 
-// Path of the ground truth: CLIP.truth.csv for CLIP.mp4.
+// Returns the path of the ground truth: CLIP.truth.csv for CLIP.mp4.
 std::filesystem::path truth_path(std::filesystem::path clip) { return clip.replace_extension(".truth.csv"); }
 
 // Simulates and encodes frame by frame; writes clip and ground truth, each atomically. Returns the ground truth.

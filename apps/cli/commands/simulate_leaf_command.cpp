@@ -1,4 +1,4 @@
-// `wisp simulate leaf`: simulates many falls of one leaf as a recording, or gusts with their calm twins as two.
+// `wisp simulate leaf`: simulates falls of one leaf as a recording, or as two: in gusts, and the same falls without.
 
 #include <array>
 #include <cmath>
@@ -15,8 +15,8 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kMinPairSeconds = 0.7;  // a gust's onset is at 0.5 s ± 20 %, and part of the gust is recorded
-constexpr double kMaxJitter = 0.01;      // maximum deviation of the wind's time steps, as a share of a step
+constexpr double kMinPairSeconds = 0.7;  // minimum --seconds with --pairs: gusts begin at 0.5 s ± 20 %
+constexpr double kMaxJitter = 0.01;      // maximum deviation of a time step, as a share of the step
 
 // Checks that a wind's time column, if there is one, has equal steps, as rows are taken at the recording's rate.
 Result<void> check_time(const Recording& recording) {
@@ -105,7 +105,7 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
   return options;
 }
 
-// Path of the calm twin: REC.calm.csv for REC.csv.
+// Returns the path of the recording of calm air: REC.calm.csv for REC.csv.
 std::filesystem::path calm_path(std::filesystem::path path) { return path.replace_extension(".calm.csv"); }
 
 Result<Recording> write_drops(const std::filesystem::path& path, const LeafPairsOptions& options) {
@@ -132,7 +132,7 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".csv")
     return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
-  // Checked before the simulation, which takes long.
+  // Checks the names before the simulation, which takes long.
   if (auto good = check_writable(path.string()); !good) return good;
   if (arguments.has("video"))
     if (auto good = check_film_name(arguments.text("video")); !good) return good;

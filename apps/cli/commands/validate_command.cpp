@@ -97,7 +97,7 @@ void style(std::string_view what, PlotSeries& series) {
   }
 }
 
-// A plot of the series whose id is `panel` or begins with `panel` and a dot.
+// Returns a plot of the series whose id is `panel` or begins with `panel` and a dot.
 Plot plot_of(const Report& report, const std::string& panel, const std::string& title) {
   Plot plot{.title = title, .equal_units = true};
   for (const ReportSection& section : report.sections) {
@@ -176,7 +176,7 @@ Result<void> check_chain_flags(const Arguments& arguments) {
   return ok && arguments.has("film") ? check_film_name(arguments.text("film")) : ok;
 }
 
-// Reads the recording and, for a pair, its calm twin: the third argument, or REC.calm.csv beside REC.csv.
+// Reads the recording and its calm twin: the third argument or, if the recording is of a pair, REC.calm.csv beside it.
 Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
   auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));
@@ -269,7 +269,7 @@ Command validate_command() {
   };
   for (Flag& flag : motion_flags()) flags.push_back(std::move(flag));
   for (Flag& flag : capture_flags("1")) {
-    if (flag.name != "points") flags.push_back(std::move(flag));  // the model determines the number
+    if (flag.name != "points") flags.push_back(std::move(flag));  // the model determines the number of points
   }
   return {
       "validate",

@@ -8,7 +8,7 @@ namespace wisp::cli {
 namespace {
 
 constexpr int kHeight = 720;
-constexpr int kLoneWidth = 640;  // room for a lone flame to lean to either side
+constexpr int kLoneWidth = 640;  // width of a picture of one flame, with room to lean
 constexpr int kWidest = 1920;
 
 }  // namespace

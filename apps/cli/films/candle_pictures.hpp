@@ -13,17 +13,17 @@ namespace wisp::cli {
 
 class CandlePictures {
  public:
-  /// Pictures sized for the living instances of the model's bank.
+  /// Creates pictures sized for the living instances of the model's bank.
   ///
   /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
   CandlePictures(const Model& model, const Bank& bank);
 
-  /// Pictures sized for `count` outlines of `points` points, without a bank.
+  /// Creates pictures sized for `count` outlines of `points` points, without a bank.
   ///
   /// Precondition: the view is an outline, count > 0 and points >= 2.
   CandlePictures(const Model& model, int count, int points);
 
-  /// Draws on the candle of a film from now on, in its view's size.
+  /// Lets draw() show the flame on the candle of a film, in the size of the film's view.
   ///
   /// Precondition: one outline, film.known(), and the film outlives the pictures.
   void draw_on(const FilmedFlame& film);
@@ -31,7 +31,7 @@ class CandlePictures {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Takes the wind of one step, in the model's units; it carries the smoke.
+  /// Takes the wind of one step, in the model's units, which carries the smoke.
   void blow(const Bank& bank, float wind);
 
   /// Draws the bank's current state, bodies as the camera sees them. The picture is valid until the next call.
@@ -49,7 +49,7 @@ class CandlePictures {
   std::vector<SmokeDrift> drifts_;
   std::vector<float> polylines_;
   std::vector<Point> points_;
-  std::optional<LiveFlames> candles_;  // empty: draws plain shapes
+  std::optional<LiveFlames> candles_;  // without a value: draws plain shapes
   const FilmedFlame* film_ = nullptr;
   Image image_;
 };

@@ -18,14 +18,14 @@ constexpr float kOutside = -0.30F, kInside = 0.18F;
 // Depths between which the glow fades: none beyond kGlowEnds, full from kGlowWhole inwards.
 constexpr float kGlowEnds = -0.26F, kGlowWhole = -0.10F;
 
-// Heights in mean flame heights: below kUnder the picture counts as still; up to kFootEnds only pixels of low variance
-// do, such as the wick.
+// Mean flame heights above the base. All pixels count as still below kUnder, none by height alone above kFootBegins;
+// pixels of low variance, such as the wick, do up to kFootBegins, and less and less up to kFootEnds.
 constexpr float kUnder = -0.04F, kFootBegins = 0.05F, kFootEnds = 0.22F;
 
-// Standard deviations, in codes, of still and of moving pixels.
+// Standard deviations over time, in 8-bit codes: a pixel below kStill is still, above kMoves it moves.
 constexpr float kStill = 6, kMoves = 18;
 
-// Smooth step: 0 at `low` and beyond, 1 at `high`; `high` may be below `low`.
+// Returns a smooth step: 0 at `low` and beyond, 1 at `high`; `high` may be below `low`.
 float smooth(float low, float high, float value) {
   const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
@@ -35,8 +35,8 @@ float square(float value) { return value * value; }
 
 // An edge of an outline, prepared for the computation of distances.
 struct Edge {
-  Point from, along;  // `along`: vector to its other end
-  float inverse = 0;  // inverse of its squared length
+  Point from, along;  // `along`: vector to the other end
+  float inverse = 0;  // inverse of the squared length
 
   float square_distance(Point p) const {
     const float x = p.x - from.x, y = p.y - from.y;
@@ -59,7 +59,7 @@ class Depths {
     }
   }
 
-  // Depth in pixels, positive inside, clamped to ±`reach`.
+  // Returns the depth in pixels, positive inside, clamped to ±`reach`.
   float at(float x) const {
     float nearest = square(reach_);
     for (const Edge& edge : near_) nearest = std::min(nearest, edge.square_distance({x, y_}));
@@ -77,7 +77,7 @@ class Depths {
 struct FlamePlace {
   float height = 0;        // 0 at the base, 1 at the outline's top
   float depth = 0;         // distance to the nearest point of the outline
-  float colour_depth = 0;  // the same; above the top its horizontal part, as the glow above a tip stays narrow
+  float colour_depth = 0;  // depth; above the top its horizontal part, as the glow above a tip stays narrow
 };
 
 // Positions of the pixels of one row.
@@ -152,7 +152,7 @@ void fill_gaps(Sum* line, int count, int stride) {
   }
 }
 
-// Means of a table of sums, row by row, with its gaps filled along rows and then along columns.
+// Returns the means of a table of sums, row by row, with gaps filled along rows and then along columns.
 template <class Sum>
 std::vector<Sum> filled_means(const std::vector<Sum>& sums, int rows, int columns) {
   std::vector<Sum> table(sums.size());
@@ -196,7 +196,7 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
       const FlamePlace place = places.at(x);
       add(still_[pixel], row[x]);
       squares_[pixel] += square(light_of(row[x]));
-      // Weighted by the distance to the flame, with a minimum for pixels that are near it in every frame.
+      // Weights frames by the distance to the flame, with a minimum for pixels near the flame in every frame.
       if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
       if (place.height <= 0 || (place.depth <= kOutside && place.colour_depth > kOutside)) continue;
       const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));
@@ -207,7 +207,7 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
   ++frames_;
 }
 
-// Confidence, 0 to 1, that a pixel shows no moving flame. Height above the base is in mean flame heights.
+// Returns the confidence, 0 to 1, that a pixel shows no moving flame. `height`: mean flame heights above the base.
 float FilmLook::stillness(std::size_t pixel, float height) const {
   const Sum code = mean(still_[pixel]);
   const float variance = squares_[pixel] / still_[pixel][3] - square((code[0] + code[1] + code[2]) / 3);
@@ -216,7 +216,7 @@ float FilmLook::stillness(std::size_t pixel, float height) const {
 }
 
 void FilmLook::finish() {
-  constexpr float kUnlit = 0.25F;  // brightness without the flame, as a share, if no frame shows the room without it
+  constexpr float kUnlit = 0.25F;  // share of brightness that stays without the flame, if no frame shows that
   colours_ = filled_means(flame_, kHeights, kDepths);
   plate_ = filled_means(around_, view_.height, view_.width);  // where the flame always is: interpolated
   foot_.resize(plate_.size());

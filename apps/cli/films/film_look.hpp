@@ -22,11 +22,11 @@ class FilmLook {
  public:
   FilmLook() = default;
 
-  /// Precondition: width, height >= 1 and unit > 0.
+  /// Creates an empty look. Precondition: width, height >= 1 and unit > 0.
   explicit FilmLook(const FilmView& view);
 
-  /// Learns from a frame's view and its captured outline, both in the view's pixels; without an outline, how the view
-  /// looks when the flame is out.
+  /// Learns from a frame's view and its captured outline, both in the view's pixels; without an outline learns the look
+  /// of the view when the flame is out.
   ///
   /// Precondition: the frame has the view's size, and an outline at least three points.
   void learn(const Image& frame, std::span<const Point> outline);
@@ -34,7 +34,7 @@ class FilmLook {
   /// Computes what draw() needs, after the last frame.
   void finish();
 
-  /// Whether any frame with an outline was learned.
+  /// Returns whether any frame with an outline was learned.
   bool known() const { return frames_ > 0; }
 
   /// Draws the view with another outline burning in it; empty: none. `light`, 0 to 1, is the share of the flame's light
@@ -51,7 +51,7 @@ class FilmLook {
 
   FilmView view_{};
   int frames_ = 0;
-  std::vector<Sum> flame_;      // by height in the flame and depth inside its outline
+  std::vector<Sum> flame_;      // by height in the flame and depth inside the outline
   std::vector<Sum> around_;     // per pixel, over frames with the flame elsewhere
   std::vector<Sum> still_;      // per pixel, over frames with an outline: wick and wax
   std::vector<float> squares_;  // per pixel, over frames with an outline: sum of squares of its brightness

@@ -16,13 +16,13 @@ double median_of(std::vector<double> values) {
 
 using Place = std::array<double, 2>;
 
-// Middle of an outline's base.
+// Returns the middle of an outline's base.
 Place base_of(const Outline& outline) {
   return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
 }
 
-// Rows from whose frames the look is learned: the rows shown, and about 48 spread over the first 1800. If the camera
-// moves, its surroundings change: then only those shown and 24 around the middle row with an outline.
+// Adds the rows from whose frames the look is learned: about 48 spread over the first 1800. If the camera moves
+// (`stands` is false), the surroundings change: then 24 rows around the middle row with an outline.
 std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std::size_t> rows, bool stands) {
   constexpr std::size_t kLessons = 48, kLast = 1800, kPassing = 24;
   std::vector<std::size_t> seen;
@@ -38,7 +38,7 @@ std::vector<std::size_t> lesson_of(const OutlineRows& captured, std::vector<std:
   return rows;
 }
 
-// Whether the flame is out: no outline in the row nor in any of the seven before and after.
+// Returns whether the flame is out: no outline in the row nor in any of the seven before and after.
 bool is_out(const OutlineRows& captured, std::size_t row) {
   constexpr std::size_t kAround = 7;
   const auto first = captured.begin() + static_cast<std::ptrdiff_t>(row - std::min(row, kAround));

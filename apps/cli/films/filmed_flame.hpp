@@ -23,10 +23,10 @@ struct ClipFrames {
   std::size_t first_frame = 0;
 };
 
-/// The value of an attribute that is one number, such as the clip's width; 0 where it is not recorded.
+/// Returns the value of an attribute that is one number, such as the clip's width; 0 if it is not recorded.
 int number_attribute(const Recording& recording, const char* name);
 
-/// The clip's frame of the first row, 0-based.
+/// Returns the index, 0-based, of the clip's frame that became the recording's first row.
 std::size_t first_frame_of(const Recording& recording);
 
 /// Visits the clip's frames from the first row to `last_row`; `visit` takes the row and a function that returns its
@@ -47,8 +47,8 @@ struct ViewSpace {
 
 class FilmedFlame {
  public:
-  /// A view of `height` pixels on outlines captured from a clip of `clip_size` (width and height in pixels, 0:
-  /// unknown). The view follows the flame's base only if the base moves, as with a hand-held camera.
+  /// Creates a view, `height` pixels high, on outlines captured from a clip of `clip_size` (width and height in pixels,
+  /// 0: unknown). The view follows the flame's base only if the base moves, as with a hand-held camera.
   ///
   /// Precondition: height > 0, pixels_per_unit > 0.
   FilmedFlame(const OutlineRows& captured, double pixels_per_unit, std::array<int, 2> clip_size, const ViewSpace& space,
@@ -59,12 +59,12 @@ class FilmedFlame {
   Result<std::map<std::size_t, Image>> watch(const ClipFrames& clip, const OutlineRows& captured,
                                              const std::vector<std::size_t>& shown = {});
 
-  /// Whether watch() found frames with an outline.
+  /// Returns whether watch() found frames with an outline.
   bool known() const { return look_.known(); }
 
   const FilmView& view() const { return view_; }
 
-  /// Draws an outline, in model units, in the look of the clip, lit by `light` of its flame, 0 to 1.
+  /// Draws an outline, in model units, in the look of the clip. `light`: as in FilmLook::draw().
   ///
   /// Precondition: known().
   Image draw(std::span<const Point> outline, float light = 1) const;
@@ -82,7 +82,7 @@ class FilmedFlame {
   FilmLook look_;
 };
 
-/// The flame of the film that a recording names as its source, after watch(), in a view of `height` pixels.
+/// Returns the flame of the film that a recording names as its source, after watch(), in a view of `height` pixels.
 /// Errors: the recording names no film or has no outline; the film cannot be read; none of its frames has an outline.
 Result<FilmedFlame> filmed_flame(const Recording& recording, int height);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMaxFramesASecond = 60;
 constexpr double kRestSeconds = 2.2;     // time at rest on the floor
-constexpr double kFadeSeconds = 0.6;     // fade at the end of that time
+constexpr double kFadeSeconds = 0.6;     // fade at the end of the rest
 constexpr double kSettleSeconds = 0.12;  // transition from the landing pose to lying flat
 constexpr double kTrailSeconds = 0.9;
 constexpr double kRounding = 1e-6;        // tolerance for rounding, rows
@@ -44,7 +44,7 @@ LeafPose pose_at(const PoseColumns& columns, std::size_t row) {
   return {{at(0), at(1), at(2)}, {at(3), at(4), at(5), at(6)}};
 }
 
-// A landed pose laid flat on the floor, with the same side up and the same heading of the midrib.
+// Returns a landed pose laid flat on the floor, with the same side up and the same heading of the midrib.
 LeafPose lying(const LeafPose& landed) {
   const auto& q = landed.attitude;
   const bool face_up = 1 - 2 * (q[1] * q[1] + q[2] * q[2]) >= 0;
@@ -89,7 +89,7 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
     }
     fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
     falls.push_back(fall);
-    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // when this fall's leaf lies flat
+    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // until this leaf lies flat
     row = fall.last + 1;
   }
   return falls;
@@ -97,7 +97,7 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
 
 constexpr float kSideways = 0.38F;  // sideways extent of most falls, metres
 
-// Maximum distance of a start from the middle that keeps most falls in the picture.
+// Returns the maximum distance of a start from the middle that keeps most falls in the picture.
 float reach_of(const LeafFilmOptions& options) {
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   return std::max(0.0F, 0.55F * options.fall_metres * aspect - kSideways);
@@ -119,7 +119,7 @@ class Film {
     }
   }
 
-  // Leaves in the air or on the floor at a time of the video.
+  // Returns the leaves in the air or on the floor at a time of the video.
   std::vector<FlockLeaf> at(double seconds) {
     trails_.clear();
     trails_.reserve(falls_.size());

@@ -16,7 +16,7 @@ struct LeafFilmOptions {
   int height = 720;
   double max_seconds = 20;    ///< length of the video
   int max_leaves = 7;         ///< number of episodes shown at once
-  float fall_metres = 1.45F;  ///< height of a fall; an episode's next row begins its next fall
+  float fall_metres = 1.45F;  ///< height of a fall; a longer episode is shown as several falls
   LeafStyle style{};
 };
 

@@ -11,7 +11,7 @@
 
 namespace wisp::cli {
 
-/// The flag --loop of `run` and `export`.
+/// Returns the flag --loop of `run` and `export`.
 Flag loop_flag();
 
 /// Plays the take requested by --loop, --seconds, --instances, --seed, --noise and --wind or --input; adds its size to
@@ -22,10 +22,10 @@ Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal&
 /// Errors: as take_from(); a flag that contradicts a loop; another extension.
 Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal);
 
-/// A take in constant wind as a recording; several bodies give one episode each.
+/// Converts a take in constant wind to a recording; several bodies give one episode each.
 Recording recording_of(const Model& model, const Take& taken, double wind, const std::string& seed);
 
-/// Empty channels: the model's inputs, then the outputs of each instance, prefixed i0., i1., … for several instances.
+/// Returns a recording without rows: the inputs, then each instance's outputs (of several prefixed i0., i1., …).
 Recording played_channels(const Model& model, int instances, const std::string& seed);
 
 /// Converts a recording of several bodies to consecutive episodes, one per instance.
@@ -34,7 +34,7 @@ Recording played_channels(const Model& model, int instances, const std::string& 
 Recording one_after_the_other(const Recording& side_by_side, const Model& model, int instances,
                               const std::string& seed);
 
-/// Whether several instances of the model are recorded as one episode each.
+/// Returns whether several instances of the model are recorded as one episode each.
 bool are_bodies(const Model& model, int instances);
 
 }  // namespace wisp::cli

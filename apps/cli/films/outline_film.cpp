@@ -32,7 +32,7 @@ struct Layout {
   Corner legend = Corner::kTopLeft;
 };
 
-// The upper corner with the larger mean distance from the outlines.
+// Returns the upper corner that is horizontally farther from the outlines' mean.
 Corner roomier_corner(const OutlineRows& captured, int width) {
   double across = 0;
   for (const Outline& outline : captured) {
@@ -92,7 +92,7 @@ Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const Ov
 
 Outline of_row(const OutlineRows& rows, std::size_t row) { return row < rows.size() ? rows[row] : Outline(); }
 
-// Space of a strip's view: large enough for all outlines.
+// Returns the space of a strip's view, large enough for all outlines.
 ViewSpace space_of(const StripContent& content) {
   double highest = 1, widest = 0.4;
   for (const OutlineRows* rows : {&content.captured, &content.synthesized}) {

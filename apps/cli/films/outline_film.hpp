@@ -26,7 +26,7 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
 /// Contents of a film strip: frames of the recording above, synthesized frames at the same times below.
 struct StripContent {
   std::vector<std::size_t> rows;   ///< one per column
-  double rate_hz = 0;              ///< rate of both recordings
+  double rate_hz = 0;              ///< rows per second of `captured` and `synthesized`
   const OutlineRows& captured;     ///< all rows, in pixels
   const OutlineRows& synthesized;  ///< all rows, in pixels
   double pixels_per_unit = 1;

@@ -24,14 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Residual standard deviation of a channel; the middle of its interval where the training record lacks it.
+// Returns the residual standard deviation of a channel; if the training record lacks it, the middle of its interval.
 double residual_sd(const Model& model, std::size_t channel) {
   if (!model.training.residual_sd.empty()) return model.training.residual_sd[channel];
   const auto& interval = std::get<ArxModel>(model.dynamics).noise.sd_ci95[channel];
   return (interval[0] + interval[1]) / 2;
 }
 
-// Residual standard deviation of one coordinate over the control points, with its interval.
+// Returns the residual standard deviation of one coordinate over the control points, with its interval.
 PlotSeries residual_series(const Model& model, std::size_t coordinate, const std::string& label, Dash dash) {
   const auto& intervals = std::get<ArxModel>(model.dynamics).noise.sd_ci95;
   PlotSeries series{.label = label, .dash = dash, .marker = Marker::kDot};
@@ -54,7 +54,7 @@ PlotSheet residual_sheet(const Model& model) {
   return {.plots = {std::move(plot)}};
 }
 
-// One plot for every section that has series with ids beginning with `prefix`.
+// Returns one plot for every section whose first series has an id that begins with `prefix`.
 std::vector<Plot> plots_of(const Report& report, std::string_view prefix) {
   std::vector<Plot> plots;
   for (const ReportSection& section : report.sections) {
@@ -94,14 +94,14 @@ Result<void> write_validation_figures(const fs::path& folder, const Model& model
 
 constexpr std::size_t kColumns = 12;
 
-// Horizontal distance of the tip from the base; NaN without an outline.
+// Returns the horizontal offset of the tip from the middle of the base; NaN without an outline.
 double lean_of(const std::vector<std::array<double, 2>>& outline) {
   if (outline.empty()) return std::numeric_limits<double>::quiet_NaN();
   return outline[outline.size() / 2][0] - (outline.front()[0] + outline.back()[0]) / 2;
 }
 
-// Rows of a film strip: twelve moments, an eighth of a second apart, in the stretch with complete outlines in which the
-// captured tip moves most. Fewer where the recording is shorter.
+// Returns the rows of a film strip: twelve moments (fewer in a short recording), an eighth of a second apart, in the
+// stretch with complete outlines in which the captured tip moves most.
 std::vector<std::size_t> liveliest_rows(const OutlineRows& captured, double rate_hz) {
   const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(rate_hz / 8)));
   const std::size_t count = std::min(kColumns, (captured.size() + apart - 1) / apart);

@@ -27,7 +27,7 @@ struct ValidationPictures {
   std::string figures;  ///< folder
 };
 
-/// Errors: a clip cannot be read, a file cannot be written.
+/// Draws the pictures that have a path. Errors: a clip cannot be read, a file cannot be written.
 Result<void> draw_validation(const ValidatedOutline& found, const Model& model, const ValidationSubject& subject,
                              const ValidationPictures& pictures, Terminal& terminal);
 

@@ -58,7 +58,7 @@ std::vector<Flag> capture_flags(const std::string& flame) {
 
 Result<ClipCapture> capture_options(const Arguments& arguments) {
   ClipCapture options;
-  // Commands that measure light alone lack these flags.
+  // Commands that find no outline lack some of these flags.
   if (arguments.has("points")) options.points = arguments.integer("points");
   if (arguments.has("channel")) options.channel = channel_from_name(arguments.text("channel"));
   options.dark = arguments.on("dark");

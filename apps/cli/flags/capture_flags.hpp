@@ -10,18 +10,18 @@
 
 namespace wisp::cli {
 
-/// Flags --points, --channel, --flame (default `flame`), --dark, --region, --frames, --rate and --wind-measure.
+/// Returns --points, --channel, --flame (default `flame`), --dark, --region, --frames, --rate and --wind-measure.
 std::vector<Flag> capture_flags(const std::string& flame);
 
-/// Capture options from these flags.
+/// Returns the capture options from these flags.
 /// Errors: a --region of another form or without area.
 Result<ClipCapture> capture_options(const Arguments& arguments);
 
-/// Why a flag of clips is refused where a table is read.
+/// Returns the reason why a flag of clips is refused where a table is read.
 std::string of_clips(const std::string& table);
 
-/// Recordings of outlines: tables are read, other files are captured, with the curve shape of the first. A bad one is
-/// an error or, with --skip-bad, skipped and listed. Errors: also if none remains; flags of clips for tables alone.
+/// Reads tables and captures other files, with the curve shape of the first recording. A bad file is an error or, with
+/// --skip-bad, skipped and listed. Errors: no file remains; a flag of clips if all files are tables.
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal);
 

@@ -24,7 +24,7 @@ Result<void> rename(const Arguments& arguments, const char* flag, const std::arr
     if (!channel) return Error{recording.source + ": has no column " + columns[k] + ", which --" + flag + " names"};
     found[k] = *channel;
   }
-  // Only now, as the columns may have these names in another order.
+  // Renamed after all are found, as the columns may have these names in another order.
   for (std::size_t k = 0; k < kSize; ++k) recording.channels[found[k]].name = names[k];
   return {};
 }

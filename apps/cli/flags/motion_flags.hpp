@@ -16,12 +16,12 @@ std::vector<Flag> motion_flags();
 /// Errors: --position does not name three columns, --orientation does not name four.
 Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 
-/// Options for reading a plain table of motion. Columns with the names that learning expects need no flags. `rate_hz`
-/// is used if neither a flag nor the table states the rate. A time column is kept, so that uneven time is detected.
+/// Returns options for reading a plain table of motion. Columns with the names that learning expects need no flags.
+/// `rate_hz` is used if neither flag nor table states the rate. A time column is kept, so that uneven time is detected.
 CsvOptions motion_table(const Arguments& arguments, double rate_hz = 0);
 
 /// Renames the columns of a recording to those that learning expects: pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z.
-/// Unchanged where none of the flags is given.
+/// Returns the recording unchanged if neither flag is given.
 /// Errors: a missing column.
 ///
 /// Precondition: motion_columns() has no error.

@@ -21,7 +21,7 @@ template <class Value>
 concept FlagValue = std::is_enum_v<Value> || std::is_arithmetic_v<Value> ||
     OneOf<Value, std::string, std::vector<std::string>, std::optional<int>, EventSpec>;
 
-/// Flag of a field with default `value`.
+/// Returns the flag of a recipe's field with default `value`.
 template <FlagValue Value>
 Flag flag_of(const Value& value, const FieldTraits& traits, const char* help) {
   Flag flag{traits.flag, Kind::kText, traits.sign, "", help};
@@ -77,7 +77,7 @@ Result<void> read_flag(const Arguments& arguments, const FieldTraits& traits, Va
   return {};
 }
 
-/// Flags of a recipe's fields that have one, in the order of the table; defaults are the recipe's.
+/// Returns the flags of a recipe's fields, in the order of the table of fields. Defaults are the recipe's.
 template <class Recipe>
 std::vector<Flag> recipe_flags(const Recipe& defaults) {
   std::vector<Flag> flags;

@@ -65,7 +65,7 @@ std::string reference_to(const std::string& name, const std::vector<std::string>
   return name;
 }
 
-// Reads variables. Single columns of matrices may have the names that read_mat() gives them.
+// Reads the named variables. The name of a matrix column may also be the one that read_mat() gives it, such as u2.
 Result<Recording> read_variables(const std::filesystem::path& path, MatOptions options) {
   auto read = read_mat(path, options);
   if (read) return read;

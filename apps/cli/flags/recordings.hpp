@@ -14,32 +14,32 @@
 
 namespace wisp::cli {
 
-/// Flags --columns, --rate and --dt of every command that reads a table.
+/// Returns the flags --columns, --rate and --dt of every command that reads a table.
 std::vector<Flag> table_flags();
 
-/// table_flags(), and --skip-bad of commands that read several recordings.
+/// Returns table_flags(), and --skip-bad of commands that read several recordings.
 std::vector<Flag> recording_flags();
 
-/// The flag --prepare and its value. Errors: as parse_preparation().
+/// Return the flag --prepare, and its value. Errors: as parse_preparation().
 Flag prepare_flag();
 Result<Preparation> preparation_of(const Arguments& arguments);
 
-/// Whether a file is a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than a clip.
+/// Returns whether a file is a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// Whether a file is a MATLAB file.
+/// Returns whether a file is a MATLAB file.
 bool is_matlab(const std::filesystem::path& path);
 
-/// Options for reading a table from --inputs, --outputs, --columns, --rate and --dt, with `otherwise` for flags not
-/// given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
+/// Returns options for reading a table from --inputs, --outputs, --columns, --rate and --dt, with `otherwise` for flags
+/// not given. Errors: --dt not above 0; --rate and --dt together; a rate not 1e-6 to 1e7 Hz; those of motion_columns().
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
 /// Reads one table with the options of csv_options(), and renames its columns by as_motion().
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise = {});
 
-/// Handles a bad recording: with --skip-bad it is skipped, with a warning and an entry of `skipped` in the result.
-/// Returns whether it is skipped.
+/// Handles a bad recording: with --skip-bad warns of it and lists it in the result as `skipped`. Returns whether the
+/// recording is skipped.
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal);
 
 /// Reads every path by `read`. A bad recording is an error, or handled by leave_out().
@@ -48,7 +48,7 @@ Result<std::vector<Recording>> read_all(const std::vector<std::string>& paths, c
                                         Terminal& terminal,
                                         const std::function<Result<Recording>(const std::string&)>& read);
 
-/// read_all() by read_table().
+/// Reads every path by read_table(); bad recordings and errors as in read_all().
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
                                            Terminal& terminal, const CsvOptions& otherwise = {});
 

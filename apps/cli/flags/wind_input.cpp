@@ -31,7 +31,7 @@ std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, d
   return out;
 }
 
-// Measure of the sound that drives an input, by the names used in captures; other names use the wind.
+// Returns the measure of sound that drives an input, by the input's name in captures; for other names wind speed.
 WindMeasure measure_of(const Input& input) {
   for (const WindMeasure measure : {WindMeasure::kHeard, WindMeasure::kRms}) {
     if (input.name == wind_channel_name(measure)) return measure;
@@ -39,7 +39,7 @@ WindMeasure measure_of(const Input& input) {
   return WindMeasure::kSpeed;
 }
 
-// Value of an input's channel that equals 1 in the model. Wind speeds heard in a sound are already in the model's unit.
+// Returns the divisor from a measure of sound to an input: the training's scale for an RMS, 1 for the other measures.
 Result<double> scale_of(const Model& model, std::size_t input) {
   if (measure_of(model.inputs[input]) != WindMeasure::kRms) return 1.0;
   if (input < model.training.inputs.size()) return model.training.inputs[input].scale;
@@ -47,7 +47,7 @@ Result<double> scale_of(const Model& model, std::size_t input) {
                " was in recordings, expected a model that was learned from some; learn it with this program"};
 }
 
-// Columns of the model's inputs: those of --inputs in order, or those with the model's names.
+// Returns the columns of the model's inputs: those of --inputs in order, or those with the model's names.
 Result<std::vector<std::string>> input_names(const Model& model, const Arguments& arguments) {
   std::vector<std::string> names = arguments.names("inputs");
   if (names.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Inputs of a model in `wisp run`: a constant, or a recording resampled to the model's rate.
+// Inputs of a played model: constant, or from a recording or a sound file at the model's rate.
 
 #include <vector>
 
@@ -12,17 +12,17 @@ namespace wisp::cli {
 /// Values of all inputs, one per frame of the model.
 class InputTrack {
  public:
-  /// Inputs from --input or --wind. A recording's channels are those of --inputs or those with the model's names; they
-  /// are resampled linearly to the model's rate (an error for plain models), and missing samples repeat the one before.
-  /// They are scaled as in validate() (in_model_units()), with --own-gain by their own strength. A sound file is
-  /// converted to wind, which drives every input. Errors: the recording cannot be read, lacks an input or lasts above
-  /// 1e9 frames; a sound file without wind, or with --own-gain.
+  /// Reads inputs from --input or --wind. A recording's channels are those of --inputs or those with the model's names,
+  /// scaled by in_model_units() as in validate(), with --own-gain by their own strength, and resampled linearly to the
+  /// model's rate; missing samples repeat the sample before. A sound file is converted to wind, which drives every
+  /// input. Errors: the recording cannot be read, lacks an input, lasts above 1e9 frames or, for a plain model, has
+  /// another rate; a sound file without wind, or with --own-gain.
   static Result<InputTrack> from(const Model& model, const Arguments& arguments);
 
-  /// Number of frames of the recording; 0 for a constant.
+  /// Number of frames of the recording or sound; 0 for a constant.
   std::size_t rows() const { return rows_; }
 
-  /// The inputs at a frame; after the recording's end, its last ones.
+  /// Returns the inputs at a frame; after the end of the recording, those of its last frame.
   std::vector<float> at(std::size_t frame) const;
 
  private:

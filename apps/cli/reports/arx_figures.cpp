@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxOutputs = 4;
 constexpr std::size_t kMaxRows = 1000;       // maximum rows of a plot: more rows than pixels are illegible
-constexpr std::size_t kPredictedRows = 200;  // few enough to show the interval's width
-constexpr double kFar = 1.5;  // zeros beyond this |z| would shrink the unit circle to a dot; the title counts them
+constexpr std::size_t kPredictedRows = 200;  // rows of a plot of predictions: few enough to show the interval's width
+constexpr double kFar = 1.5;  // zeros beyond this |z| are only counted in the title: drawn, they would shrink the plot
 
 // Series of a report, by their ids.
 class Figures {
@@ -40,7 +40,7 @@ class Figures {
   std::size_t outputs() const { return std::min(model_.outputs.size(), kMaxOutputs); }
   std::size_t inputs() const { return model_.inputs.size(); }
 
-  // Suffix of a figure's name where every output has its own figure.
+  // Returns the suffix of a figure's name: the output's name, or none if the model has one output.
   std::string of_output(std::size_t output) const {
     return model_.outputs.size() == 1 ? "" : "-" + model_.outputs[output].name;
   }
@@ -62,7 +62,7 @@ PlotSeries unit_circle() {
   return circle;
 }
 
-// Poles, drawn as crosses by convention.
+// Returns poles as crosses, their conventional marks.
 PlotSeries crosses(const ReportSeries& places) {
   constexpr double kArm = 0.04;
   PlotSeries series{.label = "poles ×", .width = 1.6};
@@ -104,7 +104,7 @@ PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
       sheet.plots.push_back(pole_plot(zeros ? zeros->label : "Poles", own ? *own : poles, zeros));
     }
   }
-  double reach = 1.1;  // common to all panels, so that they are comparable
+  double reach = 1.1;  // end of the axes of all panels, so that the panels are comparable
   for (const Plot& plot : sheet.plots) {
     for (std::size_t z = 0; plot.series.size() > 2 && z < plot.series[2].x.size(); ++z) {
       reach = std::max({reach, 1.1 * std::abs(plot.series[2].x[z]), 1.1 * std::abs(plot.series[2].y[z])});
@@ -117,7 +117,7 @@ PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
   return sheet;
 }
 
-// A curve with its band, if there is one.
+// Returns a curve, with its band if the report has one.
 PlotSeries curve_of(const Figures& figures, const ReportSeries& series, const std::string& band) {
   PlotSeries curve{.x = series.x, .y = series.y};
   const ReportSeries* low = figures.find(series.id + ".low");
@@ -201,7 +201,7 @@ PlotSheet residual_sheet(const Figures& figures) {
   return sheet;
 }
 
-// Rows [first, first + rows) of a curve and its band.
+// Returns rows [first, first + rows) of a curve and its band.
 PlotSeries rows_of(PlotSeries series, std::size_t first, std::size_t rows) {
   for (auto* values : {&series.x, &series.y, &series.low, &series.high}) {
     const std::size_t begin = std::min(first, values->size()), end = std::min(begin + rows, values->size());
@@ -211,7 +211,7 @@ PlotSeries rows_of(PlotSeries series, std::size_t first, std::size_t rows) {
   return series;
 }
 
-// Sheet of measured and simulated, or measured and predicted, outputs.
+// Plots measured and simulated outputs, or measured and predicted ones, by `id`.
 PlotSheet tracking_sheet(const Figures& figures, const char* id) {
   PlotSheet sheet{.columns = 1, .plot_width = 900, .plot_height = 260};
   const bool simulated = std::string_view(id) == "simulated";
@@ -244,7 +244,7 @@ PlotSheet tracking_sheet(const Figures& figures, const char* id) {
   return sheet;
 }
 
-// Sheet of the error against the number of steps (the paper's figure of prediction), with the model's own expectation.
+// Plots the prediction error against the number of steps, with the error that the model itself expects.
 PlotSheet error_sheet(const Figures& figures) {
   PlotSheet sheet{.columns = static_cast<int>(std::min<std::size_t>(3, figures.outputs()))};
   for (std::size_t i = 0; i < figures.outputs(); ++i) {

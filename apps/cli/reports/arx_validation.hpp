@@ -16,7 +16,7 @@ namespace wisp::cli {
 
 /// Writes plots of the report's series into a folder (created if missing), each as PNG and SVG: `poles-zeros`, per
 /// output `step` and `frequency`, `residuals`, and for a validation `simulation`, `prediction` and `prediction-error`.
-/// For models of more than four outputs, only those of the first four, with a note.
+/// Of more than four outputs only the first four are drawn, with a warning.
 /// Errors: a file cannot be written.
 Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report,
                                Terminal& terminal);

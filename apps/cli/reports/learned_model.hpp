@@ -11,10 +11,10 @@
 
 namespace wisp::cli {
 
-/// `-o` of a command that learns: required unless one of these flags or --json is given.
+/// Returns the flag -o of a command that learns: required unless one of these flags or --json is given.
 Flag output_flag(std::vector<std::string> unless = {});
 
-/// Path of the model, empty if it is not written; and the model's name, which is the file's stem.
+/// Return the model's path, empty if no model is written, and the model's name, the stem of the path.
 std::string model_path(const Arguments& arguments);
 std::string model_name(const Arguments& arguments);
 

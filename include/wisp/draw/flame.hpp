@@ -35,7 +35,7 @@ inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 
 /// Position and state of one candle in the picture.
 ///
-/// It burns unless it was extinguished more recently than it was lit. Decay and ignition are drawn over a few tenths of
+/// The flame burns unless it was extinguished more recently than lit. Decay and ignition are drawn over a few tenths of
 /// a second (keep passing the outline for that long), or by `size`. Smoke rises from the wick until it is relit, and
 /// existing smoke then drifts on.
 struct FlameScene {
@@ -55,7 +55,7 @@ bool burns(const FlameScene& scene);
 /// Copies a bank's flame state into a scene: the time since it was lit or extinguished, and its size.
 void show_state(const LitState& state, FlameScene& scene);
 
-/// Mean wind since a flame was extinguished, which advects its smoke.
+/// A mean of the wind since a flame was extinguished, which advects the flame's smoke.
 class SmokeDrift {
  public:
   /// Adds the wind of a step, in the model's units, and sets the scene's wind to 1.5 times the mean since extinction.
@@ -108,7 +108,7 @@ struct Camera {
 /// Precondition: `rings` are those of one instance (BodyFacet::read_rings()), and `outline` has two points per ring.
 void see_body(std::span<const float> rings, const Camera& camera, std::span<Point> outline);
 
-/// Returns the component to the camera's right of a level vector with the wind's axes x and z.
+/// Returns how far a level vector, x and z in the wind's axes, points to the camera's right.
 float to_the_right(const Camera& camera, float x, float z);
 
 }  // namespace wisp

@@ -21,7 +21,7 @@ struct Colour {
   friend bool operator==(const Colour&, const Colour&) = default;
 };
 
-/// A point of a picture (pixels, y down) or of a model's outline (units, y up); the function that takes it says which.
+/// A point of a picture (pixels, y down) or of a model's outline (units, y up), as the function that takes it says.
 struct Point {
   float x = 0;
   float y = 0;

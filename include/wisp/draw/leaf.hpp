@@ -53,7 +53,7 @@ struct LeafRoom {
 /// One leaf of a picture.
 struct FlockLeaf {
   LeafPose pose{};
-  std::uint8_t look = 0;              ///< index of its colours among the flock's, modulo their number
+  std::uint8_t look = 0;              ///< which of the flock's five sets of colours, modulo 5; 0: the style's own
   float size = 1;                     ///< scale factor of the style's size, 0.1 … 4
   float opacity = 1;                  ///< opacity of leaf and shadow, 0 … 1
   std::span<const LeafPose> trail{};  ///< past poses, oldest first; drawn as a fading line, none if empty
@@ -73,7 +73,7 @@ class LeafFlock {
   ~LeafFlock();
 
   /// Draws the room and its leaves over the whole picture, farthest first; a picture of another size is reallocated.
-  /// Poses that are not finite are skipped.
+  /// Poses that are not finite, or whose quaternion is 0, are skipped.
   void draw(Image& image, std::span<const FlockLeaf> leaves);
 
   /// Returns the pixel of a position in the room; nothing if it is behind the camera.

@@ -16,7 +16,7 @@ namespace wisp {
 /// Draws candles in pictures of one size.
 class LiveFlames {
  public:
-  /// Precondition: 1 <= width, height <= kLargestImageSide.
+  /// Creates the room. Precondition: 1 <= width, height <= kLargestImageSide.
   LiveFlames(int width, int height, const FlameStyle& style = {});
 
   LiveFlames(LiveFlames&&) noexcept;

@@ -35,7 +35,7 @@ Result<void> check(const std::filesystem::path& path, const Flipbook& book) {
   return {};
 }
 
-// One picture as a PNG file's bytes, its opacity left premultiplied; empty on failure.
+// Encodes a picture as PNG, whose opacity stays premultiplied; empty on failure.
 std::vector<std::byte> png_bytes(const Image& image) {
   const Owned<AVCodecContext> codec(avcodec_alloc_context3(avcodec_find_encoder(AV_CODEC_ID_PNG)));
   const Owned<AVFrame> frame(av_frame_alloc());
@@ -68,7 +68,7 @@ struct Grid {
   int columns = 0, rows = 0;
 };
 
-// The smallest grid for all frames: with book.columns columns or, if that is 0, nearest to a square picture.
+// Returns the smallest grid for all frames: of book.columns columns or, if these are 0, nearest to a square picture.
 Grid grid_of(const Flipbook& book) {
   const auto count = static_cast<double>(book.frames.size());
   if (book.columns > 0) return {book.columns, static_cast<int>(std::ceil(count / book.columns))};

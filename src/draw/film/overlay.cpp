@@ -38,7 +38,7 @@ void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   if (closed && whole) cairo_close_path(context);
 }
 
-// Default width: 1/300 of the picture's height, visible from across a room without hiding much.
+// Returns the requested width or, for 0, 1/300 of the picture's height: visible across a room without hiding much.
 double line_width(const Image& image, float asked) {
   if (asked > 0) return std::clamp(asked, 0.25F, 50.0F);
   return std::clamp(image.height() / 300.0, 1.2, 6.0);
@@ -72,7 +72,7 @@ void rounded_box(cairo_t* context, double x, double y, double width, double heig
   cairo_close_path(context);
 }
 
-// Default size: 1/36 of the picture's height, legible without hiding much.
+// Returns the requested text size or, for 0, 1/36 of the picture's height: legible without hiding much.
 double text_size(const Image& image, float asked) {
   if (asked > 0) return asked;
   return std::clamp(image.height() / 36.0, 9.0, 40.0);
@@ -118,7 +118,7 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
                                  line * static_cast<double>(entries.size()), size * 0.6);
   double middle = plate.y + line / 2;
   for (const LegendEntry& entry : entries) {
-    // Centred on a row of pixels, even a thin line has its full colour.
+    // Centres the line on a row of pixels, where even a thin line has its full colour.
     const double row = std::floor(middle) + 0.5;
     cairo_new_path(context.get());
     cairo_move_to(context.get(), plate.x, row);

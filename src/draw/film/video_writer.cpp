@@ -49,7 +49,7 @@ struct Track {
   std::int64_t next = 0;  // time of the next frame, in the encoder's time base
 };
 
-// Format by the file name's ending; the first one for unknown endings.
+// Format of a film by the file name's ending. Unknown endings have the first of kKinds.
 struct Kind {
   const char* ending;
   const char* muxer;
@@ -223,7 +223,7 @@ Result<void> VideoWriter::Encoder::start_track(Track& track, const AVCodec* code
 Result<void> VideoWriter::Encoder::open_scaler() {
   const int width = padded_width();
   const int height = padded_height();
-  // Chroma is averaged where it is subsampled; rounding is accurate, as flames are mostly dark gradients.
+  // Averages subsampled chroma, and rounds accurately, as flames are mostly dark gradients.
   constexpr int kQuality = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP;
   scaler.reset(
       sws_getContext(width, height, AV_PIX_FMT_BGRA, width, height, kind.pixels, kQuality, nullptr, nullptr, nullptr));

@@ -14,9 +14,9 @@ constexpr float kFlatness = 0.17F;
 // Position of a candle in pixels.
 struct Body {
   float middle = 0;  // x of the axis
-  float half = 0;    // half its width
-  float top = 0;     // y of the centre of its upper circle
-  float bottom = 0;  // y of the centre of its lower circle
+  float half = 0;    // half the candle's width
+  float top = 0;     // y of the centre of the upper circle
+  float bottom = 0;  // y of the centre of the lower circle
   float unit = 0;
   float squash() const { return kFlatness * half; }
 };
@@ -40,7 +40,7 @@ struct Spot {
   float front = 0;   // on the top: −1 far … 1 near
 };
 
-// Light that enters the wax at the top and scatters downwards; it reddens with the distance.
+// Returns the light that enters the wax at the top and scatters downwards, redder with the distance.
 Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
   const float scale = std::sqrt(width / 0.62F);
   const Light way{std::exp(-spot.depth / (0.38F * scale)), std::exp(-spot.depth / (0.22F * scale)),
@@ -51,7 +51,7 @@ Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
   return 1.10F * lip * turned * sided * (wax * way);
 }
 
-// Light from the candle's top: the pool under the flame, and the ridge of wax around it.
+// Returns the light from the candle's top: the pool under the flame, and the ridge of wax around the pool.
 Light top_light(const Spot& spot, const Light& wax, float lean) {
   const float near_wick = std::exp(-spot.round / 0.22F);
   const float ridge = smooth_step(0.60F, 0.74F, spot.round);
@@ -67,13 +67,13 @@ Light top_light(const Spot& spot, const Light& wax, float lean) {
   return sided * (base + (1 - ridge) * streak * Light{0.55F, 0.42F, 0.22F});
 }
 
-// Light of the room on the wax: weak, cool, from the upper left.
+// Returns the light of the room on the wax: weak, cool, from the upper left.
 Light room_light(const Spot& spot, const Light& wax, float ambient, bool top) {
   const float lit = top ? 0.8F : 0.34F + 0.50F * spot.facing - 0.20F * spot.across;
   return ambient * lit * (wax * Light{0.58F, 0.76F, 1.25F});
 }
 
-// Light of a neighbour's flame on the wax, from one side; it wraps around, since wax is translucent.
+// Returns the light of a neighbour's flame on the wax, from one side, and around it, since wax is translucent.
 Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, const Body& body) {
   const float dx = (lamp.place.x - body.middle) / body.unit;
   const float dy = (body.top - lamp.place.y) / body.unit + spot.depth;
@@ -87,7 +87,7 @@ Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, cons
 // Wax that ran down the side and set: a runnel with a heavy round end.
 struct Drip {
   float across = 0;  // position, as Spot::across
-  float half = 0;    // half its width at the end, relative to the candle's half width
+  float half = 0;    // half the width at the end, relative to the candle's half width
   float length = 0;  // model units below the rim
 };
 
@@ -104,10 +104,10 @@ std::vector<Drip> drips_of(std::uint64_t seed, float width) {
   return drips;
 }
 
-// Distance of a spot inside the drip's edge, in half widths; negative outside.
+// Returns the distance of a spot inside the drip's edge, in half widths; negative outside.
 float inside_drip(const Drip& drip, const Spot& spot, float half_width) {
   const float up = std::max(0.0F, drip.length - spot.depth) / half_width;
-  // Narrower above its end, wider again at the rim.
+  // A drip is narrower above its end, and wider again at the rim.
   const float neck = 0.62F + 0.38F * std::exp(-up / 0.30F) + 0.9F * std::exp(-spot.depth / (0.10F * half_width));
   const float side = std::abs(spot.across - drip.across) / (drip.half * neck);
   const float below = (spot.depth - (drip.length - drip.half * half_width)) / (drip.half * half_width);
@@ -160,7 +160,7 @@ class Shader {
   }
 
  private:
-  // Light of the flame reflected by wall and table.
+  // Returns the light of the flame that wall and table reflect.
   Light bounced(const Spot& spot) const { return (0.05F + 0.035F * (1 - spot.facing)) * wax_; }
 
   Light side_light(const Spot& spot) const {
@@ -192,7 +192,7 @@ class Shader {
   std::vector<Lamp> near_;
 };
 
-// Approximate signed distance in pixels, positive inside an ellipse centred at the origin.
+// Returns the approximate signed distance in pixels, positive inside an ellipse centred at the origin.
 float inside_ellipse(float x, float y, float half, float squash) {
   const float u = x / half;
   const float v = y / squash;

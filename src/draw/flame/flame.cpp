@@ -24,7 +24,7 @@ void show_state(const LitState& state, FlameScene& scene) {
 }
 
 void SmokeDrift::blow(float wind, const LitState& state, std::chrono::nanoseconds step_time, FlameScene& scene) {
-  // Speed of smoke in a wind of 1, flame heights a second; real smoke would leave the picture at once.
+  // Flame heights a second that smoke drifts in a wind of 1; real smoke would leave the picture at once.
   constexpr float kSmokeCarried = 1.5F;
   if (state.since_out == kNever) return;
   if (state.since_out <= step_time) sum_ = count_ = 0;
@@ -59,7 +59,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kHighest = 80;  // degrees
 
-// A ring in the picture: its centre, and the image vectors of its radii along the picture and towards the camera.
+// A ring seen by the camera: centre, radius to the right, and how far the right and the near rim rise in the picture.
 struct SeenRing {
   double x, y;
   double radius;
@@ -80,7 +80,7 @@ SeenRing seen(const float* ring, const Camera& camera) {
           up * (s * ring[4] + c * ring[5]) - down * ring[3]};
 }
 
-// Sign of the surface normal towards the camera at an angle of a ring; it changes at the silhouette.
+// Returns the cross product of the surface's tangents in the picture, whose sign changes at the silhouette.
 double facing(const SeenRing& below, const SeenRing& ring, const SeenRing& above, double angle) {
   const Point from = below.rim(angle), to = above.rim(angle);
   const double around_x = -ring.radius * std::sin(angle);
@@ -88,7 +88,7 @@ double facing(const SeenRing& below, const SeenRing& ring, const SeenRing& above
   return (to.x - from.x) * around_y - (to.y - from.y) * around_x;
 }
 
-// Angle of the silhouette nearest to one side of the ring; that side itself where there is none.
+// Returns the angle of the silhouette nearest to the angle `side`; `side` itself if none is within 90 degrees.
 double edge_of(const SeenRing& below, const SeenRing& ring, const SeenRing& above, double side) {
   constexpr int kSteps = 32;
   const double step = 90 * kDegree / kSteps;
@@ -107,9 +107,9 @@ double edge_of(const SeenRing& below, const SeenRing& ring, const SeenRing& abov
 constexpr Colour kGround{38, 41, 46, 255};
 constexpr Colour kShape{176, 184, 192, 255};
 constexpr Colour kEdge{236, 240, 244, 255};
-constexpr float kNarrower = 0.8F;  // maximum ratio of a flame's width near its tip to that at two fifths of its height
+constexpr float kNarrower = 0.8F;  // maximum ratio of a flame's width at 0.88 of the tip's height to the width at 0.4
 
-// The control polygon at the centre of its range, in the model's units.
+// Returns the control polygon at the centre of its range, in the model's units.
 std::vector<Point> middle_polygon(const Model& model) {
   std::vector<Point> out;
   const auto middle = [](const Output& output) { return static_cast<float>(0.5 * (output.lowest + output.highest)); };

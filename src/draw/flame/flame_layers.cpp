@@ -34,7 +34,7 @@ struct Stage {
   FlameMood mood;
 };
 
-// Brightness and colour of a flame that has grown to the share `grown`.
+// Returns brightness and colour of a flame that has grown to the share `grown`.
 FlameMood re_igniting(float grown) { return {0.5F + 0.5F * grown, 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)}; }
 
 Stage stage_of(const FlameScene& scene) {
@@ -51,7 +51,7 @@ Stage stage_of(const FlameScene& scene) {
   return stage;
 }
 
-// Amount of soot: a very small flame burns blue.
+// Returns the share of soot, 0 to 1: a very small flame burns blue.
 float sooting(const FlameShape& shape) { return smooth_step(0.06F, 0.40F, shape.height); }
 
 Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
@@ -60,7 +60,7 @@ Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
   return {shape.middle, glowing * std::pow(area, 0.7F)};
 }
 
-// Light as a function of the glowing soot in view (0 none … 1 the thickest part): rim, body and core with soft
+// Table of light by the amount of glowing soot in view (0 none … 1 the thickest part): rim, body and core with soft
 // transitions.
 class SootRamp {
  public:
@@ -91,29 +91,28 @@ class SootRamp {
   std::array<Light, kSteps + 1> table_{};
 };
 
-// Share of glowing soot at the share t of the way from base to tip: the dark zone around the wick, the luminous zone,
-// and the tip where soot burns off.
+// Returns the amount of glowing soot, 0 to 1, at the share t of the way from base to tip: low around the wick, high in
+// the luminous zone, lower at the tip, where soot burns off.
 float soot_profile(float t) {
   const float rise = 0.04F + 0.34F * smooth_step(0.04F, 0.22F, t) + 0.62F * smooth_step(0.14F, 0.44F, t);
   const float burn_off = 1 - 0.55F * smooth_step(0.74F, 1.04F, t);
   return rise * burn_off;
 }
 
-// Depth of soot: the whole thickness in the upper flame; near the base only the inside of the blue mantle, which soot
-// would turn purple.
+// Returns the depth of soot: the whole thickness in the upper flame; near the base only the inside of the blue mantle,
+// which soot would turn purple.
 float soot_depth(float t, float thick) {
   const float shell = 0.50F * (1 - smooth_step(0.05F, 0.34F, t));
   return std::max(0.0F, thick - shell) / (1 - shell);
 }
 
-// The blue mantle: a thin shell of burning gas, seen edge-on at the sides, that fades upwards.
+// Returns the light of the blue mantle: a thin shell of burning gas, seen edge-on at the sides, that fades upwards.
 float mantle(float t, float thick) {
   const float shell = std::exp(-7.0F * thick * thick) + 0.05F;
   return shell * (1 - smooth_step(0.00F, 0.27F, t));
 }
 
-// Adds the flame's light to the field. `shade`, 0 … 1 over the shape's box, dims it where the wick is; empty: no
-// dimming.
+// Adds the flame's light to the field. `shade`, 0 … 1 over the shape's box, dims the light; empty: no dimming.
 void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const Plane& shade) {
   if (shape.empty() || shape.thickest <= 0) return;
   const SootRamp ramp;
@@ -135,7 +134,7 @@ void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood
   }
 }
 
-// The wick hides most of the flame's light, since the gas in front of it is thin.
+// Returns the share of the flame's light that the wick hides at each pixel: most, as the gas before the wick is thin.
 Plane wick_shade(const Candle& candle) {
   constexpr float kHides = 0.82F;
   const PixelBox& box = candle.shape.box;
@@ -151,7 +150,7 @@ void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
   if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
   const float out = scene.seconds_since_out;
-  // It becomes visible as the flame shrinks.
+  // The ember becomes visible as the flame shrinks.
   const float bare = 1 - 0.8F * scene.size.value_or(0.0F);
   const float heat = burns(scene) ? 0.16F : bare * (0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F));
   if (heat < 0.004F) return;

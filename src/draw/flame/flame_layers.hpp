@@ -30,7 +30,7 @@ inline constexpr float kWickGap = 0.12F;       ///< distance from the candle's t
 inline constexpr float kWickHeight = 0.24F;    ///< distance from the candle's top to the wick's end
 inline constexpr float kAmbient = 0.06F;       ///< room light on the candle, which keeps it visible without a flame
 
-/// A number in [0, 1) for a seed and an index (the finaliser of SplitMix64; G. Steele, D. Lea, C. Flood 2014).
+/// Returns a number in [0, 1) for a seed and an index (the finaliser of SplitMix64; G. Steele, D. Lea, C. Flood 2014).
 inline float random_at(std::uint64_t seed, std::uint64_t index) {
   std::uint64_t z = seed + 0x9E3779B97F4A7C15U * (index + 1);
   z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
@@ -61,10 +61,10 @@ struct Bounds {
   float height() const { return bottom - top; }
 };
 
-/// Precondition: at least one point.
+/// Returns the bounding box of points. Precondition: at least one point.
 Bounds bounds_of(std::span<const Point> points);
 
-/// Returns the pixels of a picture that bounds touch, and `margin` more on each side; zero width: none.
+/// Returns the pixels of a picture within bounds, extended by `margin` on each side; zero width: none.
 PixelBox visible_box(const Bounds& bounds, int margin, int width, int height);
 
 /// Emitted light per pixel of a picture.
@@ -101,7 +101,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
 /// Returns the finest grid that the rings need, as a number of halvings of the picture's size.
 int finest_level(std::span<const HaloRing> rings);
 
-/// Halves the size in both directions, rounded up, about the middle. Outside is dark.
+/// Returns the plane at half its width and height, rounded up. The plane counts as dark beyond its edges.
 Plane halved(const Plane& fine);
 
 /// Returns the share of the background visible through light of that strength, about e^(−light).
@@ -120,7 +120,7 @@ struct FlameShape {
   Plane thickness;     ///< half the chord of glowing gas behind each pixel, in model units
   float thickest = 0;  ///< maximum of thickness
   Point base;          ///< middle of the outline's base, pixels
-  Point middle;        ///< centre of its light, pixels
+  Point middle;        ///< mean of the outline's points, pixels: where the flame's light comes from
   float reach = 0;     ///< distance in pixels from the base to the farthest point
   float height = 0;    ///< reach in model units
   float area = 0;      ///< area in square model units
@@ -128,8 +128,8 @@ struct FlameShape {
   bool empty() const { return box.width == 0; }
 };
 
-/// Rasterises an outline (model units), scaled by `scale` about its base. Points that are not finite are left out; the
-/// base is drawn as a drop around the wick, down to `cap` units under the base's middle.
+/// Rasterises an outline (model units), scaled by `scale` about the origin. Points that are not finite are left out;
+/// the base is drawn as a drop around the wick, down to `cap` units under the base's middle.
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
                        int height);
 
@@ -140,23 +140,23 @@ struct FlameMood {
 
 /// The wick, a short, bent, tapering cord between candle and flame, rasterised over a picture.
 struct Wick {
-  PixelBox box;     ///< part of the picture that it touches; zero width: no wick
+  PixelBox box;     ///< part of the picture that the wick touches; zero width: no wick
   Plane coverage;   ///< share of each pixel of the box inside the wick
-  Point root;       ///< where it leaves the wax, pixels
-  Point end;        ///< its upper end, pixels
-  float width = 0;  ///< width at its root, pixels
+  Point root;       ///< where the wick leaves the wax, pixels
+  Point end;        ///< upper end, pixels
+  float width = 0;  ///< width at the root, pixels
 
   bool empty() const { return box.width == 0; }
 };
 
 Wick make_wick(const FlameScene& scene, int width, int height);
 
-/// The wick's coverage at a pixel of the picture; 0 outside its box.
+/// Returns the wick's coverage at a pixel of the picture; 0 outside the wick's box.
 float wick_at(const Wick& wick, int x, int y);
 
 /// A flame as a source of light for other candles, smoke and the room.
 struct Lamp {
-  Point place;      ///< pixel of its centre
+  Point place;      ///< pixel of the centre of the light
   float power = 0;  ///< light relative to a calm flame's
 };
 
@@ -230,7 +230,7 @@ struct Row {
 /// columns.
 void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
 
-/// Writes codes with their fraction as pixels, rounded by `dither`.
+/// Writes fractional screen codes of the pixels [first, last), rounded by `dither`.
 void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
 
 /// A flame and its candle, which casts a shadow on the table.
@@ -246,10 +246,10 @@ Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lam
 
 class Room {
  public:
-  /// A room for a picture of that size.
+  /// Creates a room for a picture of that size.
   Room(int width, int height);
 
-  /// Returns the light from the room, in cells.
+  /// Returns the light that each cell of the room sends to the eye, lit by the flames and the moon.
   const LightField& lit(std::span<const Stand> stands);
 
  private:

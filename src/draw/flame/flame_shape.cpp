@@ -47,8 +47,8 @@ struct Shoulder {
   Point way;  // unit vector along the side at the junction
 };
 
-// Follows the outline from one of its ends to its first rise through `height`. Where that is far from the end (a flame
-// blown flat), the end itself is the shoulder.
+// Follows the outline from one of its ends to its first rise through `height`, the shoulder. If no rise is within the
+// first quarter of the points (a flame blown flat), the end itself is the shoulder.
 template <class Points>
 Shoulder shoulder_of(const Points& begin, std::ptrdiff_t size, float height) {
   Shoulder shoulder{0, begin[0], {0, -1}};
@@ -105,7 +105,7 @@ void close_base(std::vector<Point>& points, float cap) {
   append_curve(points, lowest, {lowest.x - round, lowest.y}, handle(left, -1), left.at);
 }
 
-// Share of each cell inside the polygon; the grid's origin is (left, top), a cell is `cell` pixels.
+// Returns the share of each cell inside the polygon; the grid's origin is (left, top), a cell is `cell` pixels wide.
 Plane rasterised(std::vector<Point> pixels, float left, float top, float cell, int columns, int rows) {
   for (Point& p : pixels) p = {(p.x - left) / cell, (p.y - top) / cell};
   return coverage_of(pixels, columns, rows, true);
@@ -137,7 +137,7 @@ Plane solve_thickness(const Plane& inside) {
   return phi;
 }
 
-// Bilinear value of a grid with a border of one cell, at cell coordinates (cell centres at halves).
+// Returns the bilinear value of a grid with a border of one cell, at cell coordinates (cell centres at halves).
 float sampled(const Plane& bordered, float x, float y) {
   const float u = std::clamp(x + 0.5F, 0.0F, static_cast<float>(bordered.width) - 1.001F);
   const float v = std::clamp(y + 0.5F, 0.0F, static_cast<float>(bordered.height) - 1.001F);

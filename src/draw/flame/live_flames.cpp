@@ -55,7 +55,7 @@ PixelBox around(PixelBox a, PixelBox b) {
   return {left, top, right - left, bottom - top};
 }
 
-// Box of a candle's own light: flame and ember.
+// Returns the box of a candle's own light: flame and ember.
 PixelBox own_light_box(const Candle& candle, int width, int height) {
   const PixelBox& flame = candle.shape.box;
   const PixelBox& wick = candle.wick.box;
@@ -114,7 +114,7 @@ struct LiveFlames::State {
 
   FlameStyle style;
   Room room;
-  const LightField* room_light = nullptr;  // in the current picture
+  const LightField* room_light = nullptr;  // light of the room in the current picture
   Image behind;                            // picture of the room alone
   Plane dither;
   LightField own;   // flames and embers, in pixels; dark outside `lit`
@@ -122,7 +122,7 @@ struct LiveFlames::State {
   LightField codes;
   Row light_row, code_row;
   std::vector<float> scratch;
-  std::vector<std::uint8_t> bright;  // flags per pixel of a row: may have own light
+  std::vector<std::uint8_t> bright;  // per pixel of a row: 1 inside a box of `lit`
   std::vector<PixelBox> lit;
 };
 
@@ -133,7 +133,7 @@ void LiveFlames::State::gather(Plane& luminance, PixelBox box) const {
   for (int k = 0; k < kHalvings; ++k) soft = halved(soft);
   const int left = part.x / kCell, top = part.y / kCell;
   for (int y = 0; y < soft.height; ++y) {
-    // Parts overlap at their edges, where one of them lacks the other's light; the larger value is complete.
+    // Parts overlap at their edges, where each may lack light of the other; the larger value is complete.
     float* out = luminance.row(top + y) + left;
     for (int x = 0; x < soft.width; ++x) out[x] = std::max(out[x], soft.row(y)[x]);
   }
@@ -189,7 +189,7 @@ void LiveFlames::State::draw_room(std::span<const Candle> candles) {
   }
 }
 
-// Computes screen codes of room and glow where no candle or smoke is in front of them.
+// Computes the screen codes of room and glow, which are shown where no candle or smoke is in front of them.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {

@@ -9,7 +9,7 @@
 namespace wisp::drawing {
 namespace {
 
-// Heights as shares of the picture's: the table's edge at the wall, and the horizon of its plane.
+// Distances from the picture's top, as shares of its height: the table's edge at the wall; the table plane's horizon.
 constexpr float kTableEdge = 0.70F, kHorizon = 0.46F;
 
 // Distance of the wall behind the flames, in model units.
@@ -26,7 +26,7 @@ constexpr Light kMoon{0.0115F, 0.0140F, 0.0210F};
 // Adaptation of the eye: brightening of a room without flames, and dimming by bright flames.
 constexpr float kOpens = 1.9F, kNarrows = 1.3F;
 
-// Smooth noise over a plane, 0 to 1.
+// Returns smooth noise over a plane, 0 to 1.
 float noise_at(float x, float y, std::uint64_t seed) {
   const float i = std::floor(x), j = std::floor(y);
   const auto knot = [&](float a, float b) {
@@ -39,7 +39,7 @@ float noise_at(float x, float y, std::uint64_t seed) {
   return top + v * (bottom - top);
 }
 
-// Wood grain of the table at a position, x across and z towards the eye, in units of about a candle's width.
+// Returns the wood grain of the table at a position, x across and z towards the eye, in about candle widths.
 float grain_at(float x, float z) {
   const float plank = z * 2.6F + 40;
   const float seam = std::abs(plank - std::floor(plank) - 0.5F);
@@ -49,7 +49,7 @@ float grain_at(float x, float z) {
   return (0.62F + 0.62F * fine) * (0.86F + 0.28F * random_at(11, which)) * (1 - 0.55F * smooth_step(0.46F, 0.5F, seam));
 }
 
-// Moonlight through a window with nine panes, on the wall: 0 to 1.
+// Returns the moonlight on the wall, through a window with nine panes, at a position in picture sizes: 0 to 1.
 float pane_at(float x, float y) {
   constexpr float kLeft = 0.70F, kTop = 0.10F, kWide = 0.15F, kHigh = 0.34F, kSlant = 0.16F;
   const float v = (y - kTop) / kHigh, u = (x - kLeft - kSlant * (v - 0.5F) * kHigh) / kWide;
@@ -179,8 +179,8 @@ void Room::light_wall(std::span<const Stand> stands) {
   }
 }
 
-// The candle's shadow covers table points whose line to the flame passes through the circle of the candle's rim, so it
-// moves against the flame.
+// Adds a flame's light on the table. Points whose line to the flame passes through the circle of the candle's rim are
+// in the candle's shadow, so the shadow moves against the flame.
 void Room::light_table(const Stand& stand) {
   constexpr int kPixels = 2 * kCell;
   if (stand.lamp.power <= 0) return;
@@ -196,7 +196,7 @@ void Room::light_table(const Stand& stand) {
       const TableSpot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));
       const float dx = p.x - aside, dz = p.z - foot.z;
       const float square = dx * dx + dz * dz + high * high;
-      // Intersection of that line with the plane of the rim.
+      // Intersection of the point's line to the flame with the plane of the rim.
       const float qx = p.x + rim * (aside - p.x) - foot.x, qz = (1 - rim) * dz;
       const float open = stand.height > 0 ? smooth_step(0.75F, 1.35F, std::sqrt(qx * qx + qz * qz) / stand.half) : 1;
       out[i] += stand.lamp.power * (0.08F + 0.92F * open) * 2.2F * high / (square * std::sqrt(square));
@@ -394,7 +394,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
 
 void add_light(Image& image, const LightField& field) {
   assert(image.width() == field.width() && image.height() == field.height());
-  // Invisible: a thousandth of the darkest code.
+  // Light below this is invisible: a thousandth of the darkest code.
   constexpr float kDarkest = 3e-7F;
   const Tone& tone = Tone::get();
   for (int y = 0; y < image.height(); ++y) {

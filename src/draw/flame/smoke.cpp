@@ -24,7 +24,7 @@ struct Swing {
   float across;  // model units, at full size
   float upward;
   float phase;
-  float twist;  // phase difference over the ribbon's width, in turns
+  float twist;  // phase difference over half the ribbon's width, in turns
 };
 
 std::array<Swing, 4> swings_of(std::uint64_t seed) {
@@ -36,7 +36,7 @@ std::array<Swing, 4> swings_of(std::uint64_t seed) {
            {3.60F, 0.004F, 0.002F, phase(3), 0.4F}}};
 }
 
-// Position of smoke of age `age` that left the wick `left` seconds after extinction: model units from the wick's end.
+// Returns the position, in model units from the wick's end, of smoke of age `age` that left `left` s after extinction.
 Point drift(float left, float age, float side, float wind, std::span<const Swing> swings) {
   // Hot smoke starts fast and is slowed by entrained air.
   const float rise = 0.75F * age + 0.30F * (1 - std::exp(-age / 0.35F));
@@ -58,7 +58,7 @@ struct Plume {
   int left = 0, top = 0, right = -1, bottom = -1;
 };
 
-// A soft round dab of smoke.
+// Adds a soft round dab of smoke.
 void dab(Plume& plume, float x, float y, float radius, float amount) {
   Plane& density = plume.density;
   const int left = std::max(0, static_cast<int>(std::ceil(x - radius - 0.5F)));
@@ -84,7 +84,7 @@ void dab(Plume& plume, float x, float y, float radius, float amount) {
   }
 }
 
-// Density of all airborne smoke of a wick that smoked for `smoking` seconds, on a grid of `cell` pixels.
+// Returns the density of all airborne smoke of a wick that smoked for `smoking` seconds, on a grid of `cell` pixels.
 Plume risen(const Image& image, const FlameScene& scene, Point wick_end, float cell, float smoking) {
   Plume plume;
   plume.density = Plane(static_cast<int>(std::ceil(static_cast<float>(image.width()) / cell)) + 1,

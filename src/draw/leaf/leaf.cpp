@@ -28,7 +28,7 @@ struct Colours {
   Colour upper, margin, under, vein;
 };
 
-// Leaf styles of successive weeks of an autumn. The first is the given style.
+// Returns leaf styles of successive weeks of an autumn, beginning with the given style.
 std::vector<LeafStyle> weeks_of(const LeafStyle& style) {
   constexpr std::array<Colours, 4> kOthers{{
       {{226, 150, 44}, {186, 84, 28}, {214, 178, 116}, {248, 214, 130}},
@@ -51,7 +51,7 @@ Vec3 towards_lamp(const LeafRoom& room) {
   return unit(usable ? way : Vec3{0, 0, 1});
 }
 
-// Whether position and orientation of a leaf are valid numbers.
+// Returns whether position and orientation of a leaf are valid numbers.
 bool is_drawable(const LeafPose& pose) {
   float sum = 0, square = 0;
   for (const float part : pose.position) sum += part;
@@ -59,7 +59,7 @@ bool is_drawable(const LeafPose& pose) {
   return std::isfinite(sum) && std::isfinite(square) && square > 1e-12F;
 }
 
-// Style with its fields clamped to their ranges.
+// Returns the style with its fields clamped to their ranges.
 LeafStyle clamped(LeafStyle style) {
   style.length = std::clamp(style.length, 0.001F, 100.0F);
   style.width = std::clamp(style.width, 0.001F, 100.0F);
@@ -93,8 +93,8 @@ Image empty_room(int width, int height, const LeafCamera& camera, const LeafRoom
   return image;
 }
 
-// Height of the card over the leaf's plane, in half lengths, for a leaf that folds up along the midrib and droops at
-// its ends.
+// Returns the height of the card over the leaf's plane, in half lengths, for a leaf that folds up along the midrib and
+// droops at its ends.
 float bulge(float x, float y, float curl) {
   const float fold = 0.20F * std::sqrt(y * y + 0.01F);
   const float hang = x > -1 ? -0.12F * x * x : -0.12F - 0.30F * (x + 1) * (x + 1) + 0.24F * (x + 1);
@@ -124,7 +124,7 @@ std::vector<CardVertex> card_of(const LeafStyle& style) {
   return card;
 }
 
-// Light on a surface relative to one facing the lamp, as a factor of sRGB codes.
+// Returns the light on a surface relative to a surface facing the lamp, as a factor of sRGB codes.
 float shade(Vec3 normal, Vec3 lamp) {
   const float falls = dot(normal, lamp), sky = 0.5F + 0.5F * normal.z;
   const float light = 1.2F * std::max(falls, 0.0F) + 0.45F * sky + 0.27F * (1 - sky) + 0.36F * std::max(-falls, 0.0F);
@@ -263,7 +263,7 @@ void LeafFlock::State::lay_leaf(Image& image, const FlockLeaf& leaf) {
   if (right < 0 || bottom < 0 || left > static_cast<float>(image.width()) || top > static_cast<float>(image.height()))
     return;
   const Texture& side = sides[leaf.look % sides.size()][upper ? 0 : 1];
-  // The texture level whose pixels are nearest in size to the image's.
+  // Selects the texture level whose pixels are nearest in size to the image's.
   const float long_axis =
       view.scale_at(dot(place - view.eye(), view.gaze())) * size * half_length * (kLeafRight - kLeafLeft);
   const float finer = std::log2(std::max(1.0F, kLeafPixels / std::max(1.0F, long_axis)));

@@ -53,7 +53,7 @@ constexpr int kLeafRows = 120, kSamples = 4;  // rows of the picture; samples pe
 
 Light mixed(Light a, Light b, float share) { return (1 - share) * a + share * b; }
 
-// Share of vein at a position, 0 … 1.
+// Returns the share of vein in the colour at a position, 0 … 1.
 float vein_at(float u, float v) {
   const float across = std::abs(v);
   const float midrib = 1 - smooth_step(0.6F, 1.0F, across / (0.075F - 0.055F * u));
@@ -68,14 +68,14 @@ float vein_at(float u, float v) {
   return std::max(midrib, 0.62F * side);
 }
 
-// Blotches of an autumn leaf, −1 … 1: a sum of a few waves that do not repeat within the leaf.
+// Returns the blotches of an autumn leaf, −1 … 1: a sum of a few waves that do not repeat within the leaf.
 float blotch(float u, float v) {
   return (std::sin(9.1F * u + 3.7F * v + 0.4F) + std::sin(-5.3F * u + 7.9F * v + 1.9F) +
           std::sin(14.2F * u - 4.4F * v + 4.1F)) /
          3;
 }
 
-// Half width over the blade, as a share of the style's, at most 0.77: rounded at the base, drawn out at the tip.
+// Returns the blade's half width as a share of the style's: rounded at the base, drawn out at the tip.
 float half_width(float u) {
   const float base = std::pow(u, 0.62F), tip = std::pow(1 - u, 0.95F);
   constexpr float kWidest = 0.4527F;  // 1.3 times the product's maximum, which is at u = 0.62 / 1.57
@@ -87,8 +87,8 @@ struct LeafPlace {
   float u = 0, v = 0;
 };
 
-// Position on the leaf at x and y, in halves of the blade's length and width; empty beside it. `slim` is its width /
-// length.
+// Returns the position on the leaf at x and y, in halves of the blade's length and width; empty beside the leaf.
+// `slim`: the blade's width / length.
 std::optional<LeafPlace> place_at(float x, float y, float slim) {
   const float u = (x + 1) / 2;
   if (u >= 0) {

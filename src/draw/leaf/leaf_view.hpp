@@ -27,7 +27,7 @@ struct Texture {
 /// Precondition: the picture has at least one pixel and width × height of them.
 Texture texture_of(Texture::Level picture);
 
-/// A corner: its position in the image, its position in the texture (shares of the size, 0 … 1), and its brightness.
+/// A triangle corner: position in the image, position in the texture (shares of the size, 0 … 1), and brightness.
 struct TexturedCorner {
   float x = 0, y = 0;
   float u = 0, v = 0;
@@ -75,9 +75,9 @@ class LeafView {
   LeafView(const LeafCamera& camera, int width, int height);
 
   Projected operator()(Vec3 place) const;
-  /// Pixels per metre at a depth.
+  /// Returns the pixels per metre at a depth.
   float scale_at(float depth) const { return focal_ / depth; }
-  /// Direction of the ray through a pixel, not normalised.
+  /// Returns the direction of the ray through a pixel, not normalised.
   Vec3 ray(float x, float y) const;
   Vec3 eye() const { return eye_; }
   Vec3 gaze() const { return forward_; }
@@ -93,7 +93,7 @@ class LeafView {
 inline constexpr float kLeafLeft = -1.52F, kLeafRight = 1.06F, kLeafSide = 1.12F;
 inline constexpr int kLeafPixels = 192;  ///< texture length in pixels at the largest size
 
-/// Texture of one side of a flat leaf under a lamp directly above. Row 0 has the largest y.
+/// Paints the texture of one side of a flat leaf under a lamp directly above. Row 0 has the largest y.
 Texture painted_side(const LeafStyle& style, bool upper);
 
 }  // namespace wisp::drawing

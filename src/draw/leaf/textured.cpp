@@ -18,7 +18,7 @@ std::uint32_t between(std::uint32_t a, std::uint32_t b, std::uint32_t share) {
   return (low >> 8 & kEven) | (high & ~kEven);
 }
 
-// Bilinear sample of the texture at a position in 256ths of its pixels, from the first pixel's centre.
+// Returns a bilinear sample of the texture at a position in 256ths of its pixels, from the first pixel's centre.
 std::uint32_t sampled(const Texture::Level& texture, int u, int v) {
   const int x = std::clamp(u >> 8, 0, texture.width - 1), y = std::clamp(v >> 8, 0, texture.height - 1);
   const int right = std::min(x + 1, texture.width - 1), below = std::min(y + 1, texture.height - 1);

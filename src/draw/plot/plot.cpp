@@ -63,7 +63,7 @@ void draw_plot(cairo_t* context, const Plot& plot, double width, double height, 
   draw_keys(context, plot, axes);
 }
 
-// Left edge of the data area, common to all plots of a column.
+// Returns the left edge of the data area, common to all plots of a column.
 double left_of_column(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at, std::size_t column) {
   double left = 0;
   for (std::size_t k = column; k < sheet.plots.size(); k += at.columns) {

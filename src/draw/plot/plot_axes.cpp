@@ -45,7 +45,7 @@ void take_series(const PlotSeries& series, const Plot& plot, Extent& x, Extent& 
   if (series.shape == SeriesShape::kBars) y.take(0, plot.y.logarithmic);
 }
 
-// The data's range with margins, except at edges that are meaningful (time, zero).
+// Returns the data's range, widened by the share `air` at both ends; with `to_zero`, a low end near zero becomes zero.
 Range with_air(const Extent& extent, bool logarithmic, double air, bool to_zero) {
   if (extent.empty()) return logarithmic ? Range{1, 10} : Range{0, 1};
   if (logarithmic) {
@@ -58,7 +58,7 @@ Range with_air(const Extent& extent, bool logarithmic, double air, bool to_zero)
     const double half = range.low == 0 ? 1 : 0.5 * std::abs(range.low);
     return {range.low - half, range.high + half};
   }
-  // Includes zero where the lowest value is near it relative to the highest.
+  // Near zero: below 0.3 of the highest value.
   if (to_zero && range.low >= 0 && range.low < 0.3 * range.high)
     range.low = 0;
   else
@@ -72,7 +72,7 @@ Range fixed_ends(Range range, const PlotAxis& axis) {
   if (axis.lowest && valid(*axis.lowest)) range.low = *axis.lowest;
   if (axis.highest && valid(*axis.highest)) range.high = *axis.highest;
   if (range.low < range.high) return range;
-  // Where the requested ends leave an empty range, the lower one is kept.
+  // If the requested ends leave an empty range, the lower end is kept.
   return {range.low, axis.logarithmic ? range.low * 10 : range.low + 1};
 }
 

@@ -35,10 +35,10 @@ void draw_grid(cairo_t* context, const Axes& axes);
 void draw_axes(cairo_t* context, const Plot& plot, const Axes& axes);
 void draw_marks(cairo_t* context, const Plot& plot, const Axes& axes);
 
-/// Draws the legend of the series in lines above the data, where it hides none.
+/// Draws the legend of the series in lines above the data area.
 void draw_keys(cairo_t* context, const Plot& plot, const Axes& axes);
 
-/// Colour of a series: its own, or the palette's colour by its index.
+/// Returns the colour of a series: its own, or the palette's colour by its index.
 Colour series_colour(const PlotSeries& series, std::size_t place);
 
 void draw_series(cairo_t* context, const PlotSeries& series, Colour colour, const Scale& x, const Scale& y);
@@ -48,7 +48,7 @@ void draw_sample(cairo_t* context, const PlotSeries& series, Colour colour, doub
 
 void set_dash(cairo_t* context, Dash dash, double width);
 
-/// Width of bars in data units: the smallest step between them; 1 for a single bar.
+/// Returns the width of bars in data units: the smallest step between neighbours; 1 for a single bar.
 double bar_width(const PlotSeries& series);
 
 }  // namespace wisp::drawing

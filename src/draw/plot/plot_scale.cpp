@@ -8,7 +8,7 @@
 namespace wisp::drawing {
 namespace {
 
-// The round number (1, 2 or 5 times a power of ten) that divides the length into about `wanted` steps.
+// Returns the round number (1, 2 or 5 times a power of ten) that divides the length into about `wanted` steps.
 double round_step(double length, int wanted, bool whole_numbers) {
   const double rough = 0.8 * length / wanted;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -33,7 +33,7 @@ std::string formatted(double value, int decimals) {
   return (value < 0 && !zero ? "−" : "") + std::string(text.data());
 }
 
-// Number of decimals needed to distinguish multiples of the step.
+// Returns the number of decimals needed to distinguish multiples of the step.
 int decimals_of(double step) {
   for (int decimals = 0; decimals < 12; ++decimals) {
     const double scaled = step * std::pow(10.0, decimals);
@@ -55,7 +55,7 @@ Ticks linear_ticks(const Scale& scale, int wanted, bool whole_numbers) {
   }
   const double largest = std::max(std::abs(scale.low), std::abs(scale.high));
   const int exponent = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
-  // Without an exponent, if the largest number has at most five digits before the point or one zero after it.
+  // Labels have no exponent if the largest number has at most five digits before the point or one zero after it.
   const bool apart = exponent >= 5 || exponent <= -3;
   const double unit = apart ? std::pow(10.0, exponent) : 1.0;
   if (apart) ticks.shared = "×10" + superscript(exponent);
@@ -99,7 +99,7 @@ Ticks logarithmic_ticks(const Scale& scale, int wanted) {
 
 double Scale::operator()(double value) const {
   const double share = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-  // Cairo's coordinates are fixed-point numbers of limited range: limits points to four axis lengths outside.
+  // Points are clamped to four axis lengths outside, as Cairo's fixed-point coordinates have a limited range.
   return from + std::clamp(share, -4.0, 5.0) * (to - from);
 }
 

@@ -16,7 +16,7 @@ struct Scale {
 
   double operator()(double value) const;
 
-  /// Whether a value can be drawn: finite, and positive on a logarithmic axis.
+  /// Returns whether a value can be drawn: finite, and positive on a logarithmic axis.
   bool shows(double value) const;
 };
 
@@ -28,7 +28,7 @@ struct Ticks {
   std::string shared;               ///< common factor, such as "×10⁻³"; empty: none
 };
 
-/// Round values over the scale, about `wanted` of them (2 … 20).
+/// Returns ticks at round values over the scale, about `wanted` (clamped to 2 … 20).
 Ticks make_ticks(const Scale& scale, int wanted, bool whole_numbers);
 
 /// Determines the range of data.
