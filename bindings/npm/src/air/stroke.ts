@@ -43,7 +43,7 @@ export class Stroke {
   }
 }
 
-/** Wind of the pointer's path since the last frame on a flame; upwards in the picture is away over the table. */
+/** Wind on a flame from the pointer's path since the last frame. Upward motion blows away from the eye. */
 function blow({ pointer }: Acting, flameX: number, flameY: number, height: number): Air {
   const near = Math.exp((-0.5 * nearest2(pointer, flameX, flameY)) / (height * height));
   const [right, away] = [pointer.speedX, 0.4 * pointer.speedY];

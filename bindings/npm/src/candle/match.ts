@@ -3,8 +3,8 @@
 import { FlameShape } from './flame_shape.js';
 import { smokeAfter } from './candle.js';
 
-const ERRAND = 0.75; // seconds in which it reaches a wick by itself
-const STRIKE = 0.22; // seconds of the strike before
+const ERRAND = 0.75; // seconds for moving to a wick without a hand; 0.5 s later the match returns
+const STRIKE = 0.22; // seconds of the strike, before the match moves
 const STRUCK = 0.34; // distance of the strike, room units
 const FLARES = 0.32; // decay time of the flare, seconds
 
@@ -20,7 +20,7 @@ export class Match {
   readonly unit = 0.5;
   size = 0;
   burning = false;
-  /** instance of the model while it burns */
+  /** instance of the flame model while the match burns */
   id: bigint | null = null;
   held = false;
   homeX = 0;
@@ -29,7 +29,7 @@ export class Match {
   private goalX = 0;
   private goalY = 0;
   private errand: { left: number } | null = null;
-  /** remaining seconds of the strike; it burns at 0 */
+  /** remaining seconds of the strike; at 0 the match catches fire */
   private striking = 0;
   speedX = 0;
 
@@ -38,7 +38,7 @@ export class Match {
     return !this.held && this.errand === null && !this.burning;
   }
 
-  /** Sets its resting place, in front of what stands there. */
+  /** Sets the resting place's x and depth, in front of the candles. */
   rest(x: number, z: number): void {
     this.homeX = x;
     this.homeY = z > 2 ? 0.3 : 0.52;
@@ -49,7 +49,7 @@ export class Match {
     }
   }
 
-  /** Whether a press at room coordinates (at its depth) takes it up. */
+  /** Whether a press at these room coordinates, in the match's depth, picks up the match. */
   near(x: number, y: number): boolean {
     const along = (x - this.x) / 0.3;
     return Math.abs(x - this.x - 0.12) < 0.42 && y - this.y < 0.3 && y - this.y > -0.75 && along > -1.4;

@@ -102,7 +102,7 @@ export interface Vertices {
   buffer: WebGLBuffer;
 }
 
-/** Vertices of interleaved numbers: attributes 0, 1, … of these sizes. Their array stays bound. */
+/** Uploads interleaved numbers as attributes 0, 1, … of these sizes. The vertex array stays bound. */
 export function verticesOf(gl: WebGL2RenderingContext, numbers: Float32Array, sizes: readonly number[], usage: number = gl.STATIC_DRAW): Vertices {
   const array = gl.createVertexArray() as WebGLVertexArrayObject;
   const buffer = gl.createBuffer() as WebGLBuffer;
@@ -122,7 +122,7 @@ export function verticesOf(gl: WebGL2RenderingContext, numbers: Float32Array, si
 /** A strip of two triangles: a square from (−1, −1) to (1, 1). */
 export const SQUARE = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
 
-/** That square, at attribute 0. */
+/** Draws SQUARE, with its corners as attribute 0. */
 export class Quad {
   private readonly vertices: Vertices;
 
