@@ -7,7 +7,7 @@ import { Native } from './native.js';
 /** An input or an output. */
 export type Channel = at.Values<typeof at.channel.fields>;
 
-/** 'arx': autoregression with exogenous inputs. 'chain': recorded segments, joined at random. 'switched': ARX modes in turn. */
+/** 'arx': autoregression with exogenous inputs. 'chain': recorded segments. 'switched': ARX modes in turn. */
 export type Dynamics = 'arx' | 'chain' | 'switched';
 
 /** Meaning of the outputs. 'outline': control points x, y. 'pose': position and quaternion w, x, y, z. */
@@ -156,7 +156,7 @@ export class Model {
   }
 
   private static read(native: Native, bytes: Uint8Array): number {
-    // Of a file without a model's signature only 64 bytes are copied: WebAssembly memory grown by a film never shrinks.
+    // Of a file without a model's signature only 64 bytes are copied, as memory that grew for a film never shrinks.
     const promising = bytes.length >= 32 && magic.every((byte, k) => bytes[k] === byte);
     const given = promising ? bytes : bytes.subarray(0, 64);
     return native.withRoom(given.length, (copied) => {

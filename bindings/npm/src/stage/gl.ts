@@ -19,7 +19,7 @@ export class Program {
     gl.linkProgram(this.program);
   }
 
-  /** Whether compilation is complete and its result was read. Blocks if the browser cannot report that it is complete. */
+  /** Whether compilation is complete and its result was read. Blocks if the browser cannot report completion. */
   warm(): boolean {
     const told = this.gl.getExtension('KHR_parallel_shader_compile');
     if (told === null || this.gl.getProgramParameter(this.program, told.COMPLETION_STATUS_KHR) !== false) this.use();
@@ -90,7 +90,7 @@ function begun(gl: WebGL2RenderingContext, kind: number, source: string): WebGLS
   return shader;
 }
 
-/** Returns a function that checks one program per call, as all at once would delay a frame; true once all are usable. */
+/** Returns a function that checks one program per call, as all would delay a frame; true once all are usable. */
 export const warming = (programs: Program[]) => (): boolean => {
   const [next] = programs;
   if (next?.warm() === true) programs.shift();

@@ -7,7 +7,7 @@ import { button, panelOf } from './verdict.js';
 const USUAL = 30;
 const MOST = 1000;
 
-/** A field for a rate per second. */
+/** Creates a field for a positive number, with its label. */
 export function rateField(id: string, words: string, value: number | ''): { input: HTMLInputElement; label: HTMLElement } {
   const input = element('input', { type: 'number', min: '0.001', max: '1000000', step: 'any', value, id, inputmode: 'decimal' });
   return { input, label: element('label', { class: 'rate', for: id }, words, input) };
