@@ -12,9 +12,9 @@ let canvas: OffscreenCanvas | null = null;
 let room = new Uint8Array(0);
 
 /**
- * Whether luma and colour differences are of BT.709 instead of BT.601. A film whose file states neither is BT.601, as in
- * the program (src/capture/media/frame_picture.cpp), whatever the browser guesses from its size. `stated`: from the file;
- * undefined for a camera, whose frames state it.
+ * Whether colours are of BT.709 instead of BT.601. A film whose file states neither is BT.601, as in the program
+ * (src/capture/media/frame_picture.cpp), whatever the browser guesses. `stated`: from the file; undefined for a
+ * camera, whose frames state it.
  */
 export const isBt709 = (stated: VideoColorSpaceInit | undefined, frame: VideoColorSpaceInit): boolean => (stated ?? frame).matrix === 'bt709';
 

@@ -5,7 +5,7 @@ export type Region = Record<'x' | 'y' | 'width' | 'height', number>;
 
 /** Settings of a film's capture. Omitted ones have the program's defaults. */
 export interface PictureSettings {
-  /** an outline in the wind, or a light object falling before a plain wall; `either`: falls if usable; default: `flame` */
+  /** an outline in the wind, or an object falling before a plain wall; `either`: falls if usable; default: `flame` */
   looks_for?: 'flame' | 'falls' | 'either';
   /** for falls: height in metres of the wall in the picture; default 1 */
   height?: number;

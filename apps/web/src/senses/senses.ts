@@ -1,5 +1,5 @@
-// Tilt and touch, opt-in: tilting a phone from its rest position makes wind, rotating it about the vertical moves the eye
-// round the candle, and it vibrates when a flame goes out.
+// Tilt and touch, opt-in: tilting a phone from its rest position makes wind, rotating it about the vertical moves the
+// eye round the candle, and the phone vibrates when a flame goes out.
 
 import type { Air } from '@wisp/player/parts/stage/scene';
 
@@ -96,7 +96,7 @@ export class Senses {
     this.heading = null;
   }
 
-  /** Wind from tilt: 1 is strong. Lowering the upper edge leans the flame away. Decays to 0, also when readings stop. */
+  /** Wind from tilt: 1 is strong. Lowering the upper edge blows away. Decays to 0, also when readings stop. */
   get air(): Air {
     const seconds = (performance.now() - this.at) / 1000;
     this.at += 1000 * seconds;

@@ -1,9 +1,9 @@
-// Pictures kept of a film: for the strip, and for replay without a file. Their number is bounded: when it is reached,
-// every other one is dropped.
+// Pictures kept of a film: for the strip, and for replay without a file. When their maximum number is
+// reached, every other one is dropped.
 
 import type { Region, Seen } from '@wisp/studio';
 
-/** Maximum number of pictures and their maximum height in pixels: about 90 MB; beside a playable film a quarter suffices. */
+/** Maximum number of pictures without a file (about 90 MB) and beside a file; maximum height of a picture, pixels. */
 const MOST = 420;
 export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;
@@ -39,7 +39,7 @@ export class Reel {
     });
   }
 
-  /** Keeps a picture of findings, cut to the flame. Its time is the frame number from 0, as the rate is still unknown. */
+  /** Keeps a picture of findings, cut to the flame; its time is the frame number from 0, as the rate is unknown. */
   keepSeen({ picture, box, frame, width, height }: Seen): void {
     if (picture === undefined || !this.wants(frame)) return;
     const share = picture.width / width;

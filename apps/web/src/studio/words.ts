@@ -55,7 +55,7 @@ export type Thing = 'flame' | 'table' | 'fall';
 
 const LEARNED: Readonly<Record<Thing, string>> = { flame: 'It learned your flame', table: 'It learned how this behaves', fall: 'It learned how this falls' };
 
-/** Percent: minimum fit on a table's held-out rows. */
+/** Percent: a table's model is refused if no output's fit on held-out rows is above this. */
 const FOLLOWS = 5;
 
 /** Verdict on a film or another recording. */
