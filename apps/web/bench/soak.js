@@ -1,6 +1,6 @@
-// Checks that memory stays flat: leaves and a cake run, wind comes and goes, and the heap is measured after collections.
+// Checks that memory stays flat: leaves and a cake run, wind comes and goes, and the collected heap is measured.
 //
-//     npm run soak --workspace apps/web [-- MINUTES]      default 10; ends with status 1 when it grew by more than a tenth
+//     npm run soak --workspace apps/web [-- MINUTES]      default 10; status 1 if the heap grew by over 10 %
 
 import { openBrowser, skip } from '../tests/browser.js';
 

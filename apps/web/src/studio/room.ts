@@ -68,7 +68,7 @@ export class Room {
   private readonly app: App;
   private readonly invitation: Invitation;
   private session: Session = newSession();
-  /** Starts the worker that captures and learns, at first use. Rejects with a sentence if this browser cannot run it. */
+  /** Starts the worker that captures and learns at first use. Rejects with a sentence if this browser cannot. */
   private readonly studio = once(() => import('@wisp/studio').then(({ Studio }) => Studio.open()));
   private filming: Filming | null = null;
   private duet: Duet | null = null;

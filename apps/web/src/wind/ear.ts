@@ -212,7 +212,7 @@ export class Ear {
     return rose && this.tuning;
   }
 
-  /** Wind from loudness alone, for microphones without low frequencies: lasting sound above the level recorded by Tune. */
+  /** Wind from loudness alone, for microphones without low frequencies: lasting sound above PLAIN.share of `plain`. */
   private byLoudness({ rms, time }: Wind): number {
     if (this.plain === null) return 0;
     if (rms < PLAIN.share * this.plain) this.plainSince = time;
