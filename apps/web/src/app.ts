@@ -63,7 +63,7 @@ export class App {
   private readonly received: boolean;
   private wasLit = true;
   private heardState: Hearing = 'off';
-  /** model for which wind was last offered */
+  /** model for which borrowed wind was last offered */
   private offered: Playing | null = null;
   /** Seconds of play since the breath of arrival began; negative before it begins. */
   private duckFrom = Infinity;

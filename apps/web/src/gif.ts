@@ -22,7 +22,7 @@ function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData
     let first: number | null = null;
     const take = (now: number): void => {
       first ??= now;
-      // A late frame is repeated for those it missed.
+      // A late frame is repeated for the frames missed before it.
       while (taken.length < wanted && taken.length * STEP_MS <= now - first) {
         context.drawImage(canvas, 0, 0, small.width, small.height);
         taken.push(context.getImageData(0, 0, small.width, small.height));

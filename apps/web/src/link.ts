@@ -63,7 +63,7 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   return settings;
 }
 
-/** Whether a transparent overlay is requested, for films and other people's pictures. */
+/** Whether a transparent overlay is requested, to lie over a film or stream. */
 export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
 
 /**

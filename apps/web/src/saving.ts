@@ -66,7 +66,7 @@ export async function saveLoop(app: App): Promise<string> {
   });
   const ended = new Promise((resolve) => recorder.addEventListener('stop', resolve, { once: true }));
   recorder.start(SLICE_MS);
-  // A busy machine takes time until it encodes anything.
+  // On a busy machine encoding starts late.
   await Promise.race([begun, after(PATIENCE)]);
   await happen(app);
   recorder.stop();

@@ -28,7 +28,7 @@ export async function openBrowser(flags = []) {
   return {
     browser,
     address,
-    /** Opens the page and waits until it plays. `page.errors`: its errors; `page.strangers`: requests to other hosts. */
+    /** Opens the page and waits until it plays. `page.errors`: errors; `page.strangers`: requests to other hosts. */
     async page(hash = '', options = {}) {
       const page = await watched(browser, address, { viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
       if (options.before) await page.addInitScript(options.before);

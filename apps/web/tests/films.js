@@ -30,7 +30,7 @@ const another = (name, ...values) => (film, folder) => {
   return made;
 };
 
-/** Ten seconds of a candle in gusts, blown out near the end, with the sound of the wind: made once per build of the program. */
+/** Ten seconds of a candle in gusts, blown out near the end, with sound: made once per build of the program. */
 export function candleFilm(folder) {
   const film = join(folder, 'candle.mp4');
   const kept = fileURLToPath(new URL('../../../node_modules/.cache/wisp/candle.mp4', import.meta.url));

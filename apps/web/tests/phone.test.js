@@ -40,7 +40,7 @@ describe('on a phone', { skip }, () => {
     await held(10, 88, 0);
     await page.keyboard.press('a');
     await sees('it has asked, in a press', () => window.asked === true && document.querySelector('[data-knob=senses]').ariaPressed === 'true');
-    // The rest position is that of the first event, which a busy machine delivers late. The browser reports changes only.
+    // The first event, which a busy machine delivers late, sets the rest position. Browsers report changes only.
     await page.evaluate(() => addEventListener('deviceorientation', () => (window.turned = true)));
     await held(10, 88.1, 0);
     await sees('nothing blows', () => window.turned && Math.abs(window.wisp.wind) < 0.02);

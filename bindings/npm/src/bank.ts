@@ -21,7 +21,7 @@ export const noInstance: Instance = 0n;
 
 /** State of a flame. Times are nanoseconds of shown time; Infinity for events that never happened. */
 export interface FlameState extends Omit<at.Values<typeof at.flameState.fields>, 'events'> {
-  /** Whether the flame went out in the last `step()` or `advance()`, or by a call since; `relit`: or was lit. */
+  /** Whether the flame went out in the last `step()` or `advance()` or by a call since; `relit`: was lit. */
   wentOut: boolean;
   relit: boolean;
 }
@@ -29,7 +29,7 @@ export interface FlameState extends Omit<at.Values<typeof at.flameState.fields>,
 /** Position of an instance in its chain. */
 export type ChainPlace = at.Values<typeof at.chainPlace.fields>;
 
-/** Settings of a chain; null: initial value. */
+/** Settings of a chain. `ground`: height of level ground; null: none. */
 export interface ChainSettings {
   ground: number | null;
 }
@@ -75,7 +75,7 @@ class Room {
 
 /**
  * Made by `Model.bank()`. Bulk arrays have one row per slot; rows of empty slots are ignored on input and zero on
- * output. Views returned by `…View()` are the module's own memory, valid until the next call.
+ * output. Views are the module's own memory, valid until the next call.
  */
 export class Bank {
   readonly capacity: number;
@@ -207,20 +207,20 @@ export class Bank {
     return this.take('wisp_bank_polyline', this.rooms.polylines, this.polylinePoints * 2, instance);
   }
 
-  /** In the round: sets the level camera of outputs and outlines by its right direction, the unit vector (x, z). */
+  /** Body of revolution: sets the level camera of outputs and outlines by its right direction, the unit (x, z). */
   look(rightX: number, rightZ: number): void {
     this.call('wisp_bank_look', rightX, rightZ);
   }
 
   /**
-   * In the round: rings of one instance from the base to the tip, half as many as points. Six numbers each: x, y, z of
-   * the centre, the radius, and the rise of the rim towards +x and +z. A view.
+   * Body of revolution: rings of one instance from the base to the tip, half as many as points. Six numbers each: x, y,
+   * z of the centre, the radius, and the rise of the rim towards +x and +z. A view.
    */
   rings(instance: Instance): Float32Array<ArrayBuffer> {
     return this.take('wisp_bank_rings', this.rooms.rings, 6 * this.ringCount, instance);
   }
 
-  /** In the round: surface of one instance, rings × segments vertices with position and normal, as a copy. */
+  /** Body of revolution: surface of one instance, rings × segments vertices with position and normal, as a copy. */
   mesh(instance: Instance, segments: number): Float32Array<ArrayBuffer> {
     const { native, ringCount } = this;
     this.rings(instance);

@@ -57,7 +57,7 @@ export const modelFacts = struct(128, {
   outputs: [8, 'count'],
   /** Number of control points of an outline; otherwise 0. */
   controlPoints: [12, 'count'],
-  /** Steps per second; `stepNanoseconds`: duration of one. */
+  /** Steps per second; `stepNanoseconds`: duration of a step. */
   rateHz: [24, 'double'],
   /** Metres per unit of an outline; 0 if unknown. */
   metresPerUnit: [32, 'double'],
@@ -162,7 +162,7 @@ export const windOptions = struct(56, {
   smoothingSeconds: [32, 'double'],
   /** Maximum rise of the background, dB a second, 0 to 60; default 1. */
   floorRiseDbPerSecond: [40, 'double'],
-  /** RMS of the sound that initially gives wind 1, as a share of full scale; default 0.04. */
+  /** RMS of the wind's band that initially gives wind 1, full scale 1; default 0.04. */
   firstGustRms: [48, 'double'],
 });
 

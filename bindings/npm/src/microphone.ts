@@ -36,7 +36,7 @@ export interface MicrophoneOptions {
   onLost?: (error: MicrophoneError) => void;
   /**
    * Called when sound stops although the microphone is open (a telephone call, a locked screen, a muted track), and
-   * when it returns. It recovers by itself at the next click or key, or when the page becomes visible.
+   * when it returns. Sound resumes at the next click or key, or when the page becomes visible.
    */
   onAsleep?: (asleep: boolean) => void;
   /** Called at the end of a calibration; `heard`: whether the requested sound was heard. */

@@ -1,5 +1,5 @@
-// A film decoder that does not run ahead of analysis. Mediabunny passes forty packets to a decoder before the first
-// frame, and all would wait as frames: 55 MB at 720p, 120 MB at 1080p. Here packets wait instead.
+// A film decoder that does not run ahead of analysis. Mediabunny passes up to forty packets ahead to a decoder, and
+// all would wait as frames: 55 MB at 720p, 120 MB at 1080p. Here packets wait instead.
 
 /** Maximum number of open frames; decoding and analysis still overlap. */
 const MAX_FRAMES = 4;

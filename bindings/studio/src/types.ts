@@ -94,7 +94,7 @@ export interface Recipe {
   /** names of the recordings in messages and in the model; default recording.csv */
   sources?: string[];
   seed?: number;
-  /** for falls with noisy positions: odd number of rows for velocities; default 0 */
+  /** for falls with noisy positions: odd number of rows over which velocities are taken; default 0 */
   smooth_rows?: number;
   /** lags of outputs and inputs of an ARX model; 0: default */
   order?: number;

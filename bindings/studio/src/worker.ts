@@ -19,7 +19,7 @@ const SHOWN_SHARE = 1 / 16;
 const SHOWN_PIXELS = 512;
 /** Maximum wait for the page to draw: hidden pages draw nothing. */
 const SHOWN_WITHIN_MS = 200;
-/** Longer gaps in live sound are filled with silence. */
+/** Gaps in live sound that are longer than this are filled with silence. */
 const LOST_SECONDS = 0.05;
 
 async function fetched(address: URL): Promise<ArrayBuffer> {

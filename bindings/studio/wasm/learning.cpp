@@ -71,7 +71,7 @@ Recipe recipe_of(const json& from) {
   }
 }
 
-// Judges, on the last `share` of the rows, a model learned from the rows before; empty if one of them fails.
+// Judges, on the last `share` of the rows, a model learned from the rows before; empty if either step fails.
 std::optional<json> judged_on_the_end(const std::vector<Recording>& recordings, const Recipe& recipe, double share) {
   std::vector<Recording> begins, ends;
   for (const Recording& recording : recordings) {

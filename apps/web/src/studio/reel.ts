@@ -46,7 +46,7 @@ export class Reel {
     const wanted = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
     const [x, y] = [Math.floor(share * wanted.x), Math.floor(share * wanted.y)];
     const [wide, tall] = [Math.max(1, Math.ceil(share * wanted.width)), Math.max(1, Math.ceil(share * wanted.height))];
-    // Rounded to whole pixels of the small picture, in pixels of the film, as an outline is drawn over it.
+    // Part of the film shown by the whole pixels that are copied, so that an outline drawn over them fits.
     const part = { x: x / share, y: y / share, width: wide / share, height: tall / share };
     createImageBitmap(picture, x, y, wide, tall, { resizeHeight: Math.min(tall, KEPT_HEIGHT), resizeQuality: 'medium' }).then(
       (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),

@@ -56,7 +56,7 @@ const WORDS: Readonly<Record<MicrophoneTrouble, string>> = {
   failed: 'The microphone could not be used.',
 };
 
-/** An overlay has no button, and OBS no address bar. */
+/** Words for the overlay, which has no button, in OBS, which has no address bar. */
 const IN_OVERLAY: Partial<typeof WORDS> = {
   denied: 'The microphone was not allowed. OBS allows it when it is started with --enable-media-stream.',
   none: 'No microphone was found. Plug one in and load this page again.',

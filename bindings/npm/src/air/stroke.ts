@@ -14,7 +14,7 @@ const STILL: Readonly<Air> = { right: 0, away: 0 };
 
 const strength = ({ right, away }: Readonly<Air>): number => Math.hypot(right, away);
 
-/** Wind of strokes around one flame; independent of the frame rate up to one frame's length. */
+/** Wind of strokes around one flame. Depends on the frame rate only by a delay of up to one frame. */
 export class Stroke {
   /** wind at the flame */
   readonly wind: Air = { right: 0, away: 0 };

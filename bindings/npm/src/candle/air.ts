@@ -106,7 +106,7 @@ export class Air {
     return this.flow.now;
   }
 
-  /** Advances by a time in a picture of that aspect ratio. */
+  /** Advances the air by `stirring.seconds` in a picture of this aspect ratio. */
   update(aspect: number, stirring: Stirring): void {
     this.fit(aspect);
     const steps = stirring.seconds > LONGEST ? 2 : 1;

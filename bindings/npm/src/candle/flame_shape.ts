@@ -25,7 +25,7 @@ export class FlameShape {
   middleY = 0;
   /** light relative to a calm flame */
   light = 0;
-  /** mean width of its body */
+  /** mean width of the flame's body */
   width = 0.25;
   private readonly along = new Float32Array(MAX_POINTS);
 

@@ -38,7 +38,7 @@ const POINTS = 64;
 /** Width / height of a digit. */
 const NARROW = 0.66;
 
-/** Point at a parameter of the smooth line through places. */
+/** Returns the point at a parameter, 0 to 1, of the smooth line through places. */
 function through(places: readonly Place[], at: number): [number, number] {
   const k = Math.min(places.length - 2, Math.floor(at * (places.length - 1)));
   const t = at * (places.length - 1) - k;

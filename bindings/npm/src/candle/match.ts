@@ -33,7 +33,7 @@ export class Match {
   private striking = 0;
   speedX = 0;
 
-  /** Whether it lies on the table. */
+  /** Whether the match lies on the table. */
   get lying(): boolean {
     return !this.held && this.errand === null && !this.burning;
   }
@@ -65,7 +65,7 @@ export class Match {
     if (!this.burning && this.striking === 0) this.striking = STRIKE;
   }
 
-  /** Moves to a wick by itself. */
+  /** Sends the match to a wick without a hand. */
   send(x: number, y: number): void {
     this.errand = { left: ERRAND + 0.5 };
     this.strike();
@@ -83,7 +83,7 @@ export class Match {
     this.moveTo(this.homeX, this.homeY);
   }
 
-  /** Whether it should burn: held or moving by itself, and struck. */
+  /** Whether the match should burn: struck, and held or on its way to a wick. */
   get wanted(): boolean {
     return (this.held || this.errand !== null) && this.striking === 0;
   }
@@ -94,7 +94,7 @@ export class Match {
     if (this.flare < 0.01) this.flare = 0;
     this.smoking = Math.max(0.5 * this.flare, this.burning ? 0 : 0.7 * smokeAfter(this.sinceOut + 1.6));
     if (this.striking > 0) {
-      // First quickly along the table, then up to the target.
+      // The strike moves the match along the table; then it moves to its goal.
       this.striking = Math.max(0, this.striking - seconds);
       this.x -= (STRUCK * seconds) / STRIKE;
       this.speedX = 0;

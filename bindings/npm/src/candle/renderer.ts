@@ -250,7 +250,7 @@ export class CandleRenderer {
       .setVectors('uSpread', 1, this.spread);
     if (shown.setting.cake !== null) {
       this.sticks.fill(0);
-      // Streaks of more candles would merge.
+      // Shadow streaks of more candles would merge, so they are left out.
       if (shown.candles.length <= MAX_LAMPS) shown.candles.forEach(({ stand }, k) => stand.figure === null && this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
       program.setVectors('uSticks', 4, this.sticks);
     }

@@ -30,7 +30,7 @@ export interface Setting {
   cake: { x: number; radius: number; height: number } | null;
 }
 
-/** Maximum number of candles on a cake, and of lights for them; candles beyond that share lights. */
+/** Maximum number of candles on a cake, and of lights for them; more candles than lights share lights. */
 export const MAX_CANDLES = 100;
 export const MAX_LAMPS = 12;
 /** Height of a digit candle. */

@@ -33,9 +33,9 @@ const LEVEL = [1, 0, 0, 0] as const;
 /** Numbers per instance on the graphics card: x, y, z, opacity; quaternion w, x, y, z. */
 export const LEAF_NUMBERS = 8;
 
-/** A local gust: an upright column of moving air. */
+/** A gust in the scene: local air that moves at a position (x, z) in all depths, wind everywhere, and a kick. */
 export interface Gust {
-  /** position and velocity of that air, metres and metres a second */
+  /** position and velocity of the local air, metres and metres a second */
   x: number;
   z: number;
   speedX: number;
@@ -70,7 +70,7 @@ export class LeafFall {
   private random: number;
   private clock = 0;
   private wanted = 0;
-  /** speed of the gust's own air */
+  /** speed of the gust's local air */
   private stroke = 0;
 
   /** `bank`: empty, with room for MAX_LEAVES. */

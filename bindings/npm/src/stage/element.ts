@@ -206,7 +206,7 @@ export abstract class SceneElement extends Base {
   }
 
   private async toggleMicrophone(): Promise<void> {
-    if (this.microphone?.asleep === true) return; // the click has resumed it
+    if (this.microphone?.asleep === true) return; // the click has resumed the sound
     if (this.microphone !== null) return this.closeMicrophone();
     const asked = ++this.asked;
     this.say('');

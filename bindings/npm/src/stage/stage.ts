@@ -65,7 +65,7 @@ export class Stage {
   constructor(
     readonly canvas: HTMLCanvasElement,
     private readonly events: StageEvents,
-    /** whether only the burning things are drawn, on a transparent canvas */
+    /** whether only candles or leaves are drawn, without a room, on a transparent canvas */
     private readonly clear: boolean,
   ) {
     this.pointer = new PointerReader(canvas, () => this.scene, () => events.touched());
@@ -75,7 +75,7 @@ export class Stage {
     if (this.gl === null) events.context('absent');
   }
 
-  /** Shows a scene; the one before is disposed of. */
+  /** Shows a scene and disposes of the previous one. */
   show(scene: Scene): void {
     this.scene?.dispose();
     this.scene = scene;

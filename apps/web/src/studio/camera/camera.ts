@@ -3,8 +3,8 @@
 // The clock is performance.now(). Frames come from the camera's track where supported (MediaStreamTrackProcessor), with
 // the camera clock's time; else from the displayed picture, with the capture time where the browser reports it
 // (captureTime). Sound blocks have the audio time of their first sample. A clock's offset from performance.now() is the
-// minimum difference between a time stamp and its arrival, as arrivals are late, never early. It is estimated during
-// preview and constant during filming. The remaining delay of tens of milliseconds is estimated in learning.
+// minimum difference between a time stamp and its arrival, as arrivals are late, never early. The offset is estimated
+// during preview and constant during filming. The remaining delay of tens of milliseconds is estimated in learning.
 
 import type { LiveCapture, Region } from '@wisp/studio';
 import { KEPT_HEIGHT } from '../reel.js';

@@ -149,7 +149,7 @@ export class Filming {
   private async begin(): Promise<void> {
     this.state = 'filming';
     const said = await this.camera.lock();
-    // Falls are detected by position, not by brightness, and the words would cover them.
+    // No warning about exposure for falls: only their positions count, and the words would cover them.
     if (said !== '' && !this.falls) this.room.say(said);
     if (this.state !== 'filming') return;
     this.live?.cancel();
