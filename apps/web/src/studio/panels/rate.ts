@@ -13,8 +13,7 @@ export function rateField(id: string, words: string, value: number | ''): { inpu
   return { input, label: element('label', { class: 'rate', for: id }, words, input) };
 }
 
-/** A field for the height of the wall in the picture, since positions are in metres and neither films nor
- * cameras have a scale. */
+/** A field for the height of the wall in the picture, as positions are in metres and films have no scale. */
 export function wallField(now: number, chosen: (metres: number) => void): HTMLElement {
   const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', now);
   input.addEventListener('change', () => {
