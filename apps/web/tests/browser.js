@@ -69,7 +69,7 @@ export const filmsWith = ({ picture, sound }) => [...fakes, `--use-file-for-fake
 /** Flag that lets pages play sound before anything is pressed. */
 export const loud = '--autoplay-policy=no-user-gesture-required';
 
-/** Waits until something holds in the page. Polls from here, since the page's policy forbids Playwright's own wait. */
+/** Waits until something holds in the page. Polls, as the page's policy forbids Playwright's own wait. */
 export const until = (page, what, holds, argument = null) => seen(what, () => page.evaluate(holds, argument));
 
 export async function framesPass(page, many = 2) {

@@ -23,7 +23,7 @@ export const noFilms = !existsSync(program) && 'build/release/bin/wisp is not bu
 export const noConverter = noFilms || (!runs('ffmpeg') && 'there is no ffmpeg here');
 
 const convert = (...values) => execFileSync('ffmpeg', ['-v', 'error', '-y', ...values]);
-/** Returns a function that converts a film to a file of that name in a folder. */
+/** Returns a function that converts a film to a file `name` in a folder. */
 const another = (name, ...values) => (film, folder) => {
   const made = join(folder, name);
   convert('-i', film, ...values, made);

@@ -78,7 +78,7 @@ function samplesOf(path) {
   return Float32Array.from({ length: count }, (_, k) => bytes.readInt16LE(from + 2 * k) / 32768);
 }
 
-/** The loudest part of that length. */
+/** Returns the loudest part of the samples that lasts `seconds`. */
 function loudest(samples, seconds) {
   const length = Math.round(seconds * rate);
   let best = 0;

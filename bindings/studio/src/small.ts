@@ -14,7 +14,7 @@ export interface SmallPicture {
 /** Reused buffers for previews and their planes, which avoid ten megabytes of garbage per second. */
 const rooms: Uint8ClampedArray<ArrayBuffer>[] = [];
 
-/** The k-th buffer, with that many bytes. */
+/** Returns the k-th buffer, renewed if its size is not `bytes`. */
 function roomFor(k: number, bytes: number): Uint8ClampedArray<ArrayBuffer> {
   const room = rooms[k];
   return room?.length === bytes ? room : (rooms[k] = new Uint8ClampedArray(bytes));

@@ -22,7 +22,7 @@ export class Reel {
   /** `every`: initial seconds between pictures; `most`: maximum number */
   constructor(private every = 0, private readonly most = MOST) {}
 
-  /** Whether a picture at that time would be kept. */
+  /** Whether a picture at a time would be kept. */
   wants(seconds: number): boolean {
     return seconds - this.last >= 0.98 * this.every;
   }

@@ -146,7 +146,7 @@ export class RoomView {
   horizon = 0;
 
   /**
-   * Fits the setting into a picture of that size. `footer`: share of its height covered by controls below; `clear`: a
+   * Fits the setting into a picture. `footer`: share of the picture's height covered by controls below; `clear`: a
    * cake's candles without the cake; `above`: extra height of digits over sticks.
    */
   frame(width: number, height: number, cake: boolean, footer: number, clear: boolean, above = 0): void {
@@ -178,7 +178,7 @@ export class RoomView {
     return this.eye + (pixel - this.horizon) / (this.nearness(z) * this.scale);
   }
 
-  /** Height / width in the picture of a level circle at that height and depth. */
+  /** Height / width in the picture of a level circle at height y and depth z. */
   flatness(y: number, z: number): number {
     return Math.max(0.02, (this.eye - y) / (this.distance - z));
   }

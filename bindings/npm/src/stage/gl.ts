@@ -48,7 +48,7 @@ export class Program {
     return this;
   }
 
-  /** Sets an array of vectors of that size. */
+  /** Sets an array of vectors of `size` numbers each. */
   setVectors(name: string, size: 1 | 3 | 4, values: Float32Array): this {
     this.gl[`uniform${size}fv`](this.at(name), values);
     return this;
